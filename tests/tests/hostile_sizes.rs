@@ -246,6 +246,32 @@ fn without_threads_nothing_panics() {
 }
 
 #[test]
+fn without_threads_no_run_file_is_replaced() {
+    let directory = WorkingDirectory::new();
+    let scene = scene("quick.toml");
+    let arguments = ["run", &scene, "-o", "run.h5", "--force", "--set", "operation.duration=1 s"];
+    directory.plateau(arguments).quiet_success();
+    let before = fs::read(directory.path("run.h5")).unwrap();
+    let cores = std::thread::available_parallelism().unwrap().get();
+    let mut refused = 0;
+    // A thread that looks for signals, one for each core, one that writes: with one less there is no run.
+    for threads in 0..cores + 2 {
+        let outcome = without_threads(directory.command(arguments), threads);
+        assert_told(&outcome, &format!("{threads} threads"));
+        if outcome.status == Some(0) {
+            break;
+        }
+        refused += 1;
+        assert!(outcome.stderr.starts_with("plateau: ") && outcome.stderr.contains("the system gives no more threads"));
+        // An error that the library returns, not a panic of rayon's.
+        assert!(!outcome.stderr.contains("ThreadPoolBuildError"), "{}", outcome.stderr);
+        assert_eq!(outcome.stderr.lines().count(), 1, "{}", outcome.stderr);
+        assert!(fs::read(directory.path("run.h5")).unwrap() == before, "{threads} threads");
+    }
+    assert!(refused > 1);
+}
+
+#[test]
 fn without_files_or_memory_nothing_panics() {
     let directory = WorkingDirectory::new();
     let (files, megabytes) = few_or_all((&[4][..], &[100][..]), (&[3, 4, 5], &[60, 100, 200]));

@@ -165,7 +165,7 @@ pub enum RunFailure {
     #[error(transparent)]
     Comm(#[from] CommError),
     /// The system gives no more threads.
-    #[error(transparent)]
+    #[error("the system gives no more threads: allow more of them, as with ulimit -u 64, or in the container ({0})")]
     Threads(#[from] rayon::ThreadPoolBuildError),
 }
 
@@ -241,6 +241,12 @@ impl From<CommError> for RunError {
     }
 }
 
+impl From<rayon::ThreadPoolBuildError> for RunError {
+    fn from(error: rayon::ThreadPoolBuildError) -> Self {
+        Self::Failed(error.into())
+    }
+}
+
 impl From<ClaimError> for RunError {
     /// A full disk is nothing that another name would mend.
     fn from(error: ClaimError) -> Self {
@@ -253,9 +259,10 @@ impl From<RunFileError> for RunError {
     /// Of a file that is being made, new or anew.
     fn from(error: RunFileError) -> Self {
         match error {
-            RunFileError::SetUp { .. } | RunFileError::Anew { .. } | RunFileError::Write { .. } => {
-                RunFailure::RunFile(error).into()
-            }
+            RunFileError::SetUp { .. }
+            | RunFileError::Anew { .. }
+            | RunFileError::NoThread { .. }
+            | RunFileError::Write { .. } => RunFailure::RunFile(error).into(),
             _ => InputError::RunFile(error).into(),
         }
     }

@@ -1,5 +1,6 @@
 //! A run from its scene to its run file.
 
+use std::error::Error as _;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
@@ -50,6 +51,15 @@ pub fn run(
     summary
 }
 
+/// Starts the threads that make surfaces. Left to its first use, rayon starts them, too, and panics where there are none.
+fn start_threads() -> Result<(), RunError> {
+    match rayon::ThreadPoolBuilder::new().build_global() {
+        // Only what the system says is an error of another kind: the threads are there already.
+        Err(error) if error.source().is_some() => Err(error.into()),
+        _ => Ok(()),
+    }
+}
+
 /// A scene with its surfaces made, before anything is written.
 struct Prepared {
     scene: Scene,
@@ -76,6 +86,7 @@ impl Prepared {
             Claim::check(&path)?;
         }
         stiffness_warning(&scene.parameters).iter().for_each(|warning| observer.warning(warning));
+        start_threads()?;
         let loaded = surface::load(&scene).map_err(InputError::from)?;
         // Large surfaces take long enough to be told to stop meanwhile.
         stop_if_asked(observer, job)?;

@@ -9,8 +9,8 @@ use crate::text::shown_problem;
 
 /// Why a run file cannot be made or written.
 ///
-/// The errors of [`RunWriter::create`](super::RunWriter::create) but for [`RunFileError::SetUp`] and
-/// [`RunFileError::Write`] mean that an input is wrong and that nothing was touched; these two mean that the run failed.
+/// The errors of [`RunWriter::create`](super::RunWriter::create) but for [`RunFileError::SetUp`], [`RunFileError::NoThread`] and
+/// [`RunFileError::Write`] mean that an input is wrong and that nothing was touched; these mean that the run failed.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum RunFileError {
     /// There is something at the output path and it was not asked to be replaced.
@@ -112,6 +112,17 @@ pub enum RunFileError {
         path.display()
     )]
     NoHandle {
+        /// The file.
+        path: PathBuf,
+        /// What the system says.
+        reason: String,
+    },
+    /// The system gives no more threads.
+    #[error(
+        "cannot write {}: the system gives no more threads ({reason}); allow more of them, as with ulimit -u 64, or in the container",
+        path.display()
+    )]
+    NoThread {
         /// The file.
         path: PathBuf,
         /// What the system says.

@@ -57,21 +57,28 @@ impl RunWriter {
     /// [`RunFileError`] when the path cannot be written, when something is there already, or when the header does not
     /// fit its mesh. Nothing is left behind.
     pub fn create(path: &Path, overwrite: bool, header: &Header) -> Result<Self, RunFileError> {
-        Self::start(path, header, Store::create(path, overwrite, header)?)
+        Self::start(path, header, || Store::create(path, overwrite, header))
     }
 
-    fn start(path: &Path, header: &Header, store: Store) -> Result<Self, RunFileError> {
+    /// Starts the thread before the file is made: where there is none, nothing is touched.
+    fn start(
+        path: &Path,
+        header: &Header,
+        make: impl FnOnce() -> Result<Store, RunFileError>,
+    ) -> Result<Self, RunFileError> {
+        let (give, given) = channel::bounded(1);
         let (sample_sender, samples) = channel::bounded(QUEUED_SAMPLES);
         let (snapshot_sender, snapshots) = channel::bounded(QUEUED_SNAPSHOTS);
         let (sync_sender, syncs) = channel::bounded(1);
         let (life, alive) = channel::bounded(0);
         let work = move || {
             let _life: Sender<()> = life;
-            write(store, &samples, &snapshots, &syncs)
+            // Nobody gives a file that could not be made.
+            write(given.recv().map_err(|_| RunFileError::Stopped)?, &samples, &snapshots, &syncs)
         };
         let thread = thread::Builder::new().name("run file".into()).spawn(work);
-        let thread =
-            thread.map_err(|error| RunFileError::Write { path: path.into(), reason: format!("no thread: {error}") })?;
+        let thread = thread.map_err(|error| RunFileError::NoThread { path: path.into(), reason: error.to_string() })?;
+        give.send(make()?).map_err(|_| RunFileError::Stopped)?;
         Ok(Self {
             mesh: header.mesh.clone(),
             maps: header.maps.clone(),
@@ -96,7 +103,7 @@ impl RunWriter {
         images: &[Image],
         keep: impl FnOnce(Image),
     ) -> Result<Self, RunFileError> {
-        Self::start(path, header, Store::resume(path, header, earlier, images, keep)?)
+        Self::start(path, header, || Store::resume(path, header, earlier, images, keep))
     }
 
     /// Whether the writer still takes what is sent.
