@@ -8,7 +8,7 @@
 //! | `quantum`, `exact`, `sums` | sums as integers, so that the order of cells does not show |
 //! | `strips`, `pin_strips`, `presence`, `sector` | heights as the kernels read them, and which cells of the pin are there; the ring in sectors and bands |
 //! | [`parts`] | which parts of the model a scene needs |
-//! | `pair`, `wear`, `plateau`, `debris` | the rules, one for each file |
+//! | `coefficients`, `wear`, `plateau`, `debris` | the rules, one for each file |
 //! | `contact`, `forecast` | the displacement, and where it is expected next |
 //! | [`kernel`] | the loops over cells |
 //! | `history`, `filling` | what is added up over steps and cells to be reported |

@@ -4,6 +4,7 @@ use super::extra::{Extra, Request};
 use super::map::Map;
 use super::quantity::Quantity;
 use crate::model::mesh::Mesh;
+use crate::surface::Body;
 
 /// Roughness of both bodies with every sample, peaks positive on either: of the whole ring, since all of it passes under the pin,
 /// and of the whole pin.
@@ -24,10 +25,11 @@ pub const EXTRA: Extra = Extra {
         meaning: "whether Sa, Sq, Ssk and Sku of disc and pin are written with every sample",
         maps: &[Map::DiscHeight, Map::PinHeight],
         measure: |parameters, heights| {
-            let [disc, mut pin] = [0, 1].map(|body| height_parameters(&parameters.mesh, &heights[body]));
-            // The pin's z grows away from the disc.
-            pin[2] = -pin[2];
-            [disc, pin].concat()
+            let of = |body: Body, heights| {
+                let [sa, sq, ssk, sku] = height_parameters(&parameters.mesh, heights);
+                [sa, sq, body.peak_sign() * ssk, sku]
+            };
+            [of(Body::Disc, &heights[0]), of(Body::Pin, &heights[1])].concat()
         },
     }),
     needs: "",

@@ -28,6 +28,22 @@ impl Body {
         }
     }
 
+    /// The sign that makes peaks positive: heights are positive toward the other body wherever they are measured or shown, while
+    /// the pin's z grows away from the disc.
+    pub fn peak_sign(self) -> f64 {
+        match self {
+            Self::Disc => 1.0,
+            Self::Pin => -1.0,
+        }
+    }
+
+    /// Turns heights of the model into those with positive peaks, or back.
+    pub fn turn(self, heights: &mut [f64]) {
+        if self == Self::Pin {
+            heights.iter_mut().for_each(|height| *height = -*height);
+        }
+    }
+
     /// Arc length of the body at the mean radius, m.
     pub fn length(self, mesh: &Mesh) -> f64 {
         self.columns(mesh) as f64 * mesh.column_width()

@@ -10,6 +10,7 @@ mod unit;
 
 use plateau_core::model::material::Status;
 use plateau_core::observe::Map;
+use plateau_core::surface::Body;
 use plateau_io::run_file::Series;
 use plotters::style::RGBColor;
 
@@ -187,9 +188,9 @@ impl MapLook {
         if self.map.on_disc() { "disc" } else { "pin" }
     }
 
-    /// The sign with which values are shown: the pin's z grows away from the disc, and its peaks are to be high.
+    /// The sign with which values are shown: peaks of heights are to be high.
     pub fn sign(&self) -> f64 {
-        if matches!(self.map, Map::PinHeight | Map::PinSubstrate) { -1.0 } else { 1.0 }
+        if matches!(self.map, Map::PinHeight | Map::PinSubstrate) { Body::Pin.peak_sign() } else { 1.0 }
     }
 
     /// What the values of a moment are counted from.

@@ -53,10 +53,7 @@ impl Comparison {
         form: Level,
         draws: bool,
     ) -> Result<Option<Self>, Failure> {
-        if body == Body::Pin {
-            // The pin's z grows away from the disc.
-            patch.heights.iter_mut().for_each(|height| *height = -*height);
-        }
+        body.turn(&mut patch.heights);
         level(&mut patch.heights, patch.rows, form, false);
         let grid = Grid::of(&patch);
         let Some(description) = describe(name, &grid)? else { return Ok(None) };

@@ -127,11 +127,11 @@ fn convert(path: &Path, from: &mut NamedHeights, to: &Path, force: bool) -> Resu
     };
     let heights = std::mem::take(&mut measured.heights);
     let mut patch = Patch { columns: measured.columns, rows: measured.rows, column_pitch, row_pitch, heights };
-    // Formats of heights as the model has them hold the pin's z, which grows away from the disc.
-    let turns = from.body == Some(Body::Pin) && ["npy", "h5"].contains(&output::ending(to).as_str());
+    // Formats of heights as the model has them.
+    let of_model = from.body.filter(|_| ["npy", "h5"].contains(&output::ending(to).as_str()));
     let turn = |patch: &mut Patch| {
-        if turns {
-            patch.heights.iter_mut().for_each(|height| *height = -*height);
+        if let Some(body) = of_model {
+            body.turn(&mut patch.heights);
         }
     };
     turn(&mut patch);

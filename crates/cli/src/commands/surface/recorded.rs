@@ -118,8 +118,8 @@ fn heights(run: &RunFile, map: Map, index: usize) -> Result<Option<NamedHeights>
     Ok(Some(NamedHeights { name, map: what, body: Some(body), measured }))
 }
 
-/// Makes the peaks of the pin's heights of the model positive, for its z grows away from the disc; what is no cell has no height.
+/// Makes the peaks of the pin's heights of the model positive; what is no cell has no height.
 pub fn turn_pin(heights: &mut [f64], mesh: &Mesh) {
-    heights.iter_mut().for_each(|height| *height = -*height);
+    Body::Pin.turn(heights);
     mesh.absent_cells().for_each(|cell| heights[cell] = f64::NAN);
 }

@@ -56,7 +56,7 @@ impl Loader<'_> {
         body: Body,
     ) -> Result<(Vec<f64>, Option<f64>), SurfaceError> {
         let (surface, prepare) = (surface_key(body), prepare_key(body));
-        let (raw, negate) = match &settings.source {
+        let (raw, has_peaks_positive) = match &settings.source {
             HeightSource::Flat => {
                 self.report.push(format!("{surface}: flat"));
                 (RawHeights::OnMesh(vec![0.0; body.columns(self.mesh) * self.mesh.rows()]), false)
@@ -77,7 +77,7 @@ impl Loader<'_> {
                 let (raw, instrument) = self
                     .file_heights(path, options, body, pixel)
                     .map_err(|reason| SurfaceError::File { key: surface, path: path.clone(), reason })?;
-                (raw, instrument && body == Body::Pin)
+                (raw, instrument)
             }
         };
         let mut preparation = settings.preparation;
@@ -94,7 +94,8 @@ impl Loader<'_> {
         })?;
         self.report.extend(prepared.report.iter().map(|step| format!("{prepare}: {step}")));
         if let Some(patches) = &mut self.patches {
-            let factor = if negate { -settings.preparation.scale } else { settings.preparation.scale };
+            let sign = if has_peaks_positive { body.peak_sign() } else { 1.0 };
+            let factor = sign * settings.preparation.scale;
             let patch = prepared.patch.map(|mut patch| {
                 patch.heights.iter_mut().for_each(|height| *height *= factor);
                 patch
@@ -102,8 +103,8 @@ impl Loader<'_> {
             *(if body == Body::Disc { &mut patches.disc } else { &mut patches.pin }) = patch;
         }
         let mut heights = prepared.heights;
-        if negate {
-            heights.iter_mut().for_each(|height| *height = -*height);
+        if has_peaks_positive && body == Body::Pin {
+            body.turn(&mut heights);
             self.report.push(format!("{surface}: negated, for the pin's z grows away from the disc"));
         }
         self.report.push(format!("{surface}: {}", self.spread(&heights, body)));
