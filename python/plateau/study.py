@@ -66,7 +66,12 @@ def open_study(path: str | os.PathLike[str]) -> Study:
         if not file.is_file():
             raise MissingFileError(f"{file}: there is no such file; plateau.collect makes it, or plateau.sweep with the runs")
     try:
-        return Study(read_table(csv), xarray.load_dataset(hdf5, engine="h5netcdf", driver_kwds=locking(hdf5)))
+        table, data = read_table(csv), xarray.load_dataset(hdf5, engine="h5netcdf", driver_kwds=locking(hdf5))
+        # In CSV, words such as nan and 007 look like numbers, and =1+1 has an apostrophe before it.
+        for name in set(table).intersection(data.data_vars) - {"state", "error"}:
+            if data[name].dtype.kind in "OSU":
+                table[name] = data[name].values
+        return Study(table, data)
     except (OSError, ValueError) as error:
         raise InputError(f"{folder}: the results cannot be read: {error}; plateau.collect makes them anew") from error
 

@@ -333,6 +333,18 @@ class Studies(InFolder):
         np.testing.assert_allclose(made.data["load"], made.table["load [rpm]"] * 2 * np.pi / 60, rtol=1e-15)
         self.assertEqual(set(made.table["wear [1/Pa]"]), {2e-14, 4e-14})
 
+    def test_words_of_a_study_are_words_whatever_they_look_like(self):
+        words = ["nan", "inf", "1e3", "1000", "007", "-", "=1+1", "A"]
+        pathlib.Path("words.toml").write_text(
+            f'version = 1\ndesign = "full-factorial"\n[[factor]]\nname = "grade"\nlevels = {words}\n'
+            '[[response]]\nname = "wear"\nimported = true\n'
+        )
+        pathlib.Path("words.csv").write_text("grade,wear\n" + "".join(f"{word},{at}\n" for at, word in enumerate(words)))
+        plateau.command("sweep", "import", "words.toml", "words.csv")
+        table, data = plateau.collect("words.toml")
+        self.assertEqual((table["grade"].tolist(), data["grade"].values.tolist()), (words, words))
+        self.assertEqual(table["wear"].tolist(), list(range(len(words))))
+
     def test_a_study_that_is_wrong(self):
         pathlib.Path("bad.toml").write_text(STUDY.replace("5 N", "5 kg"))
         with self.assertRaisesRegex(plateau.InputError, "(?s)bad.toml.*5 kg"):

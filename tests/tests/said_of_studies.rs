@@ -153,9 +153,9 @@ fn an_interval_of_means_as_wide_as_that_of_runs_is_explained() {
 }
 
 #[test]
-fn levels_in_quotes_that_are_numbers_are_numbers() {
+fn levels_in_quotes_are_words_and_others_numbers() {
     let directory = WorkingDirectory::new();
-    let factor = "[[factor]]\nname = \"grade\"\nlevels = [\"1\", \"2\", \"10\"]\n";
+    let factor = "[[factor]]\nname = \"grade\"\nlevels = [1, 2, 10]\n";
     let response = "[[response]]\nname = \"y\"\nimported = true\n";
     let head = "version = 1\ndesign = \"full-factorial\"\ndirectory = \"results\"\n";
     let load = &FACTORS[..FACTORS.rfind("[[factor]]").unwrap()];
@@ -166,6 +166,13 @@ fn levels_in_quotes_that_are_numbers_are_numbers() {
     let between = ask(&directory, &["predict", "--at", "grade=5"]);
     said(&between, 2, "the model knows the levels 1, 2, 10 alone; --model quadratic tells what lies between them");
     said(&ask(&directory, &["predict", "--at", "grade=5", "--model", "quadratic"]), 0, "grade = 5");
+    // As words they are three that have nothing between them.
+    let words =
+        fs::read_to_string(directory.path("study.toml")).unwrap().replace("[1, 2, 10]", "[\"1\", \"2\", \"10\"]");
+    directory.write("study.toml", words);
+    import(&directory);
+    said(&ask(&directory, &["predict", "--at", "grade=2"]), 0, "grade = 2");
+    said(&ask(&directory, &["predict", "--at", "grade=5"]), 2, "grade = 5: expected one of 1, 2, 10");
 }
 
 #[test]

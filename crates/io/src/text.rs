@@ -123,7 +123,11 @@ fn is_formula(text: &str) -> bool {
 fn is_quantity(text: &str) -> bool {
     let (number, unit) = text.split_once(' ').unwrap_or((text, ""));
     let of_units = |letter: char| letter.is_alphanumeric() || "/^*%°- ".contains(letter);
-    number.parse::<f64>().is_ok() && unit.chars().all(of_units)
+    // An operator or a number behind the first one would be computed.
+    let begins = unit.is_empty()
+        || unit.starts_with("1/")
+        || unit.starts_with(|first: char| first.is_alphabetic() || "%°".contains(first));
+    number.parse().is_ok_and(f64::is_finite) && begins && unit.chars().all(of_units)
 }
 
 #[cfg(test)]
@@ -152,13 +156,29 @@ mod tests {
 
     #[test]
     fn only_what_a_spreadsheet_would_compute_is_marked() {
-        for formula in ["=1+1", "+1+1", "-2+3+cmd|' /C calc'!A0", "@SUM(A1)", "-x", "=", "-1 a(b)", "\t=1", "-inf(1)"] {
+        for formula in [
+            "=1+1",
+            "+1+1",
+            "-2+3+cmd|' /C calc'!A0",
+            "@SUM(A1)",
+            "-x",
+            "=",
+            "-1 a(b)",
+            "\t=1",
+            "-inf(1)",
+            "-inf",
+            "+nan",
+            "-2 -3",
+            "-2 *3",
+            "-2 3",
+            "-",
+        ] {
             assert_eq!(cell(formula), format!("'{formula}"));
         }
         for text in ["=1+1", "'=1+1", "''-x", "'a", "'", "-5 mm", "'-5 mm", ""] {
             assert_eq!(text_of_cell(&cell(text)), text);
         }
-        for plain in ["-1.5", "+3", "-1e-300", "-inf", "-20 degC", "-5 1/K", "a=b", "", "1-2"] {
+        for plain in ["-1.5", "+3", "-1e-300", "-20 degC", "-5 %", "-5 °C", "-5 1/K", "a=b", "", "1-2"] {
             assert_eq!(cell(plain), plain);
         }
     }

@@ -123,6 +123,9 @@ impl Factor {
 
     /// What a text means for this factor. A plain number is in the unit in which a factor without a key is stated.
     pub fn parse(&self, text: &str) -> Level {
+        if self.is_of_words() {
+            return Level::word(text);
+        }
         let level = Level::parse(self.key(), text);
         match level.split() {
             Some((_, "")) if self.keys.is_empty() && !self.stated_unit.is_empty() => {
@@ -134,6 +137,12 @@ impl Factor {
             }
             _ => level,
         }
+    }
+
+    /// Whether it has no key and its levels are words, whatever they look like.
+    fn is_of_words(&self) -> bool {
+        let has_words = |levels: &[Level]| levels.iter().any(|level| level.number.is_none());
+        self.keys.is_empty() && matches!(&self.values, Values::Levels(levels) if has_words(levels))
     }
 
     /// Whether its values are those of a table of points.
@@ -250,12 +259,31 @@ mod tests {
     }
 
     #[test]
-    fn numbers_of_a_rig_are_numbers_in_quotes_too() {
+    fn words_of_a_rig_are_words_whatever_they_look_like() {
         let level = |text: &str| Level::new("", &toml::Value::String(text.into()));
-        let values = Values::Levels(vec![level("1"), level("2"), level("10")]);
+        let levels = ["nan", "inf", "1e3", "1000", "007", "7", "-", "=1+1", "30%", "\u{2212}5", "\"a\""];
+        let values = Values::Levels(levels.map(level).to_vec());
         let grade = Factor { name: "grade".into(), keys: Vec::new(), stated_unit: String::new(), values };
-        assert_eq!((grade.unit(), level("10").number, grade.parse("10").number), ("1", Some(10.0), Some(10.0)));
-        assert_eq!(["A", "inf", "2b", ""].map(|text| level(text).number), [None; 4]);
+        assert_eq!(grade.unit(), "");
+        for word in levels {
+            assert_eq!(grade.parse(word), level(word));
+            assert_eq!((level(word).label.as_str(), level(word).number), (word, None));
+        }
+        // Of a table, which has no quotes.
+        let of_table = |text: &str| Factor { values: Values::Levels(Vec::new()), ..grade.clone() }.parse(text).number;
+        assert_eq!(["1e3", "-.5", "+2", "0", "0.5"].map(of_table), [1e3, -0.5, 2.0, 0.0, 0.5].map(Some));
+        assert_eq!(["A", "inf", "nan", "1e400", "2b", "", "007", "-", "=1+1"].map(of_table), [None; 9]);
+        assert_eq!(["1 N", "1e400 N", "07 N"].map(|text| level(text).number), [Some(1.0), None, None]);
+    }
+
+    #[test]
+    fn keys_that_hold_texts_have_no_numbers() {
+        for (key, word) in [("disc.surface.file", "1e3"), ("title", "nan"), ("plateaus.debris", "007")] {
+            let level = Level::parse(key, word);
+            assert_eq!((level.text.as_str(), level.number), (format!("\"{word}\"").as_str(), None), "{key}");
+            assert_eq!(Level::parse(key, &format!("\"{word}\"")), level);
+        }
+        assert_eq!(Level::parse("pin.base.synthetic.fibre_fraction", "nan").number, None);
     }
 
     #[test]

@@ -111,7 +111,11 @@ fn values(table: &document::Factor, key: &str, in_file: bool, place: &Place<'_>)
 
 /// Levels: at least two, all different, each as its key has it.
 fn levels(levels: &Spanned<Vec<Spanned<toml::Value>>>, key: &str, place: &Place<'_>) -> Result<Values, Problem> {
-    let list: Vec<Level> = levels.get_ref().iter().map(|value| Level::new(key, value.get_ref())).collect();
+    let mut list: Vec<Level> = levels.get_ref().iter().map(|value| Level::new(key, value.get_ref())).collect();
+    // Where nobody says what a factor is, one word among its levels makes all of them words.
+    if key.is_empty() && list.iter().any(|level| level.number.is_none()) {
+        list.iter_mut().for_each(|level| *level = Level::word(&level.label));
+    }
     if list.len() < 2 {
         return Err(place.problem(levels, "factor.levels", "expected at least two levels"));
     }

@@ -24,9 +24,18 @@ impl Level {
         Self { text: value.to_string(), number: si_number(key, value), label }
     }
 
+    /// A word as it stands, even if it looks like a number.
+    pub fn word(text: &str) -> Self {
+        Self { text: toml::Value::String(text.to_owned()).to_string(), label: text.to_owned(), number: None }
+    }
+
     /// What a text means for a key: a value in TOML, or a plain number in percent; what is none is a text. A minus may be that of
-    /// print, as the program writes it.
+    /// print, as the program writes it. For a key that holds a text, it is that text.
     pub fn parse(key: &str, text: &str) -> Self {
+        let is_quoted = text.starts_with(['"', '\'']);
+        if holds_text(key) && !is_quoted {
+            return Self::word(text);
+        }
         let text = &text.replace('\u{2212}', "-");
         let percent = text.strip_suffix('%').and_then(|number| number.trim().parse::<f64>().ok());
         match percent {
@@ -34,6 +43,15 @@ impl Level {
             Some(percent) if key.is_empty() => return Self::new(key, &toml::Value::String(format!("{percent} %"))),
             Some(percent) if dimension(key).is_none() => return Self::new(key, &toml::Value::Float(percent / 100.0)),
             _ => {}
+        }
+        if key.is_empty() && !is_quoted {
+            return match plain_number(text) {
+                Some(number) => {
+                    let value = toml::Value::Float(number).to_string();
+                    Self { text: value, label: text.trim().to_owned(), number: Some(number) }
+                }
+                None => Self::new(key, &toml::Value::String(text.to_owned())),
+            };
         }
         let table: Result<toml::Table, _> = format!("value = {text}").parse();
         let value = table.ok().filter(|table| table.len() == 1).and_then(|mut table| table.remove("value"));
@@ -70,6 +88,7 @@ impl Level {
 
     /// The number before the unit, and the unit; none of a word.
     pub fn split(&self) -> Option<(f64, &str)> {
+        self.number?;
         let (number, unit) = self.label.trim().split_once(' ').unwrap_or((self.label.trim(), ""));
         Some((number.parse().ok()?, unit.trim()))
     }
@@ -90,6 +109,19 @@ pub(super) fn dimension(key: &str) -> Option<Dimension> {
     }
 }
 
+/// Whether a key holds texts, among which none is a number.
+fn holds_text(key: &str) -> bool {
+    schema::find(key).is_some_and(|key| matches!(key.kind, Kind::Text | Kind::InputFile | Kind::Choice(_)))
+}
+
+/// A number that is finite and written as one: `007` is a name.
+fn plain_number(text: &str) -> Option<f64> {
+    let text = text.trim();
+    let digits = text.trim_start_matches(['+', '-']).as_bytes();
+    let is_padded = matches!(digits, [b'0', b'0'..=b'9', ..]);
+    text.parse().ok().filter(|number: &f64| number.is_finite() && !is_padded)
+}
+
 /// A value that has to have a unit, in SI units, or why it has none of what is expected.
 fn quantity(value: &toml::Value, expected: Dimension) -> Result<f64, String> {
     match value {
@@ -101,14 +133,11 @@ fn quantity(value: &toml::Value, expected: Dimension) -> Result<f64, String> {
 /// A value in SI units, if it is a number; without a key in the unit in which it is stated.
 fn si_number(key: &str, value: &toml::Value) -> Option<f64> {
     match value {
-        // A plain number in quotes is a number as one with a unit is, which needs them: of a rig nobody says otherwise.
-        toml::Value::String(text) if key.is_empty() => {
-            let (number, _) = text.trim().split_once(' ').unwrap_or((text.trim(), ""));
-            number.parse().ok().filter(|number: &f64| number.is_finite())
-        }
+        // A number needs quotes only with a unit: without one, what is in quotes is meant as a word.
+        toml::Value::String(text) if key.is_empty() => plain_number(text.trim().split_once(' ')?.0),
         toml::Value::String(text) => units::parse(text, dimension(key)?).ok(),
         toml::Value::Integer(integer) => Some(*integer as f64),
-        toml::Value::Float(number) => Some(*number),
+        toml::Value::Float(number) => Some(*number).filter(|number| number.is_finite()),
         _ => None,
     }
 }

@@ -228,13 +228,14 @@ impl<'a> Space<'a> {
     /// A coded value, in words.
     pub fn shown(&self, factor: usize, coded: f64) -> String {
         let [low, high] = self.analysis.factors[factor].factor.range().unwrap_or([-1.0, 1.0]);
-        shortened(&self.text(factor, 0.5 * ((1.0 - coded) * low + (1.0 + coded) * high)))
+        with_five_digits(&self.text(factor, 0.5 * ((1.0 - coded) * low + (1.0 + coded) * high)))
     }
 
     /// The range between two coded values, in words.
     pub fn range(&self, factor: usize, coded: [f64; 2]) -> String {
         let [low, high] = self.analysis.factors[factor].factor.range().unwrap_or([-1.0, 1.0]);
-        let text = |coded: f64| shortened(&self.text(factor, 0.5 * ((1.0 - coded) * low + (1.0 + coded) * high)));
+        let text =
+            |coded: f64| with_five_digits(&self.text(factor, 0.5 * ((1.0 - coded) * low + (1.0 + coded) * high)));
         let (from, to) = (text(coded[0]), text(coded[1]));
         // The unit once.
         let plain = from.split_once(' ').map_or(from.as_str(), |(number, _)| number);
@@ -245,7 +246,7 @@ impl<'a> Space<'a> {
     pub fn words(&self, place: &Place) -> String {
         let word = |(factor, level): (&Factor, &Level)| {
             let assumed = if place.assumed.contains(&factor.name) { " (not given)" } else { "" };
-            format!("{} = {}{assumed}", factor.name, shortened(&level.label))
+            format!("{} = {}{assumed}", factor.name, shortened(level))
         };
         self.study.factors.iter().zip(&place.levels).map(word).collect::<Vec<_>>().join(", ")
     }
@@ -258,8 +259,13 @@ fn ends(analysis: &Analysis, factor: usize) -> [f64; 2] {
     coded.fold([-1.0, 1.0], |[low, high], coded| [low.min(coded), high.max(coded)])
 }
 
+/// A level for people: a quantity with at most five digits, a word as it is.
+pub fn shortened(level: &Level) -> String {
+    if level.number.is_some() { with_five_digits(&level.label) } else { level.label.clone() }
+}
+
 /// A quantity with at most five digits.
-pub fn shortened(label: &str) -> String {
+fn with_five_digits(label: &str) -> String {
     match super::reading::split(label) {
         (Some(value), unit) => format!("{} {unit}", number::rounded(value, 5)).trim_end().to_owned(),
         (None, _) => label.to_owned(),

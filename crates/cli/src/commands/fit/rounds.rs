@@ -128,7 +128,7 @@ fn note_to_terminal(note: std::fmt::Arguments<'_>) {
 fn so_far(study: &Study, keys: &[Key], fit: &Fit) -> String {
     let label = |((factor, key), value): ((&Factor, &Key), f64)| {
         let level = factor.at(Setting::Coded(key.coded(value).clamp(-1.0, 1.0)));
-        let label = level.map_or_else(|| number::short(value), |level| shortened(&level.label));
+        let label = level.map_or_else(|| number::short(value), |level| shortened(&level));
         format!("{} {label}", factor.name)
     };
     study.factors.iter().zip(keys).zip(fit.best()).map(label).collect::<Vec<_>>().join(", ")

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use plateau_io::study::imported::with_unit;
 use plateau_io::study::journal::Entry;
+use plateau_io::study::level::Level;
 use plateau_io::study::plan::Plan;
 use plateau_present::study::place::shortened;
 use plateau_present::study::words::{alias_lines, repeats_in_words};
@@ -205,10 +206,10 @@ impl Report {
 }
 
 /// Number, levels and replicate of a run; how a level is written.
-fn cells(plan: &Plan, number: usize, written: impl Fn(&str) -> String) -> Vec<String> {
+fn cells(plan: &Plan, number: usize, written: impl Fn(&Level) -> String) -> Vec<String> {
     let run = plan.run(number);
     let replicate = (plan.replicates() > 1).then(|| (run.replicate + 1).to_string());
-    let levels = run.levels.iter().map(|level| written(&level.label));
+    let levels = run.levels.iter().map(written);
     [number.to_string()].into_iter().chain(levels).chain(replicate).collect()
 }
 
@@ -225,7 +226,11 @@ fn table_of_runs(plan: &Plan) -> String {
                 with_unit(&response.name, response.stated_unit.as_deref().unwrap_or(response.unit("")))
             }))
             .collect();
-    let row =
-        |number| cells(plan, number, str::to_owned).into_iter().chain(imported.iter().map(|_| String::new())).collect();
+    let row = |number| {
+        cells(plan, number, |level| level.label.clone())
+            .into_iter()
+            .chain(imported.iter().map(|_| String::new()))
+            .collect()
+    };
     csv_table(std::iter::once(header).chain(plan.order().map(row)))
 }
