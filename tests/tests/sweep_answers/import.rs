@@ -385,3 +385,59 @@ fn an_optimum_may_be_better_than_every_run() {
         }
     }
 }
+
+#[test]
+fn what_was_measured_stays_while_the_study_does_not_ask_for_it() {
+    let study = |load: &str, seeds: &str, responses: &[&str]| {
+        let responses: String = responses
+            .iter()
+            .map(|name| format!("[[response]]\nname = \"{name}\"\nimported = true\nunit = \"mm3\"\n"))
+            .collect();
+        format!(
+            "version = 1\ntitle = \"Lab\"\ndesign = \"full-factorial\"\ndirectory = \"results\"\n\
+             [replicates]\nkeys = [\"disc.surface.synthetic.seed\"]\nseeds = {seeds}\n\
+             [[factor]]\nname = \"load\"\nkey = \"operation.normal_force\"\nlevels = [\"20 N\", \"{load}\"]\n\
+             [[factor]]\nname = \"batch\"\nlevels = [\"A\", \"1e3\"]\n{responses}"
+        )
+    };
+    let directory = WorkingDirectory::new();
+    let kept = || fs::read_to_string(directory.path("results/imported.csv")).unwrap();
+    let whole = study("60 N", "[1, 2]", &["wear", "noise"]);
+    directory.write("study.toml", &whole);
+    let lines: String = ["20,A", "20,1e3", "60,A", "60,1e3"]
+        .iter()
+        .enumerate()
+        .flat_map(|(at, point)| {
+            [1, 2].map(|replicate| format!("{point},{replicate},{at}{replicate},{replicate}{at}\n"))
+        })
+        .collect();
+    directory.write("lab.csv", format!("load [N],batch,replicate,wear [mm3],noise [mm3]\n{lines}"));
+    assert_eq!(ask(&directory, "import", &["lab.csv"])["new"].as_u64(), Some(16));
+    let before = kept();
+
+    // A level is corrected, a response and a seed are taken out, while one value more is brought.
+    directory.write("study.toml", study("65 N", "[1]", &["wear"]));
+    directory.write("more.csv", "load [kN],batch,wear [mm3]\n0.065,A,7\n");
+    let taken = ask(&directory, "import", &["more.csv"]);
+    assert_eq!((taken["new"].as_u64(), taken["complete"].as_u64()), (Some(1), Some(3)));
+    let idle: Vec<&str> = taken["idle"].as_array().unwrap().iter().map(|one| one.as_str().unwrap()).collect();
+    assert_eq!(idle.len(), 6 + 1, "two lines of the second seed, four of 60 N, and a column: {idle:?}");
+    assert!(idle.contains(&"line of load [N] = 60.0, batch = 1e3") && idle[6] == "column \"noise [m3]\"", "{idle:?}");
+    let text = directory.plateau(["sweep", "import", "study.toml", "more.csv"]).stdout;
+    assert!(text.contains("not in the study") && text.contains("column \"noise [m3]\": kept"), "{text}");
+    assert_eq!(kept().lines().count(), 1 + 3 + 6);
+    let said = directory.plateau(["sweep", "collect", "study.toml"]).stderr;
+    assert!(said.contains("results/imported.csv: kept, but not in the study now: line of load [N] = "), "{said}");
+
+    // The level, the response and the seed are there again, and so is all that was measured; only the order may differ.
+    directory.write("study.toml", &whole);
+    assert_eq!(ask(&directory, "import", &["lab.csv"])["new"].as_u64(), Some(0));
+    let sorted = |text: &str| {
+        let mut lines: Vec<String> = text.lines().map(str::to_owned).collect();
+        lines.sort();
+        lines
+    };
+    let lines: Vec<String> = sorted(&kept()).into_iter().filter(|line| !line.starts_with("65.0,")).collect();
+    assert_eq!(lines, sorted(&before));
+    assert!(kept().contains("65.0,A,1,7e-9,\n"), "{}", kept());
+}

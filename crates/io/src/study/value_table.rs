@@ -191,7 +191,8 @@ impl ValueTable {
         format!("{}:{}", self.path.display(), row.line)
     }
 
-    fn cell<'a>(&self, row: &'a Row, column: usize) -> &'a str {
+    /// The text of a cell.
+    pub fn cell<'a>(&self, row: &'a Row, column: usize) -> &'a str {
         row.cells.get(column).map_or("", String::as_str)
     }
 }

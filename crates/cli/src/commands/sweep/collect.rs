@@ -5,10 +5,11 @@ use std::path::{Path, PathBuf};
 use plateau_io::dataset_file::{Attribute, now};
 use plateau_io::scene;
 use plateau_io::study::collected::{CollectError, Collected, State, is_collected};
+use plateau_io::study::imported;
 use plateau_io::study::journal::Journal;
 use plateau_io::study::plan::Plan;
 use plateau_io::study::results_table::{is_results_table, table as table_of};
-use plateau_io::{limits, regular};
+use plateau_io::{brief, limits, regular};
 use serde::Serialize;
 
 use crate::arguments::CollectArguments;
@@ -71,6 +72,7 @@ pub fn collected(plan: &Plan) -> Result<Found, Failure> {
         // Each run is one of its own, for it was measured by itself.
         let numbers: Vec<String> = (1..=plan.runs()).map(|number| number.to_string()).collect();
         let collected = Collected::new(plan, &numbers, &Journal::default()).map_err(failure)?;
+        say_idle(plan, &collected);
         return Ok(Found { collected, inputs, identities: numbers });
     }
     let resolved = Resolved::of(plan)?;
@@ -89,8 +91,20 @@ pub fn collected(plan: &Plan) -> Result<Found, Failure> {
         unanswered.add(of_questions(plan.study(), &run.unanswered));
     }
     unanswered.say("finished runs");
+    say_idle(plan, &collected);
     inputs.extend(resolved.files);
     Ok(Found { collected, inputs, identities: resolved.identities })
+}
+
+/// Names what was imported of points and responses that the study does not have now.
+fn say_idle(plan: &Plan, collected: &Collected) {
+    if !collected.idle.is_empty() {
+        message::note(format_args!(
+            "{}: kept, but not in the study now: {}",
+            imported::file(plan.study()).display(),
+            brief::list(&collected.idle, "; ")
+        ));
+    }
 }
 
 fn failure(error: CollectError) -> Failure {

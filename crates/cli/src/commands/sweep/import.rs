@@ -1,7 +1,7 @@
 //! `plateau sweep import`: responses that were measured or computed elsewhere become results of a study.
 
-use plateau_io::number;
 use plateau_io::study::imported::{self, Imported};
+use plateau_io::{brief, number};
 use serde::Serialize;
 
 use crate::arguments::ImportArguments;
@@ -21,17 +21,22 @@ pub fn import(arguments: &ImportArguments) -> Result<(), Failure> {
         changed: taken.changed,
         runs: plan.runs(),
         complete: taken.complete,
+        idle: taken.idle,
         file: imported::file(plan.study()).display().to_string(),
     };
     if arguments.json {
         return print(&(serde_json::to_string_pretty(&summary).map_err(Failure::run)? + "\n"));
     }
-    let rows = [
+    let mut rows = vec![
         ("read", format!("{} with {}", number::count(summary.lines, "line"), summary.responses.join(", "))),
         ("values", format!("{} new, {} changed", summary.new, summary.changed)),
         ("complete", format!("{} of {}", summary.complete, number::count(summary.runs, "run"))),
         ("kept in", summary.file.clone()),
     ];
+    if !summary.idle.is_empty() {
+        let what = brief::list(&summary.idle, "; ");
+        rows.push(("not in the study", format!("{what}: kept, for the study may have it again")));
+    }
     print(&table(summary.study, &rows))
 }
 
@@ -46,5 +51,7 @@ struct Summary<'a> {
     runs: usize,
     /// Runs that have all imported responses.
     complete: usize,
+    /// What is kept of points and responses that the study does not have now.
+    idle: Vec<String>,
     file: String,
 }

@@ -17,6 +17,8 @@ use crate::dataset_file::DatasetFileError;
 pub struct Collected {
     /// The runs in the order of the design.
     pub runs: Vec<CollectedRun>,
+    /// What was imported of points and responses that the study does not have now, in words.
+    pub idle: Vec<String>,
 }
 
 /// A run and what came of it.
@@ -136,7 +138,7 @@ impl Collected {
             Ok(collected)
         };
         let runs = (1..).zip(identities).zip(firsts(identities)).map(run).collect::<Result<_, CollectError>>()?;
-        Ok(Self { runs })
+        Ok(Self { runs, idle: imported.idle(plan.study()) })
     }
 
     /// How many runs repeat another one: they tell nothing that it does not.

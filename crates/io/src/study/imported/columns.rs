@@ -6,6 +6,7 @@ use super::places::{Key, Places};
 use super::{REPLICATE, with_unit};
 use crate::brief;
 use crate::study::Study;
+use crate::study::factor::Factor;
 use crate::study::value_table::{Row, ValueTable};
 use crate::text::short;
 use crate::units::parse_as;
@@ -19,10 +20,14 @@ pub(super) struct Columns {
     replicate: Option<usize>,
     /// Columns of responses, with their place in the study and their SI unit.
     pub responses: Vec<(usize, usize, &'static str)>,
+    /// All others, of what the study had before; none in a table that is taken in.
+    pub others: Vec<usize>,
+    /// Whether it is the table that the study keeps.
+    kept: bool,
 }
 
 impl Columns {
-    /// Those of a table; one that is `kept` by the study may have columns of responses that it had before.
+    /// Those of a table; one that is `kept` by the study may have columns of factors and responses that it had before.
     pub fn of(table: &ValueTable, study: &Study, kept: bool) -> Result<Self, String> {
         let at = |what: String| format!("{}: {what}", table.path().display());
         let heads = || table.heads_in_words();
@@ -32,7 +37,7 @@ impl Columns {
             return Err(at(format!("no column of the factor \"{}\"; it has {}", factor.name, heads())));
         }
         let factors: Vec<usize> = factors.into_iter().flatten().collect();
-        let mut columns = Self { factors, replicate: None, responses: Vec::new() };
+        let mut columns = Self { factors, replicate: None, responses: Vec::new(), others: Vec::new(), kept };
         let of_responses: HashMap<&str, usize> =
             study.responses.iter().enumerate().rev().map(|(at, response)| (response.name.as_str(), at)).collect();
         let of_factors: HashSet<usize> = columns.factors.iter().copied().collect();
@@ -44,9 +49,13 @@ impl Columns {
             }
             let head = &table.heads()[column];
             let known = [name, head.as_str()].into_iter().filter_map(|name| of_responses.get(name)).min().copied();
-            let Some(response) = known.filter(|at| kept || study.responses[*at].is_imported()) else {
+            let Some(response) = known.filter(|at| study.responses[*at].is_imported()) else {
                 // The number of a run, as `plateau sweep plan --csv` writes it.
-                if kept || name == RUN {
+                if name == RUN {
+                    continue;
+                }
+                if kept {
+                    columns.others.push(column);
                     continue;
                 }
                 let names: Vec<&str> =
@@ -90,6 +99,10 @@ impl Columns {
         }
         let replicate = self.replicate.map(|column| table.number(row, column)).transpose()?.flatten();
         let count = study.replicates.as_ref().map_or(1, |replicates| replicates.seeds.len());
+        // The study had more seeds when this was measured.
+        if self.kept && replicate.is_some_and(|number| number > count as f64) {
+            return Ok(None);
+        }
         let replicate = replicate.map(|number| {
             let is_one = number.fract() == 0.0 && (1.0..=count as f64).contains(&number);
             is_one
@@ -97,6 +110,36 @@ impl Columns {
                 .ok_or_else(|| format!("{}: replicate {number}, expected a number from 1 to {count}", table.place(row)))
         });
         Ok(Some((found, replicate.transpose()?)))
+    }
+
+    /// A line that is of no point, as it is kept: each factor as the line has it, with its unit where the head of the column has
+    /// another one now, the replicate, responses in SI units, and all other cells.
+    pub fn kept_cells(
+        &self,
+        table: &ValueTable,
+        row: &Row,
+        study: &Study,
+        wanted: &[usize],
+    ) -> Result<Vec<String>, String> {
+        let factor = |(factor, column): (&Factor, &usize)| {
+            let (cell, (_, unit)) = (table.cell(row, *column), table.named(*column));
+            let is_plain = unit.is_empty() || cell.is_empty() || cell.contains(' ') || unit == factor.unit();
+            if is_plain { cell.to_owned() } else { format!("{cell} {unit}") }
+        };
+        let mut cells: Vec<String> = study.factors.iter().zip(&self.factors).map(factor).collect();
+        cells.push(self.replicate.map_or_else(String::new, |column| table.cell(row, column).to_owned()));
+        for response in wanted {
+            let column = self.responses.iter().find(|(_, own, _)| own == response);
+            let number = column.map(|(column, _, unit)| table.quantity(row, *column, unit)).transpose()?.flatten();
+            cells.push(number.map_or_else(String::new, |number| format!("{number:?}")));
+        }
+        cells.extend(self.other_cells(table, row));
+        Ok(cells)
+    }
+
+    /// The cells of a line in the columns of what the study had before.
+    pub fn other_cells<'a>(&'a self, table: &'a ValueTable, row: &'a Row) -> impl Iterator<Item = String> + 'a {
+        self.others.iter().map(|column| table.cell(row, *column).to_owned())
     }
 
     /// Why a line is of no point.

@@ -5,10 +5,12 @@
 //! They are kept in one table, `imported.csv` in the folder of the results, a line for each run that has any: factors in SI
 //! units, the replicate, and the responses. It is replaced as a whole by who has claimed it, one process at a time, and the new one is
 //! on the disk before it has the name of the old one. Lines belong to points, not to numbers of runs: levels that are added later move no value.
+//! Lines of points and columns of responses that the study does not have now stay in it, and are there again when the study has them again.
 
 mod columns;
 mod places;
 
+use std::collections::BTreeMap;
 use std::fs;
 use std::io::{self, ErrorKind, Write as _};
 use std::path::{Path, PathBuf};
@@ -23,7 +25,7 @@ use super::value_table::ValueTable;
 use crate::claim::{Claim, ClaimError};
 use crate::regular;
 use crate::temporary::Temporary;
-use crate::text::cell;
+use crate::text::{cell, short};
 use columns::Columns;
 use places::Places;
 
@@ -37,8 +39,18 @@ const PAUSE: Duration = Duration::from_millis(20);
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Imported {
     values: Vec<Vec<f64>>,
-    /// Lines that are of no point of the design as it is now.
-    pub strange: usize,
+    idle: Idle,
+}
+
+/// What was measured and belongs to nothing that the study has now.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+struct Idle {
+    /// Heads of columns that are of no factor and of no imported response.
+    heads: Vec<String>,
+    /// The cells in these columns, by run.
+    cells: BTreeMap<usize, Vec<String>>,
+    /// Cells of the lines that are of no run, in the order of the table that is kept.
+    lines: Vec<Vec<String>>,
 }
 
 /// What a table brought.
@@ -54,6 +66,8 @@ pub struct Taken {
     pub changed: usize,
     /// Runs of the study that have all imported responses now.
     pub complete: usize,
+    /// What is kept of points and responses that the study does not have now, in words.
+    pub idle: Vec<String>,
 }
 
 impl Imported {
@@ -63,7 +77,7 @@ impl Imported {
     /// What is wrong with the table in the folder of the results.
     pub fn read(plan: &Plan) -> Result<Self, String> {
         let responses = plan.study().responses.len();
-        let mut imported = Self { values: vec![vec![f64::NAN; responses]; plan.runs()], strange: 0 };
+        let mut imported = Self { values: vec![vec![f64::NAN; responses]; plan.runs()], idle: Idle::default() };
         let path = file(plan.study());
         // A link that leads nowhere is no table that is not there yet.
         if fs::symlink_metadata(&path).is_err_and(|error| error.kind() == ErrorKind::NotFound) {
@@ -71,15 +85,32 @@ impl Imported {
         }
         let table = ValueTable::read(&path)?;
         let columns = Columns::of(&table, plan.study(), true)?;
-        let mut places = Places::new(plan);
+        let (mut places, wanted) = (Places::new(plan), wanted(plan.study()));
+        imported.idle.heads = columns.others.iter().map(|column| table.heads()[*column].clone()).collect();
         for row in table.rows() {
             let key = columns.key(&table, row, plan.study(), &places)?;
             match key.and_then(|key| places.take(&key)) {
-                Some(run) => columns.put(&table, row, &mut imported.values[run])?,
-                None => imported.strange += 1,
+                Some(run) => {
+                    columns.put(&table, row, &mut imported.values[run])?;
+                    imported.idle.cells.insert(run, columns.other_cells(&table, row).collect());
+                }
+                None => imported.idle.lines.push(columns.kept_cells(&table, row, plan.study(), &wanted)?),
             }
         }
         Ok(imported)
+    }
+
+    /// What was measured at points and of responses that the study does not have now, in words: each line by its point.
+    pub fn idle(&self, study: &Study) -> Vec<String> {
+        let Idle { heads, cells, lines } = &self.idle;
+        let factors: Vec<String> = study.factors.iter().map(|factor| with_unit(&factor.name, factor.unit())).collect();
+        let line = |cells: &Vec<String>| {
+            let point = factors.iter().zip(cells).map(|(head, cell)| format!("{head} = {cell}"));
+            format!("line of {}", point.collect::<Vec<_>>().join(", "))
+        };
+        let is_filled = |at: usize| cells.values().any(|cells| cells.get(at).is_some_and(|cell| !cell.is_empty()));
+        let columns = heads.iter().enumerate().filter(|(at, _)| is_filled(*at));
+        lines.iter().map(line).chain(columns.map(|(_, head)| format!("column \"{}\"", short(head)))).collect()
     }
 
     /// The value of a run, by its place in the design, and of a response; NaN where there is none.
@@ -112,12 +143,13 @@ impl Imported {
         let _claim = claim(&file(study))?;
         let (imported, new, changed) = Self::with(plan, &table, &columns, replace)?;
         imported.write(plan).map_err(|error| format!("cannot write {}: {error}", file(study).display()))?;
-        let wanted: Vec<usize> = (0..study.responses.len()).filter(|at| study.responses[*at].is_imported()).collect();
+        let wanted = wanted(study);
         let is_complete = |values: &&Vec<f64>| wanted.iter().all(|at| !values[*at].is_nan());
         let complete = imported.values.iter().filter(is_complete).count();
         let responses =
             columns.responses.iter().map(|(_, response, _)| study.responses[*response].name.clone()).collect();
-        Ok(Taken { lines: table.rows().len(), responses, new, changed, complete })
+        let idle = imported.idle(study);
+        Ok(Taken { lines: table.rows().len(), responses, new, changed, complete, idle })
     }
 
     /// What is there with the values of a table; how many of these are new, and how many have changed.
@@ -164,13 +196,16 @@ impl Imported {
         Temporary::remove_abandoned(&target);
         let (temporary, mut file) = Temporary::create(&target)?;
         let mut writer = csv::Writer::from_writer(Vec::new());
-        let wanted: Vec<usize> = (0..study.responses.len()).filter(|at| study.responses[*at].is_imported()).collect();
+        let wanted = wanted(study);
         let mut head: Vec<String> = study.factors.iter().map(|factor| with_unit(&factor.name, factor.unit())).collect();
         head.push(REPLICATE.to_owned());
         head.extend(wanted.iter().map(|at| with_unit(&study.responses[*at].name, study.responses[*at].unit(""))));
+        head.extend(self.idle.heads.iter().cloned());
+        let width = head.len();
         writer.write_record(head.iter().map(|text| cell(text).into_owned()))?;
         for (place, values) in self.values.iter().enumerate() {
-            if wanted.iter().all(|at| values[*at].is_nan()) {
+            let others = self.idle.cells.get(&place).map_or(&[][..], Vec::as_slice);
+            if wanted.iter().all(|at| values[*at].is_nan()) && others.iter().all(String::is_empty) {
                 continue;
             }
             let run = plan.run(place + 1);
@@ -183,6 +218,11 @@ impl Imported {
             cells.extend(
                 wanted.iter().map(|at| if values[*at].is_nan() { String::new() } else { format!("{:?}", values[*at]) }),
             );
+            cells.extend(others.iter().cloned());
+            cells.resize(width, String::new());
+            writer.write_record(cells.iter().map(|text| cell(text).into_owned()))?;
+        }
+        for cells in &self.idle.lines {
             writer.write_record(cells.iter().map(|text| cell(text).into_owned()))?;
         }
         file.write_all(&writer.into_inner().map_err(|error| io::Error::other(error.to_string()))?)?;
@@ -202,6 +242,11 @@ fn claim(path: &Path) -> Result<Claim, String> {
             claim => return claim.map_err(|error| error.to_string()),
         }
     }
+}
+
+/// The imported ones among the responses of a study.
+fn wanted(study: &Study) -> Vec<usize> {
+    (0..study.responses.len()).filter(|at| study.responses[*at].is_imported()).collect()
 }
 
 /// Where a study keeps them.
