@@ -16,8 +16,8 @@ from plateau.times import seconds
 
 # Series that are totals since the start of a run (docs/run-file.md).
 TOTALS = frozenset(
-    "contact_area_integral sliding_distance contact_time road_distance worn_pin worn_resin worn_disc emitted deposited_pin deposited_disc returned "
-    "friction_work heat_lost emitted_mass pm10_mass pm25_mass particle_number".split()
+    "contact_area_integral sliding_distance contact_time road_distance worn_pin worn_resin worn_whole_pin lost_pin worn_disc emitted "
+    "deposited_pin deposited_disc returned friction_work heat_lost emitted_mass pm10_mass pm25_mass particle_number".split()
 )
 
 
@@ -116,8 +116,8 @@ class RunAccessor:
         Parameters
         ----------
         series : str
-            A series that is a total since the start of the run: ``worn_pin``, ``worn_resin``, ``worn_disc``, ``emitted``, ``sliding_distance``,
-            ``friction_work``, ``pm10_mass``, ...
+            A series that is a total since the start of the run: ``worn_pin``, ``worn_resin``, ``worn_whole_pin``, ``lost_pin``, ``worn_disc``,
+            ``emitted``, ``sliding_distance``, ``friction_work``, ``pm10_mass``, ...
         start, end : float or str, optional
             As for `mean`.
 

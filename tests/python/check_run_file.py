@@ -37,6 +37,8 @@ SERIES = {
     "max_pressure": "Pa",
     "worn_pin": "m3",
     "worn_resin": "m3",
+    "worn_whole_pin": "m3",
+    "lost_pin": "m3",
     "worn_disc": "m3",
     "pool": "m3",
     "emitted": "m3",

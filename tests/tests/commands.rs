@@ -32,6 +32,59 @@ fn a_run_tells_its_results_and_nothing_else() {
 }
 
 #[test]
+fn what_a_reader_could_take_for_a_brake_is_said_to_be_of_the_pin() {
+    let directory = short();
+    let law = "friction={ pressure_coefficient = 0.5, shear_strength = \"0 Pa\", maximum = 1.0 }";
+    let airborne = "emission={ pm10_fraction = 0.4, pm25_fraction = 0.15, number_per_mass = \"1e15 1/kg\", \
+                    pin_density = \"2600 kg/m^3\", disc_density = \"7200 kg/m^3\" }";
+    let summary = directory.plateau(["run", "scene.toml", "--set", law, "--set", airborne]).quiet_success();
+    for name in ["worn volume", "worn off the pin", "friction", "airborne"] {
+        let line = summary.lines().find(|line| line.trim_start().starts_with(name)).unwrap();
+        assert!(line.contains("simulated pin"), "{line}");
+    }
+    // By hand: 40 of 690 columns of a ring between 20 mm and 21 mm.
+    assert!(summary.contains(" particles of the simulated pin, 7.47 mm²\n"), "{summary}");
+}
+
+#[test]
+fn a_balance_tells_the_specific_wear_rate_of_the_summary() {
+    let directory = WorkingDirectory::new();
+    let run = |scene: &str, sets: &[&str]| -> (Value, RunFile) {
+        let arguments = [&["run", scene, "-o", "run.h5", "--force", "--json"], sets].concat();
+        (
+            serde_json::from_str(&directory.plateau(arguments).quiet_success()).unwrap(),
+            RunFile::open(directory.path("run.h5")),
+        )
+    };
+    let last = |run: &RunFile, name: &str| *run.floats(&format!("/series/{name}")).last().unwrap();
+    let close = |found: &Value, expected: f64| {
+        let found = found.as_f64().unwrap();
+        assert!((found / expected - 1.0).abs() < 1e-9, "{found:e}, expected {expected:e}");
+    };
+    // The pin is weighed: its heights before the first step and at the end, over 40 columns and 20 rows of the mesh.
+    let (summary, of_run) = run(&scene("quick.toml"), &[]);
+    let (radius, angle) = (of_run.floats("/radius"), of_run.floats("/pin_angle"));
+    let cell = (radius[1] - radius[0]) * (angle[1] - angle[0]);
+    // The pin's height grows away from the disc, so that wear raises it.
+    let heights = of_run.map("/pin/height", 0).into_iter().zip(of_run.last_map("/pin/height")).enumerate();
+    let lost: f64 = heights.map(|(at, (before, after))| (after - before) * radius[at % radius.len()] * cell).sum();
+    let found = summary["lost_pin"].as_f64().unwrap();
+    assert!((found / lost - 1.0).abs() < 1e-6, "{found:e}, {lost:e} by the heights");
+    close(&summary["specific_wear_rate_whole_pin"], found / (5.0 * last(&of_run, "sliding_distance")));
+    close(&summary["worn_whole_pin"], last(&of_run, "worn_pin") + last(&of_run, "worn_resin"));
+    for name in ["worn_whole_pin", "lost_pin"] {
+        assert_eq!(summary[name].as_f64(), Some(last(&of_run, name)), "{name}");
+    }
+    // Under a load that changes, and through pauses: with the same friction everywhere the work of friction is μ F s, but for what is
+    // left of the way at the end, less than one of 59656 steps.
+    let law = "friction={ pressure_coefficient = 0.5, shear_strength = \"0 Pa\", maximum = 1.0 }";
+    let (summary, of_run) = run(&scene("stops.toml"), &["--set", law]);
+    let expected = last(&of_run, "lost_pin") / (summary["friction_work"].as_f64().unwrap() / 0.5);
+    let found = summary["specific_wear_rate_whole_pin"].as_f64().unwrap();
+    assert!((found / expected - 1.0).abs() < 1.0 / 59656.0, "{found:e}, expected {expected:e}");
+}
+
+#[test]
 fn the_mean_contact_area_is_that_of_the_last_tenth() {
     let directory = WorkingDirectory::new();
     let scene = scene("quick.toml");

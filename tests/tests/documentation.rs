@@ -253,6 +253,22 @@ fn every_series_is_documented() {
 }
 
 #[test]
+fn amounts_that_a_reader_could_take_for_a_brake_are_said_to_be_of_the_pin() {
+    let series = quantities(EXTRAS).map(|quantity| (quantity.name, quantity.unit, quantity.long_name));
+    let of_events = EVENT_QUANTITIES.iter().map(|quantity| (quantity.name, quantity.unit, quantity.long_name));
+    let mut count = 0;
+    for (name, unit, long_name) in series.chain(of_events) {
+        let is_amount = ["kg", "J", "N"].contains(&unit)
+            || ["worn", "emitted", "particle_number", "lost"].iter().any(|part| name.contains(part));
+        if is_amount {
+            assert!(long_name.contains("simulated pin"), "{name}: {long_name}");
+            count += 1;
+        }
+    }
+    assert!(count >= 18, "{count} amounts");
+}
+
+#[test]
 fn python_knows_the_same_totals() {
     let text = include_str!("../../python/plateau/run_accessor.py");
     let (_, list) = text.split_once("TOTALS = frozenset(").expect("the totals in Python");

@@ -39,7 +39,7 @@ fn a_table_has_the_numbers_of_the_run_file() {
     let said = directory.plateau(["export", "run.h5", "--to", "csv", "--maps"]).quiet_success();
     let run = RunFile::open(directory.path("run.h5"));
     let series = columns(&directory, "run.csv");
-    assert_eq!(series.len(), 24);
+    assert_eq!(series.len(), 26);
     for (column, values) in &series {
         let name = column.split_once(" [").unwrap().0;
         let path = if name == "time" { "/time".to_owned() } else { format!("/series/{name}") };
@@ -100,7 +100,7 @@ fn grids_of_a_run_without_maps_are_none() {
     let notes: Vec<_> = outcome.stderr.lines().collect();
     assert_eq!(notes.last(), Some(&"plateau: nothing is written: this format has maps only"));
     let said = directory.plateau(["export", "run.h5", "--to", "npz"]).quiet_success();
-    assert!(said.contains("run.npz  1 sample of 23 series, 0 maps at 0 times"), "{said}");
+    assert!(said.contains("run.npz  1 sample of 25 series, 0 maps at 0 times"), "{said}");
     assert_eq!(directory.names(), ["run.h5", "run.h5.checkpoint", "run.npz", "scene.toml"]);
 }
 

@@ -345,6 +345,48 @@ fn specimens(directory: &WorkingDirectory, truths: &[[f64; 2]]) -> Vec<Row> {
 }
 
 #[test]
+fn a_weighed_pin_tells_the_wear_rate_of_its_fibres() {
+    // A lab weighs a pin, of which nothing is known but its surfaces: the run with this wear rate.
+    let truth = 6.3e-14;
+    let directory = WorkingDirectory::new();
+    let base = scene("quick.toml");
+    let with = |rate: f64| {
+        let rate = format!("materials.pin_primary.specific_wear_rate={rate:e} 1/Pa");
+        let sets = [&rate, "operation.duration=600 s", "output.sample_every=10 s", "output.maps_at=[]"];
+        let sets = sets.iter().flat_map(|set| ["--set", set]);
+        json(&directory.plateau(["run", &base, "-o", "lab.h5", "--force", "--json"].into_iter().chain(sets)))
+    };
+    let weighed = with(truth);
+    let value = |summary: &Value, key: &str| summary[key].as_f64().unwrap();
+    // By the recipe of docs/values.md. The rate of the whole pin in the place of that of the fibres wears twice as fast.
+    let rate = value(&weighed, "specific_wear_rate_whole_pin");
+    let mut tried = with(rate);
+    assert!(value(&tried, "lost_pin") > 2.0 * value(&weighed, "lost_pin"), "{tried}");
+    for near in [0.08, 0.04] {
+        let found = rate * value(&tried, "worn_pin") / value(&tried, "lost_pin");
+        assert!((found / truth - 1.0).abs() < near, "{found:e}");
+        tried = with(found);
+    }
+    // And by a fit to the mass.
+    let lost = value(&weighed, "lost_pin");
+    directory.write(
+        "fit.toml",
+        format!(
+            "version = 1\nbase = {base:?}\ndesign = \"sobol\"\npoints = 6\ndirectory = \"results\"\n\
+             set = [\"operation.duration = '600 s'\", \"output.sample_every = '10 s'\"]\n\
+             [[factor]]\nname = \"rate\"\nkey = \"materials.pin_primary.specific_wear_rate\"\n\
+             range = [\"1e-14 1/Pa\", \"3e-13 1/Pa\"]\nscale = \"logarithmic\"\n\
+             [[response]]\nname = \"lost\"\ndataset = \"/series/lost_pin\"\nat = \"end\"\n\
+             measured = {lost:e}\nuncertainty = {:e}\n[fit]\nruns = 16\n",
+            0.02 * lost
+        ),
+    );
+    let found = json(&fit(&directory, &["--json"]));
+    let fitted = found["keys"][0]["most_likely"].as_f64().unwrap();
+    assert!((fitted / truth - 1.0).abs() < 0.04, "{fitted:e}");
+}
+
+#[test]
 fn fits_find_the_keys_that_other_surfaces_were_run_with() {
     let trials = if std::env::var_os("PLATEAU_LONG").is_some() { 40 } else { 4 };
     let mut lot = Lot(3);

@@ -86,7 +86,7 @@ fn expect_balance_over_many_steps(debris: DebrisRule, sets: &[&str]) {
 
     // The pin recedes by what is worn off and what is returned to the pool, and grows by what is deposited.
     let receded = volume_between(&mesh, &pin.height, &initial.pin_height);
-    let expected = sample.worn_pin + sample.worn_resin + sample.returned - sample.deposited_pin;
+    let expected = sample.lost_pin();
     // Wear, destruction and formation each round once a step in each cell.
     let highest = largest(&pin.height).max(largest(&initial.pin_height));
     let rounding = 3.0 * steps as f64 * mesh.pin_area() * highest * f64::EPSILON;

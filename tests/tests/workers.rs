@@ -74,8 +74,8 @@ fn assert_alike(scene: &[&str]) -> (RunFile, WorkingDirectory) {
 fn equal_scenes_give_equal_bits() {
     let ((_, one, _first), (_, other, _second)) = (run(&[]), run(&[]));
     assert_eq!(told(&one).1, told(&other).1);
-    // 3 coordinates, time and map time, 23 series, 7 maps, the fibre map.
-    assert_eq!(one.content().len(), 36);
+    // 3 coordinates, time and map time, 25 series, 7 maps, the fibre map.
+    assert_eq!(one.content().len(), 38);
     assert_eq!(differences(&one.content(), &other.content()), [""; 0]);
 }
 

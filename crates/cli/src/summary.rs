@@ -3,7 +3,7 @@
 use plateau_core::observe::window_mean::WindowMean;
 use plateau_present::acceleration::acceleration;
 use plateau_present::running_in::{running_in, running_in_time};
-use plateau_run::{PartsSummary, RunSummary};
+use plateau_run::RunSummary;
 
 use crate::failure::Failure;
 use crate::number;
@@ -66,10 +66,30 @@ pub fn text(summary: &RunSummary) -> String {
         ),
         (
             "worn volume",
-            format!("{}, of which emitted {}", cubic_millimetres(summary.worn), cubic_millimetres(summary.emitted)),
+            format!(
+                "{} of the simulated pin and the disc, of which emitted {}",
+                cubic_millimetres(summary.worn),
+                cubic_millimetres(summary.emitted)
+            ),
         ),
     ]);
-    rows.extend(parts(&summary.parts));
+    rows.push((
+        "worn off the pin",
+        format!(
+            "{} of the whole simulated pin, {} of it off plateaus",
+            cubic_millimetres(summary.worn_whole_pin),
+            cubic_millimetres(summary.worn_pin)
+        ),
+    ));
+    if let Some(rate) = summary.specific_wear_rate_whole_pin {
+        // Build-up on the pin is weighed with it.
+        let lost = cubic_millimetres(summary.lost_pin);
+        rows.push((
+            "lost by the pin",
+            format!("{lost} as a balance shows it, specific wear rate of the whole pin {rate:.3e} 1/Pa"),
+        ));
+    }
+    rows.extend(parts(summary));
     rows.push((
         "residuals",
         format!(
@@ -87,11 +107,14 @@ pub fn text(summary: &RunSummary) -> String {
 }
 
 /// Rows of the parts of the model that the scene asks for.
-fn parts(parts: &PartsSummary) -> Vec<(&'static str, String)> {
-    let mut rows = Vec::new();
+fn parts(summary: &RunSummary) -> Vec<(&'static str, String)> {
+    let (parts, mut rows) = (&summary.parts, Vec::new());
     if let (Some(coefficient), Some(work)) = (parts.friction_coefficient_mean, parts.friction_work) {
         let over = "mean of the last simulated revolution";
-        rows.push(("friction", format!("coefficient {coefficient:.3} ({over}), work {} J", number::short(work))));
+        rows.push((
+            "friction",
+            format!("coefficient {coefficient:.3} ({over}), work {} J of the simulated pin", number::short(work)),
+        ));
     }
     if let (Some(contact), Some(disc), Some(pin)) =
         (parts.contact_temperature, parts.disc_temperature, parts.pin_temperature)
@@ -103,7 +126,12 @@ fn parts(parts: &PartsSummary) -> Vec<(&'static str, String)> {
     if let (Some(pm10), Some(pm25), Some(number)) = (parts.pm10_mass, parts.pm25_mass, parts.particle_number) {
         let microgram = |mass: f64| format!("{} µg", number::short(mass * 1e9));
         let particles = number::short(number);
-        let airborne = format!("PM10 {}, PM2.5 {}, {particles} particles", microgram(pm10), microgram(pm25));
+        let airborne = format!(
+            "PM10 {}, PM2.5 {}, {particles} particles of the simulated pin, {} mm²",
+            microgram(pm10),
+            microgram(pm25),
+            number::rounded(summary.pin_area * 1e6, 3)
+        );
         rows.push(("airborne", airborne));
     }
     rows

@@ -153,6 +153,26 @@ proptest! {
     }
 
     #[test]
+    fn a_pin_loses_what_its_heights_tell((parameters, seed) in scenes()) {
+        let mesh = &parameters.mesh;
+        let surfaces = random_surfaces(mesh, seed);
+        let initial = surfaces.pin_height.clone();
+        let mut simulation = start(&parameters, surfaces);
+        let steps = 2 * mesh.disc_columns() as u64;
+        simulation.advance_to(steps).unwrap();
+        let height = simulation.pin().unwrap().height;
+        let cells = height.iter().zip(&initial).zip(mesh.pin_areas());
+        let receded: f64 = cells.map(|((now, before), area)| (now - before) * area).sum();
+        // Wear, destruction and formation each round once a step in each cell; volumes are rounded on their own.
+        let largest = height.iter().chain(&initial).fold(0.0_f64, |largest, z| largest.max(z.abs()));
+        let sample = simulation.sample().unwrap();
+        let rounding =
+            3.0 * steps as f64 * mesh.pin_area() * largest * f64::EPSILON + 1e-12 * sample.worn_whole_pin();
+        let lost = sample.lost_pin();
+        prop_assert!((receded - lost).abs() <= rounding, "{:e} m³ by the heights, {:e}", receded, lost);
+    }
+
+    #[test]
     fn local_debris_neither_overtops_the_disc_nor_goes_anywhere_but_behind_what_wears((mut parameters, seed) in scenes()) {
         parameters.plateaus.debris = DebrisRule::Local;
         let (mesh, rows) = (&parameters.mesh, parameters.mesh.rows());

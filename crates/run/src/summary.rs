@@ -69,8 +69,18 @@ pub struct RunSummary {
     pub disc_secondary: f64,
     /// Area fraction of the pin with any build-up.
     pub pin_secondary: f64,
+    /// Area of the simulated pin, m²: all volumes, work, heat, masses and particles are of it, not of a brake.
+    pub pin_area: f64,
     /// Worn volume of both bodies, m³.
     pub worn: f64,
+    /// Worn volume of the whole pin, plateaus and resin, m³.
+    pub worn_whole_pin: f64,
+    /// What of it was worn off plateaus, m³.
+    pub worn_pin: f64,
+    /// Volume that the whole pin has lost, m³: what a balance tells, for build-up is weighed with the pin.
+    pub lost_pin: f64,
+    /// The same per load and sliding distance at the mean radius, 1/Pa; none before the first step.
+    pub specific_wear_rate_whole_pin: Option<f64>,
     /// Debris that left the contact, m³.
     pub emitted: f64,
     /// Friction, heat and emission, where the scene asks for them.
@@ -149,6 +159,7 @@ impl RunSummary {
         report: WriterReport,
         wall_time: f64,
     ) -> Self {
+        let work = scene.parameters.mean_load(last.step) * last.sliding_distance;
         Self {
             title: scene.title.clone(),
             surfaces,
@@ -174,7 +185,12 @@ impl RunSummary {
             filled_fraction: last.filled_fraction,
             disc_secondary: last.disc_secondary,
             pin_secondary: last.pin_secondary,
+            pin_area: scene.parameters.mesh.pin_area(),
             worn: last.worn_pin + last.worn_resin + last.worn_disc,
+            worn_whole_pin: last.worn_whole_pin(),
+            worn_pin: last.worn_pin,
+            lost_pin: last.lost_pin(),
+            specific_wear_rate_whole_pin: (work > 0.0).then(|| last.lost_pin() / work),
             emitted: last.emitted,
             parts: PartsSummary::of(last),
             load_residual: course.largest_load_residual,

@@ -170,6 +170,12 @@ impl Parameters {
         self.operation_of(step, &self.clock()).load
     }
 
+    /// The load of so many steps, N, mean over their angle.
+    pub fn mean_load(&self, steps: u64) -> f64 {
+        // As if all of them were one.
+        self.cycle.as_ref().map_or(self.normal_force, |cycle| cycle.step(1, steps as f64 * self.step_angle()).load)
+    }
+
     /// The largest load of any step, N.
     pub fn largest_load(&self) -> f64 {
         self.cycle.as_ref().map_or(self.normal_force, |cycle| cycle.largest_force())

@@ -23,7 +23,7 @@ pub const FRICTION: Extra = Extra {
             "1",
             "coefficient of friction, mean over the last simulated revolution, weighted by load"
         ),
-        of!(friction.work, "friction_work", "J", "work of friction"),
+        of!(friction.work, "friction_work", "J", "work of friction of the simulated pin"),
     ],
     request: None,
     needs: "a law of friction, table [friction]",
@@ -36,7 +36,7 @@ pub const HEAT: Extra = Extra {
         of!(heat.contact, "contact_temperature", "K", "temperature of the contact"),
         of!(heat.disc, "disc_temperature", "K", "mean temperature of the disc"),
         of!(heat.pin, "pin_temperature", "K", "mean temperature of the pin"),
-        of!(heat.lost, "heat_lost", "J", "heat lost to the air and the holder"),
+        of!(heat.lost, "heat_lost", "J", "heat lost to the air and the holder of the simulated pin"),
         of!(heat.residual, "heat_residual", "1", "relative residual of the energy balance"),
     ],
     request: None,
@@ -47,10 +47,10 @@ pub const HEAT: Extra = Extra {
 pub const EMISSION: Extra = Extra {
     name: "emission",
     quantities: &[
-        of!(emission.mass, "emitted_mass", "kg", "mass of the debris that left the contact"),
-        of!(emission.pm10, "pm10_mass", "kg", "mass of it that is airborne as PM10"),
-        of!(emission.pm25, "pm25_mass", "kg", "mass of it that is airborne as PM2.5"),
-        of!(emission.number, "particle_number", "1", "number of airborne particles"),
+        of!(emission.mass, "emitted_mass", "kg", "mass of the debris that left the contact of the simulated pin"),
+        of!(emission.pm10, "pm10_mass", "kg", "mass of it that is airborne as PM10, of the simulated pin"),
+        of!(emission.pm25, "pm25_mass", "kg", "mass of it that is airborne as PM2.5, of the simulated pin"),
+        of!(emission.number, "particle_number", "1", "number of airborne particles of the simulated pin"),
     ],
     request: None,
     needs: "airborne emission, table [emission]",

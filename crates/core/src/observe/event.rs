@@ -79,16 +79,16 @@ pub const EVENT_QUANTITIES: &[EventQuantity] = quantities! {
     initial_speed, "rad s-1", "rotational speed of the disc at the start of the event", None;
     final_speed, "rad s-1", "rotational speed of the disc at the end of the event", None;
     distance, "m", "sliding distance at the mean radius", None;
-    worn, "m3", "volume worn off pin and disc", None;
-    emitted, "m3", "wear debris that left the contact", None;
+    worn, "m3", "volume worn off the simulated pin and the disc", None;
+    emitted, "m3", "wear debris that left the contact of the simulated pin", None;
     contact_area_start, "m2", "contact area of the first step", None;
     contact_area_end, "m2", "contact area of the last step", None;
-    work, "J", "work of friction", Some(&FRICTION);
+    work, "J", "work of friction of the simulated pin", Some(&FRICTION);
     friction_coefficient, "1", "coefficient of friction, mean weighted by load", Some(&FRICTION);
     temperature_start, "K", "temperature of the contact at the start of the event", Some(&HEAT);
     temperature_peak, "K", "largest temperature of the contact", Some(&HEAT);
-    pm10_mass, "kg", "mass that is airborne as PM10", Some(&EMISSION);
-    particle_number, "1", "number of airborne particles", Some(&EMISSION);
+    pm10_mass, "kg", "mass that is airborne as PM10, of the simulated pin", Some(&EMISSION);
+    particle_number, "1", "number of airborne particles of the simulated pin", Some(&EMISSION);
 };
 
 /// What is reported of events in a run with these series besides those of every run.

@@ -8,7 +8,7 @@ use super::quantity::Quantity;
 pub const CYCLE: Extra = Extra {
     name: "cycle",
     quantities: &[
-        Quantity::extra("normal_force", "N", "normal force of the step, mean over its angle"),
+        Quantity::extra("normal_force", "N", "normal force on the simulated pin in the step, mean over its angle"),
         Quantity::extra("rotational_speed", "rad s-1", "rotational speed of the disc at the end of the step"),
         Quantity::extra("contact_time", "s", "time in which the pin was not lifted"),
     ],

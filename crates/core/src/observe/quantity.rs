@@ -47,15 +47,13 @@ impl Quantity {
     }
 }
 
+/// A line is a field of a sample, or `name = value`, with the value a function of a sample.
 macro_rules! quantities {
-    ($($field:ident, $unit:literal, $long_name:literal;)*) => {
-        &[$(Quantity {
-            name: stringify!($field),
-            unit: $unit,
-            long_name: $long_name,
-            field: Some(|sample| Some(sample.$field)),
-        }),*]
+    ($($name:ident $(= $value:expr)?, $unit:literal, $long_name:literal;)*) => {
+        &[$(Quantity::of(stringify!($name), $unit, $long_name, quantities!(@field $name $($value)?))),*]
     };
+    (@field $name:ident $value:expr) => { |sample| Some($value(sample)) };
+    (@field $name:ident) => { |sample| Some(sample.$name) };
 }
 
 /// Every series that each run file has, but the time, in the order in which they are reported.
@@ -68,11 +66,13 @@ pub const QUANTITIES: &[Quantity] = quantities! {
     contact_ratio, "1", "contact area over the area of the pin";
     mean_pressure, "Pa", "mean pressure over the cells in contact";
     max_pressure, "Pa", "largest pressure of any cell";
-    worn_pin, "m3", "volume worn off plateaus of the pin";
-    worn_resin, "m3", "volume worn off the resin of the pin";
-    worn_disc, "m3", "volume worn off the disc";
+    worn_pin, "m3", "volume worn off plateaus of the simulated pin";
+    worn_resin, "m3", "volume worn off the resin of the simulated pin";
+    worn_whole_pin = Sample::worn_whole_pin, "m3", "volume worn off the whole simulated pin, plateaus and resin";
+    lost_pin = Sample::lost_pin, "m3", "volume that the whole simulated pin has lost, as a balance shows it: worn off, less build-up deposited on it";
+    worn_disc, "m3", "volume worn off the disc by the simulated pin";
     pool, "m3", "wear debris in the contact, not compacted";
-    emitted, "m3", "wear debris that left the contact";
+    emitted, "m3", "wear debris that left the contact of the simulated pin";
     deposited_pin, "m3", "wear debris compacted on the pin";
     deposited_disc, "m3", "wear debris compacted on the disc";
     returned, "m3", "build-up of unsupported plateaus returned to the pool";
@@ -93,6 +93,8 @@ pub const TOTALS: &[&str] = &[
     "road_distance",
     "worn_pin",
     "worn_resin",
+    "worn_whole_pin",
+    "lost_pin",
     "worn_disc",
     "emitted",
     "deposited_pin",

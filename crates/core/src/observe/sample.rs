@@ -66,3 +66,16 @@ pub struct Sample {
     #[serde(skip)]
     pub extras: Vec<(&'static str, f64)>,
 }
+
+impl Sample {
+    /// Volume worn off the whole pin, plateaus and resin, m³, cumulative.
+    pub fn worn_whole_pin(&self) -> f64 {
+        self.worn_pin + self.worn_resin
+    }
+
+    /// Volume that the whole pin has lost, m³: what a balance tells. Build-up is weighed with the pin, and wears as plateaus do, so
+    /// that what was deposited and worn off again was not lost by the pin.
+    pub fn lost_pin(&self) -> f64 {
+        self.worn_whole_pin() + self.returned - self.deposited_pin
+    }
+}

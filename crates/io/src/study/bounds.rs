@@ -60,6 +60,8 @@ impl Response {
             Question::Imported(unit) if NOT_NEGATIVE_ELSEWHERE.contains(&unit) => Bounds::NOT_NEGATIVE,
             Question::Imported(_) => Bounds::NONE,
             Question::Reaches(_) | Question::Measured(_) => Bounds::NOT_NEGATIVE,
+            // A pin that hardly wears may gain what a disc loses.
+            _ if name == "lost_pin" => Bounds::NONE,
             _ if FRACTIONS.contains(&name) => Bounds::FRACTION,
             _ if NOT_NEGATIVE.contains(&name) => Bounds::NOT_NEGATIVE,
             _ if NOT_NEGATIVE_UNITS.contains(&unit_of(&self.series)) => Bounds::NOT_NEGATIVE,
@@ -83,6 +85,7 @@ mod tests {
         assert_eq!(bounds("event/worn", Question::End), Bounds::NOT_NEGATIVE);
         assert_eq!(bounds("filled_fraction", Question::End), Bounds::FRACTION);
         assert_eq!(bounds("displacement", Question::End), Bounds::NONE);
+        assert_eq!(bounds("lost_pin", Question::End), Bounds::NONE);
         assert_eq!(bounds("displacement", Question::Reaches(0.9)), Bounds::NOT_NEGATIVE);
         assert_eq!(bounds("balance_residual", Question::End), Bounds::NONE);
         assert_eq!(bounds("", Question::Imported("m2")), Bounds::NOT_NEGATIVE);

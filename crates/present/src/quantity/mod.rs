@@ -32,7 +32,7 @@ pub struct SeriesLook {
 }
 
 /// The series that pages, figures or the terminal name, in the order in which they are told.
-static SERIES: [SeriesLook; 35] = [
+static SERIES: &[SeriesLook] = &[
     series("sliding_distance", "sliding distance", Unit::METRE),
     series("contact_area", "contact area", Unit::MM2),
     series("contact_area_mean", "contact area, mean of the last simulated revolution", Unit::MM2),
@@ -44,31 +44,33 @@ static SERIES: [SeriesLook; 35] = [
     series("pin_secondary", "pin covered by secondary plateaus", Unit::PERCENT),
     series("pin_primary", "pin covered by primary plateaus", Unit::PERCENT),
     series("pin_none", "pin without plateaus", Unit::PERCENT),
-    series("worn_pin", "volume worn off plateaus of the pin", Unit::MM3),
-    series("worn_resin", "volume worn off the resin", Unit::MM3),
-    series("worn_disc", "volume worn off the disc", Unit::MM3),
-    series("emitted", "emitted debris", Unit::MM3),
+    series("worn_pin", "volume worn off plateaus of the simulated pin", Unit::MM3),
+    series("worn_resin", "volume worn off the resin of the simulated pin", Unit::MM3),
+    series("worn_whole_pin", "volume worn off the whole simulated pin, plateaus and resin", Unit::MM3),
+    series("lost_pin", "volume that the whole simulated pin has lost, as a balance shows it", Unit::MM3),
+    series("worn_disc", "volume worn off the disc by the simulated pin", Unit::MM3),
+    series("emitted", "emitted debris of the simulated pin", Unit::MM3),
     series("deposited_pin", "debris deposited on the pin", Unit::MM3),
     series("deposited_disc", "debris deposited on the disc", Unit::MM3),
     series("pool", "debris in the pool", Unit::MM3),
-    series("normal_force", "normal force", Unit::NEWTON),
+    series("normal_force", "normal force on the simulated pin", Unit::NEWTON),
     series("rotational_speed", "rotational speed", Unit::RPM),
     series("contact_time", "time in contact", Unit::SECOND),
     series("road_distance", "distance of the vehicle", Unit::METRE),
     series("friction_coefficient", "coefficient of friction", Unit::NUMBER),
     series("friction_coefficient_mean", "coefficient of friction, mean of the last simulated revolution", Unit::NUMBER),
-    series("friction_work", "work of friction", Unit::KILOJOULE),
+    series("friction_work", "work of friction of the simulated pin", Unit::KILOJOULE),
     series("contact_temperature", "temperature of the contact", Unit::CELSIUS),
     series("contact_temperature_heated", "temperature of the cells in contact, mean", Unit::CELSIUS),
     series("contact_temperature_max", "temperature of the hottest cell of the pin", Unit::CELSIUS),
     series("disc_temperature", "mean temperature of the disc", Unit::CELSIUS),
     series("pin_temperature", "mean temperature of the pin", Unit::CELSIUS),
-    series("heat_lost", "heat lost to air and holder", Unit::KILOJOULE),
+    series("heat_lost", "heat of the simulated pin lost to air and holder", Unit::KILOJOULE),
     series("heat_residual", "relative residual of the energy balance", Unit::NUMBER),
-    series("emitted_mass", "mass of the emitted debris", Unit::MICROGRAM),
-    series("pm10_mass", "mass airborne as PM10", Unit::MICROGRAM),
-    series("pm25_mass", "mass airborne as PM2.5", Unit::MICROGRAM),
-    series("particle_number", "airborne particles", Unit::NUMBER),
+    series("emitted_mass", "mass of the emitted debris of the simulated pin", Unit::MICROGRAM),
+    series("pm10_mass", "mass airborne as PM10, of the simulated pin", Unit::MICROGRAM),
+    series("pm25_mass", "mass airborne as PM2.5, of the simulated pin", Unit::MICROGRAM),
+    series("particle_number", "airborne particles of the simulated pin", Unit::NUMBER),
 ];
 
 const fn series(name: &'static str, title: &'static str, unit: Unit) -> SeriesLook {
@@ -257,5 +259,9 @@ mod tests {
         use plateau_core::observe::{EXTRAS, quantities};
         let known: Vec<&str> = quantities(EXTRAS).map(|quantity| quantity.name).collect();
         assert!(SERIES.iter().all(|look| known.contains(&look.name)));
+        // What a reader could take for that of a brake says whose it is wherever it is shown.
+        for quantity in quantities(EXTRAS).filter(|quantity| quantity.long_name.contains("simulated pin")) {
+            assert!(title(quantity.name).contains("simulated pin"), "{}", quantity.name);
+        }
     }
 }

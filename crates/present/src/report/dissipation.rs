@@ -33,7 +33,7 @@ fn of_run(series: &[Recorded]) -> Vec<Measure> {
     let way = last("road_distance").filter(|way| *way > 0.0);
     let for_each_kilometre = |name: &'static str, unit| {
         let value = last(name).zip(way).map(|(amount, way)| amount / way);
-        measure("– for each kilometre of road".to_owned(), unit, value)
+        measure("– for each kilometre of road, of the simulated pin".to_owned(), unit, value)
     };
     vec![
         at_end("friction_coefficient_mean"),
@@ -93,10 +93,10 @@ mod tests {
         // By hand: 1 mg and a thousand million particles in half a kilometre.
         let expected = [
             ("Largest temperature of the contact", "100.00 °C"),
-            ("Mass airborne as PM10", "1000.0 µg"),
-            ("– for each kilometre of road", "2.0000 mg/km"),
-            ("Airborne particles", "1.0000e9"),
-            ("– for each kilometre of road", "2.0000e9 km⁻¹"),
+            ("Mass airborne as PM10, of the simulated pin", "1000.0 µg"),
+            ("– for each kilometre of road, of the simulated pin", "2.0000 mg/km"),
+            ("Airborne particles of the simulated pin", "1.0000e9"),
+            ("– for each kilometre of road, of the simulated pin", "2.0000e9 km⁻¹"),
         ];
         assert_eq!(shown, expected.map(|(name, text)| (name.to_owned(), text.to_owned())));
     }

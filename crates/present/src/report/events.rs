@@ -28,7 +28,8 @@ pub fn tables(runs: &[RunFile], labels: &[String]) -> Result<String, ReadError> 
             std::iter::once((event + 1).to_string()).chain(cells).collect()
         };
         let rows: Vec<Vec<String>> = (0..count).map(row).collect();
-        text.push_str(&html::number_table(label, &heads, &rows));
+        let label = format!("{label}: volumes, work, mass and particles are of the simulated pin");
+        text.push_str(&html::number_table(&label, &heads, &rows));
     }
     Ok(text)
 }

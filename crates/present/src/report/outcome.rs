@@ -57,8 +57,14 @@ pub fn measures(series: &[Recorded], contact_area: Option<WindowMean>) -> Vec<Me
         measure(&capital(title), unit, last(name))
     };
     let part = |name: &'static str, of: &str| Measure { name: format!("– {of}"), ..shown(name) };
-    let worn = [("worn_pin", "of the pin's plateaus"), ("worn_resin", "of the resin"), ("worn_disc", "of the disc")];
-    let all_worn = worn.iter().map(|(name, _)| last(name)).sum::<Option<f64>>();
+    let worn = [
+        ("worn_whole_pin", "of the whole pin"),
+        ("lost_pin", "of the whole pin, less build-up deposited on it: as a balance shows it"),
+        ("worn_pin", "of the pin's plateaus"),
+        ("worn_resin", "of the resin"),
+        ("worn_disc", "of the disc"),
+    ];
+    let all_worn = ["worn_pin", "worn_resin", "worn_disc"].map(last).into_iter().sum::<Option<f64>>();
     let mean = Measure {
         name: "Contact area, mean ± standard error".to_owned(),
         value: contact_area.map(|window| window.mean),
@@ -77,7 +83,7 @@ pub fn measures(series: &[Recorded], contact_area: Option<WindowMean>) -> Vec<Me
         shown("filled_fraction"),
     ]);
     measures.extend(["disc_secondary", "pin_secondary", "pin_primary", "pin_none"].map(shown));
-    measures.push(measure("Worn volume", Unit::MM3, all_worn));
+    measures.push(measure("Worn volume of the simulated pin and the disc", Unit::MM3, all_worn));
     measures.extend(worn.map(|(name, of)| part(name, of)));
     measures.extend(["emitted", "deposited_pin", "deposited_disc", "pool"].map(shown));
     let residuals = [("load_residual", "load"), ("balance_residual", "debris")];

@@ -37,14 +37,28 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
     };
     let [masses, numbers] = curves(&having, subjects.len(), in_time)?;
     let mut charts = vec![
-        chart("airborne mass", "rate", "kg s-1", &masses, &time, end),
-        chart("airborne particles", "rate", "s-1", &numbers, &time, end),
+        chart("airborne mass of the simulated pin", "rate", "kg s-1", &masses, &time, end),
+        chart("airborne particles of the simulated pin", "rate", "s-1", &numbers, &time, end),
     ];
     if !on_road.is_empty() {
         let [masses, numbers] = curves(&on_road, subjects.len(), per_metre)?;
         let mean = "mean since the start";
-        charts.push(chart("airborne mass for each kilometre of road", mean, "kg m-1", &masses, &time, end));
-        charts.push(chart("airborne particles for each kilometre of road", mean, "m-1", &numbers, &time, end));
+        charts.push(chart(
+            "airborne mass of the simulated pin for each kilometre of road",
+            mean,
+            "kg m-1",
+            &masses,
+            &time,
+            end,
+        ));
+        charts.push(chart(
+            "airborne particles of the simulated pin for each kilometre of road",
+            mean,
+            "m-1",
+            &numbers,
+            &time,
+            end,
+        ));
     }
     let shade = operation::shade_events(subjects, &time, &mut charts)?;
     let mut own = match only_stroke(subjects, having.iter().map(|(number, _)| *number)) {
@@ -69,7 +83,7 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
         "Airborne emission",
         format!(
             "Airborne mass (PM10 and, paler, PM2.5) and number of particles that are added in a time, in windows with equally \
-             many samples, of this pin alone.{of_road} Events of a single run with a cycle that has ended are shaded."
+             many samples, of the simulated pin alone.{of_road} Events of a single run with a cycle that has ended are shaded."
         ),
         page(width, 560.0, 2, charts, &meanings),
     );
@@ -104,8 +118,8 @@ fn of_pins(runs: &[(usize, &Subject)]) -> String {
     let mut areas: Vec<String> = runs.iter().map(|(_, subject)| area(subject)).collect();
     areas.dedup();
     match &areas[..] {
-        [one] => format!("of this pin, {one}, not of a brake"),
-        several => format!("of these pins, {}, not of brakes", several.join(", ")),
+        [one] => format!("of the simulated pin, {one}, not of a brake"),
+        several => format!("of the simulated pins, {}, not of brakes", several.join(", ")),
     }
 }
 
@@ -205,7 +219,7 @@ mod tests {
         // Eleven samples, a second from each other, are fewer than windows.
         assert!(figure.page.texts.iter().any(|words| words.text == "rates: means of 1 s"), "{:?}", figure.page.texts);
         // By hand: 5 of 60 columns of a ring between 20 mm and 24 mm, π (24² − 20²)/12 mm².
-        assert!(figure.page.texts.iter().any(|words| words.text.contains("of this pin, 46.1 mm²")));
+        assert!(figure.page.texts.iter().any(|words| words.text.contains("of the simulated pin, 46.1 mm²")));
         assert_eq!(notes(&figures, NAME), ["no series road_distance"]);
     }
 

@@ -5,13 +5,13 @@
 const groups = [
     ["Contact area", ["contact_area", "contact_area_mean"]],
     ["Filled fraction and coverage", ["filled_fraction", "disc_secondary", "pin_primary", "pin_secondary", "pin_none"]],
-    ["Debris balance", ["worn_pin", "worn_resin", "worn_disc", "deposited_pin", "deposited_disc", "emitted", "pool", "returned"]],
+    ["Debris balance of the simulated pin", ["worn_pin", "worn_resin", "worn_disc", "deposited_pin", "deposited_disc", "emitted", "pool", "returned"]],
     ["Contact pressure", ["mean_pressure", "max_pressure"]],
     ["Coefficient of friction", ["friction_coefficient", "friction_coefficient_mean"]],
     ["Temperature", ["contact_temperature", "disc_temperature", "pin_temperature"]],
     ["Temperature of the cells of the pin", ["contact_temperature_heated", "contact_temperature_max"]],
-    ["Work of friction and heat lost", ["friction_work", "heat_lost"]],
-    ["Emitted and airborne mass", ["emitted_mass", "pm10_mass", "pm25_mass"]],
+    ["Work of friction and heat lost, of the simulated pin", ["friction_work", "heat_lost"]],
+    ["Emitted and airborne mass, of the simulated pin", ["emitted_mass", "pm10_mass", "pm25_mass"]],
     ["Roughness of the disc", ["disc_sa", "disc_sq"]],
     ["Roughness of the pin", ["pin_sa", "pin_sq"]],
 ];
