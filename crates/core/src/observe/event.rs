@@ -208,7 +208,8 @@ impl EventLog {
             && (planned.event.end.time != record.end || planned.last != last.step)
         {
             *begun = Some(last.begun);
-            (records.pop(), ended.pop());
+            records.pop();
+            ended.pop();
         }
     }
 

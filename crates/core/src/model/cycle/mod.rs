@@ -282,8 +282,12 @@ impl Cycle {
         let round = (((number as f64 * step - slack) / self.angle).ceil() - 1.0).clamp(0.0, (self.rounds - 1) as f64);
         let angle = self.angle_in_round(number, step, round as u64);
         let found = self.intervals.partition_point(|interval| interval.angle < angle - slack);
-        let interval = found.min(self.intervals.len() - 1);
-        Place { round: round as u64, interval, time: self.intervals[interval].time_to(angle) }
+        let place = found.min(self.intervals.len() - 1);
+        let interval = &self.intervals[place];
+        // Where it hardly turns any more, little of an angle is much of time.
+        let has_ended = interval.angle - angle <= Self::rounding(number as f64 * step);
+        let time = if has_ended { interval.length() } else { interval.time_to(angle) };
+        Place { round: round as u64, interval: place, time }
     }
 
     /// By how much so many steps of angle `step` (rad) turn the disc beyond so many whole rounds, rad: both products are taken with

@@ -57,20 +57,18 @@ impl Exchange {
     /// Of nodes with these capacities (J/K), with what stays in them.
     fn new(
         capacity: &[f64; NODES],
-        mut given: [[f64; NODES]; NODES],
+        given: [[f64; NODES]; NODES],
         lost: [f64; NODES],
         heated: Excess,
         lost_of_power: f64,
     ) -> Self {
-        for node in 0..NODES {
-            given[node][node] = 0.0;
-            for other in 0..node {
-                // The same in both directions, also as it is rounded.
-                given[node][other] = given[other][node];
-            }
-        }
-        for node in 0..NODES {
-            given[node][node] = (capacity[node] - given[node].iter().sum::<f64>() - lost[node]).max(0.0);
+        // The same in both directions, also as it is rounded.
+        let one_way = |node: usize, other: usize| given[node.min(other)][node.max(other)];
+        let mut given: [[f64; NODES]; NODES] = std::array::from_fn(|node| {
+            std::array::from_fn(|other| if other == node { 0.0 } else { one_way(node, other) })
+        });
+        for (node, given) in given.iter_mut().enumerate() {
+            given[node] = (capacity[node] - given.iter().sum::<f64>() - lost[node]).max(0.0);
         }
         Self { given, lost, heated, lost_of_power }
     }

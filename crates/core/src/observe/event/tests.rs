@@ -90,3 +90,49 @@ fn a_log_that_was_kept_within_an_event_goes_on() {
     }
     assert_eq!(stopped.progress(), whole.progress());
 }
+
+/// Event 1 has 20.4 steps, event 2 less than one: a run that ends after both has 20, so that a pause ends each within a step that is not
+/// taken; in a longer run the 21st is that of event 1.
+#[test]
+fn events_that_end_within_a_step_that_is_not_taken_have_the_account_of_their_pause() {
+    let mesh = crate::model::mesh::Mesh::new(1, 2, 1, 1.0, 3.0).unwrap();
+    let parameters = Parameters { mesh, ..Parameters::paper() };
+    let rows = [
+        (0.0, 1.0),
+        (1.02, 1.0),
+        (1.02, 0.0),
+        (2.0, 0.0),
+        (2.0, 1.0),
+        (2.01, 1.0),
+        (2.01, 0.0),
+        (3.0, 0.0),
+        (3.0, 1.0),
+        (3.5, 1.0),
+    ];
+    let nodes = rows.map(|(time, force)| Node::new(time, force, 10.0 * TAU));
+    let cycle = Cycle::new(&nodes, Interpolation::Linear, 1).unwrap();
+    let log =
+        |until: f64| EventLog::new(&parameters, Some(&cycle), until, cycle.steps_done(until, parameters.step_angle()));
+    let (mut whole, mut short) = (log(3.5), log(2.5));
+    let closing = short.closing(20).map(|moment| (moment.step, moment.time, moment.pause));
+    assert_eq!(closing, Some((20, 1.02, Some(crate::model::cycle::Kind::Lifted))));
+    assert!(whole.closing(20).is_none());
+    for step in [1, 20] {
+        whole.note(&sample(step));
+        short.note(&sample(step));
+    }
+    let [first, second] = short.progress().records[..] else { panic!("{short:?}") };
+    assert_eq!((first.worn, first.temperature_peak), (20.0, 320.0));
+    assert!(second.worn == 0.0 && second.temperature_peak.is_nan() && second.contact_area_end.is_nan());
+    // Neither has ended for a run that goes on.
+    let mut longer = log(3.5);
+    longer.restore(short.progress().clone());
+    assert_eq!((longer.progress().records.len(), longer.next(20)), (0, Some(21)));
+    for step in [21, 22, 30] {
+        whole.note(&sample(step));
+        longer.note(&sample(step));
+    }
+    assert_eq!(format!("{:?}", longer.progress().records), format!("{:?}", whole.progress().records));
+    let worn: Vec<f64> = longer.progress().records.iter().map(|record| record.worn).collect();
+    assert_eq!(worn, [21.0, 0.0, 9.0]);
+}
