@@ -4,7 +4,7 @@
 use thiserror::Error;
 
 use super::drift::{Drift, OF_INTEREST, Trend, beside_a_line};
-use super::window_mean::Cumulative;
+use super::window_mean::{Cumulative, LEAST_PARTS};
 
 /// The fraction of the value at the end with which a run counts as run in.
 pub const RUN_IN: f64 = 0.9;
@@ -22,7 +22,9 @@ const BEYOND_RANGE: f64 = 0.25;
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 pub enum NotDefined {
     /// Too few samples or simulated revolutions.
-    #[error("not defined: the run has fewer than {LEAST_WINDOWS} samples or simulated revolutions")]
+    #[error(
+        "not defined: too few samples or simulated revolutions; {LEAST_WINDOWS} in the run and {LEAST_PARTS} in each quarter of its second half are needed"
+    )]
     TooShort,
     /// A sample has no value, or the last value is 0.
     #[error("not defined: it has samples without a value, or ends at 0")]

@@ -368,7 +368,9 @@ mod tests {
             "not defined: neither rises nor falls all along, it goes back by 75.0 % of its last value"
         );
         assert!(undefined(&line).starts_with("not defined: still rises at the end, by "), "{}", undefined(&line));
-        assert!(undefined(&line[..10]).starts_with("not defined: the run has fewer than 20 samples"));
+        assert!(
+            undefined(&line[..10]).starts_with("not defined: too few samples or simulated revolutions; 20 in the run")
+        );
     }
 
     #[test]
