@@ -6,7 +6,10 @@
 use std::f64::consts::PI;
 
 use crate::scenes::{Stream, WEAR_RATE, all_primary, primary_stiffness, wear_only};
-use plateau_core::model::parameters::{Integrator, Parameters};
+use plateau_core::model::mesh::Mesh;
+use plateau_core::model::parameters::{Integrator, Parameters, PlateauRules};
+use plateau_core::model::state::{Base, InitialSurfaces};
+use plateau_core::simulation::Simulation;
 
 /// Relative rounding of a sum over a few thousand cells, and of the load balance at tolerance 1e-12.
 const ROUNDING: f64 = 4e-12;
@@ -206,5 +209,64 @@ fn two_levels_in_permanent_contact_approach_exponentially() {
             // Heights up to 1e-5 m are rounded to 1e-21 m; the difference stays above 1e-8 m.
             assert!((difference - expected).abs() < 1e-18, "{difference:e}, expected {expected:e}");
         }
+    }
+}
+
+#[test]
+fn a_step_that_moves_litres_moves_them_all() {
+    // Closed form (model 4L): of four columns of a ring of 1 to 2 m two of resin touch and lose the wear height; all of it
+    // finds room behind them, where the disc is lower. That is more than a tenth of a litre in each column.
+    let mesh = Mesh::new(4, 4, 4, 1.0, 2.0).unwrap();
+    let wear_height = 0.2e-3;
+    let mut parameters = Parameters { mesh, normal_force: 1e6, ..Parameters::paper() };
+    parameters.materials.wear_height = wear_height;
+    let mesh = &parameters.mesh;
+    let by_column =
+        |heights: [f64; 4]| heights.iter().flat_map(|height| vec![*height; mesh.rows()]).collect::<Vec<_>>();
+    let surfaces = InitialSurfaces {
+        disc_height: by_column([-1e-3, 0.0, -1e-3, 0.0]),
+        pin_height: by_column([0.0; 4]),
+        pin_base: vec![Base::Resin; mesh.pin_cells()],
+    };
+    let mut simulation = Simulation::new(parameters.clone(), surfaces).unwrap();
+    simulation.advance().unwrap();
+    let sample = simulation.sample().unwrap();
+    let expected = PI * (4.0 - 1.0) / 2.0 * wear_height;
+    assert!((expected - 9.42e-4).abs() < 1e-6);
+    for (name, found) in [("worn", sample.worn_resin), ("deposited", sample.deposited_disc + sample.deposited_pin)] {
+        assert!((found / expected - 1.0).abs() < 1e-12, "{name}: {found:e}, expected {expected:e}");
+    }
+    assert!(sample.emitted.abs() < 1e-12 * expected, "{:e}", sample.emitted);
+    assert!(sample.balance_residual.abs() < 1e-12, "{:e}", sample.balance_residual);
+}
+
+#[test]
+fn a_film_that_is_worn_through_counts_to_its_last_digit() {
+    // Closed form (model 4P and 4.2): a cell of resin loses the wear height h; half of it comes upon the other cell of resin,
+    // the fraction β of that on the pin, for there is fibre ahead. When that cell touches it loses this film and no more,
+    // though its raw loss, all of the overlap, is 1e11 times as much.
+    let mesh = Mesh::new(1, 8, 3, 20e-3, 20.05e-3).unwrap();
+    let (pad_share, wear_height) = (1e-15, 1e-6);
+    let mut parameters = Parameters { mesh, plateaus: PlateauRules::pool(1.0), ..Parameters::paper() };
+    let area = parameters.mesh.area()[0];
+    parameters.plateaus.pad_share = pad_share;
+    parameters.integrator = Integrator::Exponential;
+    // An overlap of resin of half the wear height.
+    parameters.normal_force = 1e5 / parameters.foundation_height * area * 0.5e-6;
+    let materials = &mut parameters.materials;
+    materials.wear_height = wear_height;
+    materials.pin_primary.specific_wear_rate = 1e-3;
+    materials.pin_secondary = materials.pin_primary;
+    // Columns 0 and 2 of the pin are resin. Of the first three steps the second cell touches in two, then the first.
+    let surfaces = InitialSurfaces {
+        disc_height: [-20.0, 5.0, 0.0, -20.0, -20.0, -20.0, 50.0, -20.0].map(|height| height * 1e-6).to_vec(),
+        pin_height: vec![0.0, 1e-3, 0.0],
+        pin_base: vec![Base::Resin, Base::Primary, Base::Resin],
+    };
+    let mut simulation = Simulation::new(parameters, surfaces).unwrap();
+    for expected in [0.0, 0.0, pad_share * 0.5 * wear_height * area] {
+        simulation.advance().unwrap();
+        let found = simulation.sample().unwrap().worn_pin;
+        assert!((found - expected).abs() <= 1e-12 * expected, "{found:e}, expected {expected:e}");
     }
 }

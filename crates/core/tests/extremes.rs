@@ -10,14 +10,17 @@
 //! | its surfaces | [`surfaces`] |
 //! | what local debris keeps besides | [`local`] |
 //! | what came of it: residuals, overshoot, readings | [`outcome`] |
+//! | single steps against the plain model over twenty decades | [`scales`] |
 
 mod case;
 mod cases;
 mod local;
 mod outcome;
+mod scales;
 mod surfaces;
 
 use std::fs;
+use std::sync::Mutex;
 
 use case::Case;
 use outcome::Outcome;
@@ -25,6 +28,8 @@ use outcome::Outcome;
 const DOCUMENT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/stability.md");
 const BEGIN: &str = "<!-- extremes: made by the tests -->";
 const END: &str = "<!-- end of extremes -->";
+const SCALES: &str = "<!-- scales: made by the tests -->";
+const END_OF_SCALES: &str = "<!-- end of scales -->";
 const HEADER: &str = "| case | Π | steps | load residual | balance residual | overshoot | extra readings | expected | verdict |\n\
                       |---|---:|---:|---:|---:|---:|---:|---:|---:|\n";
 
@@ -38,12 +43,29 @@ fn every_case_keeps_its_bounds() {
     let outcomes: Vec<Outcome> = cases::all(most_steps()).into_iter().map(Outcome::of).collect();
     let failed: Vec<_> = outcomes.iter().filter(|outcome| !outcome.verdict.is_pass()).map(Outcome::row).collect();
     assert_eq!(failed, [[""; 0]; 0]);
+    let rows: String = outcomes.iter().map(|outcome| format!("| {} |\n", outcome.row().join(" | "))).collect();
+    update([BEGIN, END], &format!("{HEADER}{rows}"));
+}
+
+#[test]
+fn residuals_and_volumes_are_those_of_the_plain_model_over_twenty_decades() {
+    let scales = scales::all();
+    let wrong: Vec<_> = scales.iter().flat_map(|scale| &scale.wrong).collect();
+    assert_eq!(wrong, [""; 0]);
+    let rows: String = scales.iter().map(scales::Scale::row).collect();
+    update([SCALES, END_OF_SCALES], &format!("{}{rows}", scales::HEADER));
+}
+
+/// Writes a table of the document anew, if that is asked for.
+fn update([begin, end]: [&str; 2], table: &str) {
     if std::env::var_os("UPDATE_DOCS").is_some() {
-        let rows: String = outcomes.iter().map(|outcome| format!("| {} |\n", outcome.row().join(" | "))).collect();
+        // Tests run at the same time.
+        static WRITES: Mutex<()> = Mutex::new(());
+        let _turn = WRITES.lock();
         let document = fs::read_to_string(DOCUMENT).expect("docs/stability.md");
-        let (before, rest) = document.split_once(BEGIN).expect("the place of the table");
-        let (_, after) = rest.split_once(END).expect("the end of the table");
-        fs::write(DOCUMENT, format!("{before}{BEGIN}\n\n{HEADER}{rows}\n{END}{after}")).expect("docs/stability.md");
+        let (before, rest) = document.split_once(begin).expect("the place of the table");
+        let (_, after) = rest.split_once(end).expect("the end of the table");
+        fs::write(DOCUMENT, format!("{before}{begin}\n\n{table}\n{end}{after}")).expect("docs/stability.md");
     }
 }
 

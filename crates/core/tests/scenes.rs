@@ -12,6 +12,7 @@ use plateau_core::model::mesh::Mesh;
 use plateau_core::model::outline::{Outline, columns_of_disc};
 use plateau_core::model::parameters::{DebrisRule, Integrator, Parameters, PlateauRules};
 use plateau_core::model::state::{Base, InitialSurfaces};
+use plateau_core::observe::Sample;
 use plateau_core::simulation::Simulation;
 
 /// How much of a test that repeats itself is done: `few` as it goes without saying, `all` with `PLATEAU_LONG=1`.
@@ -34,6 +35,15 @@ pub fn primary_stiffness(parameters: &Parameters) -> f64 {
     // Written out anew from model 4.1, not taken from the program.
     let compliance = (1.0 - 0.27 * 0.27) / 1e9 + (1.0 - 0.27 * 0.27) / 1e11;
     1.0 / (compliance * parameters.foundation_height)
+}
+
+/// Share of the worn volume that the rounding of heights of this size (m) explains: each step rounds the heights of the pin
+/// and of the disc under it, once for wear and once for a deposit, and those of the whole disc are added up.
+pub fn balance_rounding(parameters: &Parameters, highest: f64, sample: &Sample) -> f64 {
+    let mesh = &parameters.mesh;
+    let area = 2.0 * mesh.pin_area() * sample.step as f64 + mesh.disc_area() + mesh.pin_area();
+    let worn = sample.worn_pin + sample.worn_resin + sample.worn_disc;
+    if worn > 0.0 { f64::EPSILON * highest * area / worn } else { 0.0 }
 }
 
 /// A pin of fibre alone with these heights on a disc with these heights.

@@ -4,7 +4,7 @@
 //! written to a temporary file that is complete on the disk before it gets its name; so one of them always holds.
 //!
 //! ```text
-//! magic    16 bytes: "plateau state 6\n"
+//! magic    16 bytes: "plateau state 7\n"
 //! length   8 bytes: of what follows but for the digest, the least first
 //! content  the state, in the encoding of the crate postcard 1
 //! digest   32 bytes: SHA-256 of the content
@@ -29,7 +29,7 @@ use crate::temporary::Temporary;
 use crate::{memory, regular};
 
 /// How every checkpoint begins.
-const MAGIC: &[u8; 16] = b"plateau state 6\n";
+const MAGIC: &[u8; 16] = b"plateau state 7\n";
 /// Bytes before the content.
 const HEAD: u64 = 16 + 8;
 /// How those of every version do.

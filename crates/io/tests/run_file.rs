@@ -72,10 +72,10 @@ fn a_finished_run_has_fixed_dimensions_and_a_map_that_never_changes_once() {
             // It changes once.
             (Map::PinSubstrate, MapValues::Float(pins[if moment < 19 { 0..pin } else { pin..2 * pin }].to_vec())),
         ];
-        writer.snapshot(Snapshot { time: f64::from(moment), maps }).unwrap();
-        writer.sample(sample(moment as u64 + 1)).unwrap();
+        writer.snapshot(Snapshot { time: moment as f64, maps }).unwrap();
+        writer.sample(sample(moment + 1)).unwrap();
     }
-    writer.finish(&End::Finished, &[]).unwrap();
+    writer.finish(&End::Finished, &[], None).unwrap();
 
     let file = hdf5::File::open(&path).unwrap();
     let of = |name: &str| file.dataset(name).unwrap();

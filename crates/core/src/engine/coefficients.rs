@@ -77,6 +77,20 @@ impl Coefficients {
         tables
     }
 
+    /// The largest loss of pin and disc per overlap that any pair can have: that of what is there, or of what lies below.
+    pub fn largest_losses(&self) -> [f64; 2] {
+        let largest = |own: &Table, below: &Table| {
+            let pairs = own.iter().flatten().zip(below.iter().flatten());
+            pairs.map(|(own, below)| own * below.max(1.0)).fold(0.0, f64::max)
+        };
+        [largest(&self.pin, &self.fibre), largest(&self.disc, &self.coating)]
+    }
+
+    /// The largest loss of pin and disc together per overlap.
+    pub fn largest_loss(&self) -> f64 {
+        self.largest_losses().into_iter().sum()
+    }
+
     /// k A of the softest pair with a plateau of the pin, N/m.
     pub fn least_plateau_stiffness(&self) -> f64 {
         let plateaus = StatusPair::all().filter(|(pin, _)| *pin != Status::Resin);

@@ -7,10 +7,11 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::engine::exact::{Weights, float};
-use crate::engine::kernel::{Bracket, NearPair};
+use crate::engine::coefficients::StatusPair;
+use crate::engine::exact::float;
+use crate::engine::kernel::{Bracket, NearPair, PLATEAU};
 use crate::engine::strips::REACH;
-use crate::engine::sums::{PairSums, RowWeights, Sums};
+use crate::engine::sums::{PairSums, RawLoss, RowWeights, Sums};
 use crate::model::ContactError;
 use crate::model::friction::{ContactSums, StatusContact};
 use crate::model::material::Status;
@@ -33,10 +34,21 @@ pub struct PoolContact {
     pub area: i128,
     /// Σ A over bare resin in contact, in units of the area.
     pub resin_area: i128,
-    /// Raw volume that plateaus of the pin lose, m³.
-    pub pin_loss: f64,
-    /// Raw volume that the disc loses, m³.
+    /// Raw volume that plateaus of the pin lose; only where build-up has the properties of what it lies on.
+    pub pin_loss: RawLoss,
+    /// Raw volume that the disc loses, m³; only there, too.
     pub disc_loss: f64,
+}
+
+/// What all cells carry at a displacement.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Carried {
+    /// δ, m.
+    pub displacement: f64,
+    /// Σ k A u by pair, N.
+    pub loads: [f64; StatusPair::COUNT],
+    /// |Σ k A u − F_N| / F_N.
+    pub residual: f64,
 }
 
 /// The contact of one step: the displacement that carries the load, and what touches there.
@@ -48,8 +60,14 @@ pub struct Contact {
     load: f64,
     /// Σ k A over cells in contact, N/m.
     slope: f64,
-    /// |Σ k A u − F_N| / F_N.
+    /// What the rounding of the overlaps may hide of the load, N.
+    doubt: f64,
+    /// |Σ k A u − F_N| / F_N, and what that may hide of it.
     residual: f64,
+    /// δ above the lower end of the bracket, m.
+    above: f64,
+    /// Of which overlaps at the lower end are multiples, m.
+    quantum: f64,
     /// By pool.
     pools: Vec<PoolContact>,
     /// What a unit of the area is worth, m².
@@ -66,7 +84,10 @@ impl Contact {
             displacement: None,
             load: 0.0,
             slope: 0.0,
+            doubt: 0.0,
             residual: 0.0,
+            above: 0.0,
+            quantum: 0.0,
             pools: vec![PoolContact::default(); weights.pools()],
             area_unit: weights.area.unit(),
         }
@@ -89,7 +110,8 @@ impl Contact {
         bracket: &Bracket,
         normal_force: f64,
     ) -> Result<Verdict, ContactError> {
-        let (low_load, low_slope) = load_at_low(weights, sums, bracket);
+        let at_low = load_at_low(weights, sums, bracket);
+        let (low_load, low_slope, _) = at_low;
         let low = bracket.low;
         // Beyond, what fills up the strips would touch, too.
         if !(low_load.is_finite() && low.abs() + bracket.width < REACH) {
@@ -118,13 +140,11 @@ impl Contact {
         }
         let displacement = solution(at, load, slope);
         if displacement - low < bracket.width {
-            (self.load, self.slope) = (low_load + low_slope * (displacement - low), low_slope);
-            self.settle(weights, sums, near, bracket, displacement);
+            self.settle(weights, sums, near, bracket, displacement, at_low);
             if self.slope == 0.0 {
                 return Err(ContactError::NotCarried { displacement, normal_force });
             }
-            self.residual = ((self.load - normal_force) / normal_force).abs();
-            self.displacement = Some(displacement);
+            self.residual = ((self.load - normal_force).abs() + self.doubt) / normal_force;
             return Ok(Verdict::Solved);
         }
         if !displacement.is_finite() {
@@ -136,9 +156,39 @@ impl Contact {
         Ok(Verdict::Between(high, displacement + (step / 1024.0).max(rounding(high, displacement, bracket))))
     }
 
+    /// Takes the contact at a displacement near that of the sums, of which the loads are known better than by them.
+    pub fn refine(
+        &mut self,
+        weights: &RowWeights,
+        sums: &Sums,
+        near: &[NearPair],
+        bracket: &Bracket,
+        carried: &Carried,
+    ) {
+        let Carried { displacement, loads, residual } = carried;
+        self.settle(weights, sums, near, bracket, *displacement, load_at_low(weights, sums, bracket));
+        (self.load, self.residual) = (loads.iter().sum(), *residual);
+        if let Some(statuses) = &mut self.statuses {
+            statuses.iter_mut().for_each(|status| status.load = 0.0);
+            let pairs = loads.iter().enumerate();
+            pairs.for_each(|(pair, load)| statuses[usize::from(status_of(pair))].load += load);
+        }
+    }
+
     /// Takes the sums from the lower end of the bracket to the displacement.
-    fn settle(&mut self, weights: &RowWeights, sums: &Sums, near: &[NearPair], bracket: &Bracket, displacement: f64) {
+    fn settle(
+        &mut self,
+        weights: &RowWeights,
+        sums: &Sums,
+        near: &[NearPair],
+        bracket: &Bracket,
+        displacement: f64,
+        at_low: (f64, f64, f64),
+    ) {
         let above = displacement - bracket.low;
+        (self.displacement, self.above, self.quantum) = (Some(displacement), above, bracket.quantum.value());
+        (self.load, self.slope, self.doubt) = at_low;
+        self.load += self.slope * above;
         self.settle_statuses(weights, sums, near, bracket, displacement);
         for (contact, sums) in self.pools.iter_mut().zip(&sums.pools) {
             *contact = PoolContact::default();
@@ -151,13 +201,14 @@ impl Contact {
                 if is_bare_resin(*pair) {
                     contact.resin_area += sums.area;
                 }
-                let loss = |low: i128, rate: i128, weights: &Weights| {
-                    (float(low) * bracket.quantum.value() + float(rate) * above) * weights.unit()
-                };
-                contact.pin_loss += loss(sums.pin_loss, sums.pin_loss_rate, &weights.pin_loss[*pair]);
-                contact.disc_loss += loss(sums.disc_loss, sums.disc_loss_rate, &weights.disc_loss[*pair]);
+                if *pair == PLATEAU {
+                    contact.pin_loss = RawLoss { low: sums.pin_loss, rate: sums.pin_loss_rate, ..contact.pin_loss };
+                }
+                let loss = float(sums.disc_loss) * bracket.quantum.value() + float(sums.disc_loss_rate) * above;
+                contact.disc_loss += loss * weights.disc_loss[*pair].unit();
             }
         }
+        let distinct = weights.needs.distinct;
         for near in near.iter().take_while(|near| near.gap < displacement) {
             let (pair, row) = (usize::from(near.pair), near.row as usize);
             let overlap = displacement - near.gap;
@@ -167,8 +218,12 @@ impl Contact {
             if is_bare_resin(pair) {
                 contact.resin_area += area;
             }
-            contact.pin_loss += weights.pin_loss[pair].value(row) * overlap;
-            contact.disc_loss += weights.disc_loss[pair].value(row) * overlap;
+            if !distinct {
+                if pair == PLATEAU {
+                    contact.pin_loss.near.add(weights.near_loss(row, overlap));
+                }
+                contact.disc_loss += weights.disc_loss[pair].value(row) * overlap;
+            }
             self.load += weights.stiffness_of(near) * overlap;
             self.slope += weights.stiffness_of(near);
         }
@@ -231,22 +286,43 @@ impl Contact {
         if self.slope > 0.0 { self.load / self.slope } else { 0.0 }
     }
 
-    /// |Σ k A u − F_N| / F_N of the last balance.
+    /// Raw volume that plateaus of the pin lose, m³, where all have the same properties, less what others would have lost.
+    pub fn raw_loss(&self, weights: &RowWeights, all: &RawLoss, less: &RawLoss) -> f64 {
+        let mut near = all.near;
+        near.subtract(less.near);
+        let low = float(all.low - less.low) * self.quantum + float(all.rate - less.rate) * self.above;
+        low * weights.pin_loss[PLATEAU].unit() + weights.volume.value(near)
+    }
+
+    /// What the rounding of the overlaps may hide of the load, N.
+    pub fn doubt(&self) -> f64 {
+        self.doubt
+    }
+
+    /// Σ k A over cells in contact, N/m.
+    pub fn slope(&self) -> f64 {
+        self.slope
+    }
+
+    /// |Σ k A u − F_N| / F_N of the last balance, and what the rounding of the overlaps may hide of it.
     pub fn residual(&self) -> f64 {
         self.residual
     }
 }
 
-/// Σ k A (low − g)₊ and its slope.
-fn load_at_low(weights: &RowWeights, sums: &Sums, bracket: &Bracket) -> (f64, f64) {
-    let (mut load, mut slope) = (0.0, 0.0);
+/// Σ k A (low − g)₊, its slope, and what the rounding of the overlaps may hide of it: four standard deviations of what so
+/// many roundings of up to half a quantum carry.
+fn load_at_low(weights: &RowWeights, sums: &Sums, bracket: &Bracket) -> (f64, f64, f64) {
+    let (mut load, mut slope, mut squares) = (0.0, 0.0, 0.0);
     for pair in weights.pairs {
         let all = |sum: fn(&PairSums) -> i128| float(sums.pools.iter().map(|pool| sum(&pool.pairs[*pair])).sum());
         let unit = weights.stiffness[*pair].unit();
         load += all(|sums| sums.load) * (unit * bracket.quantum.value());
-        slope += all(|sums| sums.stiffness) * unit;
+        let stiffness = all(|sums| sums.stiffness) * unit;
+        slope += stiffness;
+        squares += weights.largest_stiffness[*pair] * stiffness;
     }
-    (load, slope)
+    (load, slope, 4.0 * bracket.quantum.value() * (squares / 12.0).sqrt())
 }
 
 /// Whether the pin of a pair is bare resin.

@@ -44,26 +44,32 @@ impl Totals {
         self.emitted.add(moved.emitted);
     }
 
-    /// (worn + returned − deposited − emitted − pool) / worn with this much (m³) in the pools; 0 if nothing is worn.
-    pub fn balance_residual(&self, pool: f64) -> f64 {
+    /// Of the worn volume the share that is missing, with this much (m³) in the pools, and `lost` (m³) the volume that the
+    /// heights of both surfaces say has gone; 0 if nothing is worn. The larger of what lacks in the account, worn + returned
+    /// − deposited − emitted − pool, and of what it has lost more than the surfaces, worn + returned − deposited − lost.
+    pub fn balance_residual(&self, pool: f64, lost: f64) -> f64 {
         let worn = self.worn_pin.value() + self.worn_resin.value() + self.worn_disc.value();
         if worn == 0.0 {
             return 0.0;
         }
-        let mut rest = RunningSum::default();
-        for term in [
-            self.worn_pin.value(),
-            self.worn_resin.value(),
-            self.worn_disc.value(),
-            self.returned.value(),
-            -self.deposited_pin.value(),
-            -self.deposited_disc.value(),
-            -self.emitted.value(),
-            -pool,
-        ] {
-            rest.add(term);
-        }
-        rest.value() / worn
+        let rest = |gone: [f64; 2]| {
+            let mut rest = RunningSum::default();
+            for term in [
+                self.worn_pin.value(),
+                self.worn_resin.value(),
+                self.worn_disc.value(),
+                self.returned.value(),
+                -self.deposited_pin.value(),
+                -self.deposited_disc.value(),
+                -gone[0],
+                -gone[1],
+            ] {
+                rest.add(term);
+            }
+            rest.value() / worn
+        };
+        let (account, surfaces) = (rest([self.emitted.value(), pool]), rest([lost, 0.0]));
+        if surfaces.abs() > account.abs() { surfaces } else { account }
     }
 }
 
@@ -88,13 +94,15 @@ pub struct Debris {
     needs: Needs,
     /// h_m, m.
     wear_height: f64,
-    columns: usize,
+    /// Terms that a sum of a row may have: the columns of the pin, more if there are so many rows that the sums of all of
+    /// them would not fit 127 bits.
+    terms: usize,
     /// Σ A of the pin cells of each pool, in units of the area.
     pool_area: Vec<i128>,
     /// What a unit of the area is worth, m².
     area_unit: f64,
-    /// Power of two that is above any loss per overlap.
-    loss_exponent: i32,
+    /// The largest loss of pin or disc per overlap.
+    largest_loss: f64,
     /// What of the loss of a pair of plateaus may be compacted, per overlap.
     largest_deposit: f64,
     /// M, m³: one pool, or one per row.
@@ -105,8 +113,14 @@ pub struct Debris {
     share: Vec<Chunk>,
     /// Of which the deposits of the step are counted as multiples.
     deposit_quantum: Quantum,
+    /// Of which losses of the step are counted as multiples, and what that leaves of them; only where build-up has
+    /// properties of its own.
+    loss_quanta: [Quantum; 2],
     totals: Totals,
 }
+
+/// Rows of which each may have sums of 116 bits.
+const ROWS: usize = 1 << 10;
 
 impl Debris {
     /// Empty pools.
@@ -124,23 +138,24 @@ impl Debris {
             pad_share: rules.pad_share,
             needs: Needs::of(parameters),
             wear_height: parameters.materials.wear_height,
-            columns: mesh.pin_columns(),
+            terms: mesh.pin_columns().saturating_mul(mesh.rows().div_ceil(ROWS)),
             pool_area: (0..weights.pools()).map(area_of).collect(),
             area_unit: weights.area.unit(),
-            loss_exponent: loss_exponent(coefficients),
-            largest_deposit: rules.captured_fraction * largest_loss(coefficients),
+            largest_loss: largest_loss(coefficients),
+            largest_deposit: rules.captured_fraction * coefficients.largest_loss(),
             pools: vec![RunningSum::default(); weights.pools()],
             pool_share: vec![0.0; weights.pools()],
             share: vec![Chunk([0.0; LANES]); strips(mesh.rows())],
             deposit_quantum: Quantum::of(0.0, 1),
+            loss_quanta: [Quantum::of(0.0, 1); 2],
             totals: Totals::default(),
         }
     }
 
     /// Takes over the coefficients of another acceleration.
     pub fn set_coefficients(&mut self, coefficients: &Coefficients) {
-        self.loss_exponent = loss_exponent(coefficients);
-        self.largest_deposit = self.captured_fraction * largest_loss(coefficients);
+        self.largest_loss = largest_loss(coefficients);
+        self.largest_deposit = self.captured_fraction * coefficients.largest_loss();
     }
 
     /// What the pools hold, and what went through them.
@@ -153,10 +168,14 @@ impl Debris {
         (self.pools, self.totals) = (pools, totals);
     }
 
-    /// Makes ready for the deposits of a step in whose contact no overlap is more than `largest_overlap` (m).
+    /// Makes ready for the losses and deposits of a step in whose contact no overlap is more than `largest_overlap` (m).
     pub fn prepare(&mut self, contact: &Contact, largest_overlap: f64) {
+        if self.needs.distinct {
+            let coarse = Quantum::of(self.largest_loss * largest_overlap, self.terms);
+            self.loss_quanta = [coarse, Quantum::of(coarse.value(), self.terms)];
+        }
         if self.needs.local {
-            self.deposit_quantum = Quantum::of(self.largest_deposit * largest_overlap, self.columns);
+            self.deposit_quantum = Quantum::of(self.largest_deposit * largest_overlap, self.terms);
         } else if self.needs.forms {
             self.spread(contact);
         }
@@ -179,7 +198,7 @@ impl Debris {
                 }
             }
         }
-        self.deposit_quantum = Quantum::of(largest, self.columns);
+        self.deposit_quantum = Quantum::of(largest, self.terms);
     }
 
     /// s of every row, m: the height of debris that is at hand for each cell that does not touch.
@@ -192,29 +211,35 @@ impl Debris {
         self.deposit_quantum
     }
 
-    /// Of which losses are counted as multiples where overlaps are multiples of `overlaps`.
-    pub fn loss_quantum(&self, overlaps: Quantum) -> Quantum {
-        overlaps.coarser(self.loss_exponent)
+    /// Of which this step's losses are counted as multiples, and what that leaves of them.
+    pub fn loss_quanta(&self) -> [Quantum; 2] {
+        self.loss_quanta
     }
 
     /// Books one step: M ← M + η worn + returned − deposited, emitted += (1 − η) worn, for each pool; with local debris
     /// emitted += worn − deposited, and there is no pool.
     ///
-    /// What wears follows from the contact, less what cells were spared whose build-up was worn through; what is
-    /// compacted is the even deposit on every open cell, and what some got beyond it. Where every open cell got the whole
+    /// What plateaus lose follows from the contact, less the raw loss of build-up on resin that was worn through, which lost
+    /// itself instead; where build-up has properties of its own, all losses were counted. What is compacted is the even deposit on every open cell, and what some got beyond it. Where every open cell got the whole
     /// share, the pool has given all.
     ///
     /// Returns what the step moved.
-    pub fn settle(&mut self, contact: &Contact, sums: &Sums, losses: Quantum) -> Volumes {
+    pub fn settle(&mut self, weights: &RowWeights, contact: &Contact, sums: &Sums) -> Volumes {
         let mut all = Volumes::default();
-        for (index, (contact, sums)) in contact.pools().iter().zip(&sums.pools).enumerate() {
-            let mut worn_pin = contact.pin_loss;
-            let worn_resin = self.wear_height * (float(contact.resin_area) * self.area_unit);
-            let mut worn_disc = contact.disc_loss;
+        let volume = |sum| weights.volume.value(sum);
+        for (index, (touching, sums)) in contact.pools().iter().zip(&sums.pools).enumerate() {
+            let worn_resin = self.wear_height * (float(touching.resin_area) * self.area_unit);
+            let [worn_pin, worn_disc] = if self.needs.distinct {
+                let parts = |counts: [i128; 2]| [0, 1].map(|size| float(counts[size]) * self.loss_quanta[size].value());
+                [sums.lost_pin, sums.lost_disc].map(|counts| parts(counts).iter().sum::<f64>() * self.area_unit)
+            } else {
+                let raw = contact.raw_loss(weights, &touching.pin_loss, &sums.raw_through);
+                [raw + volume(sums.worn_through), touching.disc_loss]
+            };
             let mut emptied = false;
             let (mut returned, mut deposited_pin, mut deposited_disc) = (0.0, 0.0, 0.0);
             if self.needs.forms {
-                let open = self.pool_area[index] - contact.area;
+                let open = self.pool_area[index] - touching.area;
                 let share = self.pool_share[index];
                 let even_on_pin = share * self.pad_share;
                 let deposited = |even: f64, beyond: i128| {
@@ -223,16 +248,10 @@ impl Debris {
                 };
                 deposited_pin = deposited(even_on_pin, sums.deposited_pin);
                 deposited_disc = deposited(share - even_on_pin, sums.deposited_disc);
-                deposited_pin += sums.deposited_pin_of_resin.value();
-                deposited_disc += sums.deposited_disc_of_resin.value();
+                deposited_pin += volume(sums.deposited_pin_of_resin);
+                deposited_disc += volume(sums.deposited_disc_of_resin);
                 emptied = self.local || (open > 0 && !sums.limited);
-                worn_pin -= sums.spared_resin.value();
-                returned = sums.returned.value();
-            }
-            if self.needs.distinct {
-                let spared = |sum: i128| float(sum) * (self.area_unit * losses.value());
-                worn_pin -= spared(sums.spared_pin);
-                worn_disc -= spared(sums.spared_disc);
+                returned = volume(sums.returned);
             }
 
             let [captured, emitted] = match self.local {
@@ -279,25 +298,33 @@ impl Debris {
         &self.totals
     }
 
-    /// (worn + returned − deposited − emitted − pool) / worn; 0 if nothing is worn.
-    pub fn balance_residual(&self) -> f64 {
-        self.totals.balance_residual(self.pool())
+    /// Of the worn volume the share that is missing: see [`Totals::balance_residual`].
+    pub fn balance_residual(&self, lost: f64) -> f64 {
+        self.totals.balance_residual(self.pool(), lost)
     }
 }
 
-/// Power of two that is above any loss per overlap.
-fn loss_exponent(coefficients: &Coefficients) -> i32 {
-    let [pin, disc] = largest_losses(coefficients);
-    let largest = pin.max(disc);
-    if largest > 0.0 { libm::ilogb(largest).saturating_add(1) } else { 0 }
-}
-
-/// What a pair of plateaus loses per overlap, at most.
+/// The largest loss of pin or disc per overlap.
 fn largest_loss(coefficients: &Coefficients) -> f64 {
-    largest_losses(coefficients).into_iter().sum()
+    let [pin, disc] = coefficients.largest_losses();
+    pin.max(disc)
 }
 
-/// The largest loss of pin and disc per overlap.
-fn largest_losses(coefficients: &Coefficients) -> [f64; 2] {
-    [&coefficients.pin, &coefficients.disc].map(|table| table.iter().flatten().copied().fold(0.0, f64::max))
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_balance_sees_what_the_account_cannot() {
+        // 3 of 4 m³ worn are deposited, the rest is emitted: the account is right by itself. Heights say whether it is true.
+        let mut totals = Totals::default();
+        totals.add(&Volumes { worn_pin: 4.0, deposited_disc: 3.0, emitted: 1.0, ..Volumes::default() });
+        assert_eq!(totals.balance_residual(0.0, 1.0), 0.0);
+        // As if a sum of deposits had lost 2 m³ that are on the disc: surfaces lost less than the account says.
+        let mut wrapped = Totals::default();
+        wrapped.add(&Volumes { worn_pin: 4.0, deposited_disc: 1.0, emitted: 3.0, ..Volumes::default() });
+        assert_eq!(wrapped.balance_residual(0.0, 1.0), 0.5);
+        // What the account itself lacks, it sees as before.
+        assert_eq!(totals.balance_residual(1.0, 1.0), -0.25);
+    }
 }

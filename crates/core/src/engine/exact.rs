@@ -2,6 +2,8 @@
 
 use std::ops::Range;
 
+use serde::{Deserialize, Serialize};
+
 use crate::engine::lanes::{IntegerChunk, LANES};
 
 /// An integer for every row, in chunks.
@@ -25,41 +27,68 @@ impl RowIntegers {
     }
 }
 
-/// An area or volume as an integer of 2^−BITS m² or m³, below 2^(127−BITS) of them: sums of such are exact.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct Exact<const BITS: i32>(i128);
+/// A power of two: areas, volumes or loads that are multiples of it add up exactly, in any order.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Unit {
+    exponent: i32,
+}
 
-/// Volumes that one step moves, m³.
-pub type StepVolume = Exact<140>;
-/// Areas and volumes of the whole ring, m² and m³.
-pub type RingSum = Exact<110>;
+/// Bits by which sums may grow beyond what a scene has at its start.
+const SPARE_BITS: i32 = 12;
+/// Bits of the largest size of a sum.
+const BITS: i32 = 126;
 
-impl<const BITS: i32> Exact<BITS> {
-    /// The value to the last whole unit.
+impl Unit {
+    /// 2^`finest`, or what is so much coarser that a sum may be 2^12 times as large as `size`.
+    pub fn new(finest: i32, size: f64) -> Self {
+        let needed = if size > 0.0 { libm::ilogb(size).saturating_add(1 + SPARE_BITS - BITS) } else { finest };
+        // 2^126 of the coarsest is still a number.
+        Self { exponent: needed.clamp(finest, 800) }
+    }
+
+    /// A value to the last whole unit.
     #[inline]
-    pub fn of(value: f64) -> Self {
+    pub fn exact(self, value: f64) -> ExactSum {
         // Mantissa and exponent: a conversion of the product would be a call of a routine.
         let bits = value.abs().to_bits();
         let exponent = (bits >> 52) as i32;
         let mantissa = i128::from((bits & ((1 << 52) - 1)) | u64::from(exponent > 0) << 52);
-        let shift = exponent.max(1) - 1075 + BITS;
-        let size = if shift >= 0 { mantissa << shift.min(74) } else { mantissa >> (-shift).min(127) };
-        Self(if value < 0.0 { -size } else { size })
+        let shift = exponent.max(1) - 1075 - self.exponent;
+        if shift > BITS - 53 && mantissa > 0 {
+            return ExactSum::OUT_OF_RANGE;
+        }
+        let size = if shift >= 0 { mantissa << shift.min(BITS) } else { mantissa >> (-shift).min(BITS) };
+        ExactSum(if value < 0.0 { -size } else { size })
     }
+
+    /// The double-precision number nearest to a sum; infinite where that is out of range.
+    pub fn value(self, sum: ExactSum) -> f64 {
+        if sum == ExactSum::OUT_OF_RANGE { f64::INFINITY } else { libm::ldexp(float(sum.0), self.exponent) }
+    }
+}
+
+/// A sum of whole [`Unit`]s. One that has left its range stays out of it, and is infinite.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+pub struct ExactSum(i128);
+
+impl ExactSum {
+    const OUT_OF_RANGE: Self = Self(i128::MIN);
 
     /// Adds another.
     pub fn add(&mut self, other: Self) {
-        self.0 = self.0.wrapping_add(other.0);
+        *self = self.with(other, i128::checked_add);
     }
 
     /// Takes another off.
     pub fn subtract(&mut self, other: Self) {
-        self.0 = self.0.wrapping_sub(other.0);
+        *self = self.with(other, i128::checked_sub);
     }
 
-    /// The nearest double-precision number.
-    pub fn value(self) -> f64 {
-        libm::ldexp(float(self.0), -BITS)
+    fn with(self, other: Self, operation: fn(i128, i128) -> Option<i128>) -> Self {
+        if self == Self::OUT_OF_RANGE || other == Self::OUT_OF_RANGE {
+            return Self::OUT_OF_RANGE;
+        }
+        operation(self.0, other.0).map_or(Self::OUT_OF_RANGE, Self)
     }
 
     /// The integer.
@@ -150,27 +179,57 @@ mod tests {
 
     #[test]
     fn exact_sums_do_not_depend_on_order() {
+        let unit = Unit::new(-140, 0.0);
         let terms = [1e-9, 3.3e-22, -1e-9, 7.25e-5, 1e-15, -7.25e-5];
         let sum = |terms: &mut dyn Iterator<Item = &f64>| {
-            let mut sum = StepVolume::default();
-            terms.for_each(|term| sum.add(Exact::of(*term)));
+            let mut sum = ExactSum::default();
+            terms.for_each(|term| sum.add(unit.exact(*term)));
             sum
         };
         let (forward, backward) = (sum(&mut terms.iter()), sum(&mut terms.iter().rev()));
         assert_eq!(forward, backward);
         // The exact sum of the terms is 1e-15 + 3.3e-22.
-        assert!((forward.value() / (1e-15 + 3.3e-22) - 1.0).abs() < 1e-14);
-        let mut negative = StepVolume::default();
+        assert!((unit.value(forward) / (1e-15 + 3.3e-22) - 1.0).abs() < 1e-14);
+        let mut negative = ExactSum::default();
         negative.subtract(forward);
-        assert_eq!(StepVolume::of_integer(negative.integer()), negative);
-        assert_eq!(negative.value(), -forward.value());
+        assert_eq!(ExactSum::of_integer(negative.integer()), negative);
+        assert_eq!(unit.value(negative), -unit.value(forward));
     }
 
     #[test]
     fn values_are_cut_to_whole_units() {
         for value in [0.0, 1.0, -1.0, 3.25e-5, -7.1e-19, 1.9e-36, 1e-50, f64::MIN_POSITIVE, 0.5 * f64::MIN_POSITIVE] {
             let unit = libm::ldexp(1.0, -110);
-            assert_eq!(RingSum::of(value).integer(), (value / unit).trunc() as i128, "{value:e}");
+            assert_eq!(Unit::new(-110, 0.0).exact(value).integer(), (value / unit).trunc() as i128, "{value:e}");
+        }
+    }
+
+    #[test]
+    fn the_range_of_a_sum_follows_the_scene() {
+        for size in [0.0, 1e-30, 1e-9, 3e-4, 1.0, 7e25, 1e200, 1e240] {
+            let unit = Unit::new(-140, size);
+            // 2^12 of what is there at the start, in some terms that powers of two are not.
+            let mut sum = ExactSum::default();
+            (0..4095).for_each(|_| sum.add(unit.exact(size)));
+            assert!((unit.value(sum) / (4095.0 * size) - 1.0).abs() < 1e-15 || size == 0.0, "{size:e}");
+            assert_eq!(unit == Unit::new(-140, 0.0), size < 7e-9, "{size:e}");
+        }
+    }
+
+    #[test]
+    fn a_sum_that_leaves_its_range_is_infinite_and_stays_so() {
+        let unit = Unit::new(-140, 0.0);
+        // 2^-14 m³ each, of which one is the largest power of two in the range.
+        let term = unit.exact(libm::ldexp(1.0, -14));
+        let mut sum = term;
+        assert_eq!(unit.value(sum), libm::ldexp(1.0, -14));
+        sum.add(term);
+        assert_eq!(unit.value(sum), f64::INFINITY);
+        sum.subtract(term);
+        sum.subtract(term);
+        assert_eq!(unit.value(sum), f64::INFINITY);
+        for value in [1.0, -1.0, f64::INFINITY, f64::NAN, 1e300] {
+            assert_eq!(unit.value(unit.exact(value)), f64::INFINITY, "{value}");
         }
     }
 

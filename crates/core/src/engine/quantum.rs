@@ -84,7 +84,13 @@ impl Quantum {
 
     /// A term in quanta.
     pub fn count(self, term: f64) -> i64 {
-        ((self.anchor + term).to_bits() as i64).wrapping_sub(self.anchor.to_bits() as i64)
+        self.count_difference(term, 0.0)
+    }
+
+    /// The difference to a multiple of the quantum, in quanta, with one rounding.
+    pub fn count_difference(self, multiple: f64, other: f64) -> i64 {
+        let anchored = (self.anchor + multiple) - other;
+        (anchored.to_bits() as i64).wrapping_sub(self.anchor.to_bits() as i64)
     }
 
     /// The nearest multiple of the quantum, of a number within [`Quantum::reach`].

@@ -7,11 +7,12 @@
 use std::ops::Range;
 
 use crate::engine::coefficients::{Coefficients, StatusPair, Table};
-use crate::engine::exact::{RowIntegers, StepVolume, Weights, of_words, product, words};
-use crate::engine::kernel::{Bracket, Moved, NearPair, Reading, told_apart};
+use crate::engine::exact::{ExactSum, RowIntegers, Unit, Weights, of_words, product, words};
+use crate::engine::kernel::{Bracket, Moved, NearPair, PLATEAU, Reading, told_apart};
 use crate::engine::parts::Needs;
 use crate::model::mesh::Mesh;
 use crate::model::parameters::{DebrisRule, Parameters};
+use serde::{Deserialize, Serialize};
 
 /// The weights of every row, for what is summed.
 #[derive(Debug, Clone, PartialEq)]
@@ -24,9 +25,15 @@ pub struct RowWeights {
     pub pin_loss: [Weights; StatusPair::COUNT],
     /// The same of the disc.
     pub disc_loss: [Weights; StatusPair::COUNT],
+    /// The largest k A by pair, N/m.
+    pub largest_stiffness: [f64; StatusPair::COUNT],
     /// Pairs that are told apart.
     pub pairs: &'static [usize],
-    needs: Needs,
+    /// Of which the volumes that few cells of a step move are multiples.
+    pub volume: Unit,
+    /// How far the initial heights of pin and disc are apart from the lowest to the highest of each, m.
+    pub relief: f64,
+    pub needs: Needs,
     rows: usize,
     pools: usize,
     /// Rows of the worker.
@@ -34,13 +41,16 @@ pub struct RowWeights {
 }
 
 impl RowWeights {
-    /// The weights of a scene for a worker that has the rows `own`.
-    pub fn new(parameters: &Parameters, coefficients: &Coefficients, own: Range<usize>) -> Self {
+    /// The weights of a scene whose initial heights have a `relief` (m), for a worker that has the rows `own`.
+    pub fn new(parameters: &Parameters, coefficients: &Coefficients, own: Range<usize>, relief: f64) -> Self {
         let mesh = &parameters.mesh;
         let needs = Needs::of(parameters);
         let by_area = |table: &Table| table.each_ref().map(|rows| Weights::new(&times_area(rows, mesh)));
         Self {
             stiffness: coefficients.stiffness.each_ref().map(|rows| Weights::new(rows)),
+            largest_stiffness: coefficients.stiffness.each_ref().map(|rows| rows.iter().copied().fold(0.0, f64::max)),
+            volume: Unit::new(FINEST_VOLUME, largest_volume(parameters, coefficients, relief)),
+            relief,
             area: Weights::new(mesh.area()),
             pin_loss: by_area(&coefficients.pin),
             disc_loss: by_area(&coefficients.disc),
@@ -79,10 +89,27 @@ impl RowWeights {
         self.stiffness[usize::from(near.pair)].value(near.row as usize)
     }
 
+    /// Raw volume that a plateau of the pin loses that begins to touch within a bracket, where all have the same properties.
+    pub fn near_loss(&self, row: usize, overlap: f64) -> ExactSum {
+        self.volume.exact(self.pin_loss[PLATEAU].value(row) * overlap)
+    }
+
     /// The pool of a row.
     pub fn pool_of(&self, row: usize) -> usize {
         row * self.pools / self.rows
     }
+}
+
+/// Exponent of the unit of volumes that few cells of a step move, where that of a scene need not be larger.
+const FINEST_VOLUME: i32 = -140;
+
+/// About the largest volume, m³, that a step moves: the relief and the wear height in every cell of the pin, and what the
+/// raw losses of plateaus that carry all the load add up to.
+fn largest_volume(parameters: &Parameters, coefficients: &Coefficients, relief: f64) -> f64 {
+    let Parameters { mesh, materials, .. } = parameters;
+    let overlap = parameters.largest_load() / coefficients.least_plateau_stiffness();
+    let area = mesh.area().iter().copied().fold(0.0, f64::max);
+    mesh.pin_area() * (relief + materials.wear_height) + coefficients.largest_loss() * overlap * area
 }
 
 fn times_area(rows: &[f64], mesh: &Mesh) -> Vec<f64> {
@@ -119,18 +146,32 @@ pub struct PoolSums {
     pub deposited_disc: i128,
     /// Whether an open cell had no room for the whole share: else the pool is empty.
     pub limited: bool,
-    /// Volume that plateaus of the pin did not lose of their raw loss, in units and quanta of the losses.
-    pub spared_pin: i128,
+    /// Volume that plateaus of the pin lost, in units and coarse and fine quanta of the losses; only where build-up has
+    /// properties of its own.
+    pub lost_pin: [i128; 2],
     /// The same of the disc.
-    pub spared_disc: i128,
-    /// Volume of fallen build-up, m³.
-    pub returned: StepVolume,
-    /// Volume compacted on the pin of what resin ahead lost, m³.
-    pub deposited_pin_of_resin: StepVolume,
+    pub lost_disc: [i128; 2],
+    /// Volume of fallen build-up.
+    pub returned: ExactSum,
+    /// Volume compacted on the pin of what resin ahead lost.
+    pub deposited_pin_of_resin: ExactSum,
     /// The same on the disc.
-    pub deposited_disc_of_resin: StepVolume,
-    /// Volume that resin did not lose because the build-up on it was worn through, m³.
-    pub spared_resin: StepVolume,
+    pub deposited_disc_of_resin: ExactSum,
+    /// Volume of build-up on resin that was worn through, where it has the properties of fibre.
+    pub worn_through: ExactSum,
+    /// Raw volume that it would have lost.
+    pub raw_through: RawLoss,
+}
+
+/// Raw volume that plateaus of the pin lose, of parts that add up and come off exactly.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+pub struct RawLoss {
+    /// Of the pairs that touch at the lower end of the bracket, there, in units and quanta.
+    pub low: i128,
+    /// … and per displacement beyond it, in units.
+    pub rate: i128,
+    /// Of the pairs that begin to touch within the bracket.
+    pub near: ExactSum,
 }
 
 /// The sums of every pool.
@@ -164,8 +205,8 @@ impl Sums {
         }
     }
 
-    /// Takes the sums of what a sweep moved.
-    pub fn take_moved(&mut self, weights: &RowWeights, moved: &Moved) {
+    /// Takes the sums of what a sweep moved in a step that was read against a bracket and has this displacement (m).
+    pub fn take_moved(&mut self, weights: &RowWeights, moved: &Moved, bracket: &Bracket, displacement: f64) {
         for (pool, sums) in self.pools.iter_mut().enumerate() {
             let (rows, here) = weights.own_rows_of(pool);
             let sum = |counts: &RowIntegers| weights.area.sum(rows.clone(), counts.rows(here.clone()));
@@ -175,18 +216,29 @@ impl Sums {
                 sums.limited = moved.is_limited(here.clone());
             }
             if weights.needs.distinct {
-                sums.spared_pin = sum(&moved.spared_pin);
-                sums.spared_disc = sum(&moved.spared_disc);
+                sums.lost_pin = moved.lost_pin.each_ref().map(sum);
+                sums.lost_disc = moved.lost_disc.each_ref().map(sum);
             }
-            sums.seldom().into_iter().for_each(|sum| *sum = StepVolume::default());
+            sums.seldom().into_iter().for_each(|sum| *sum = ExactSum::default());
+            sums.raw_through = RawLoss::default();
         }
         for event in &moved.seldom {
             let sums = &mut self.pools[weights.pool_of(event.row as usize)];
             let area = weights.area.value(event.row as usize);
-            sums.returned.add(StepVolume::of(event.returned * area));
-            sums.spared_resin.add(StepVolume::of(event.spared * area));
-            sums.deposited_pin_of_resin.add(StepVolume::of(event.deposited[0] * area));
-            sums.deposited_disc_of_resin.add(StepVolume::of(event.deposited[1] * area));
+            sums.returned.add(weights.volume.exact(event.returned * area));
+            sums.deposited_pin_of_resin.add(weights.volume.exact(event.deposited[0] * area));
+            sums.deposited_disc_of_resin.add(weights.volume.exact(event.deposited[1] * area));
+            if event.worn_through > 0.0 {
+                sums.worn_through.add(weights.volume.exact(event.worn_through * area));
+                // As the pair was read.
+                let overlap = bracket.quantum.count_difference(bracket.low, event.gap);
+                if overlap > 0 {
+                    sums.raw_through.low += product(weights.pin_loss[PLATEAU].row(event.row as usize), overlap);
+                    sums.raw_through.rate += i128::from(weights.pin_loss[PLATEAU].row(event.row as usize));
+                } else {
+                    sums.raw_through.near.add(weights.near_loss(event.row as usize, displacement - event.gap));
+                }
+            }
         }
     }
 
@@ -204,11 +256,9 @@ impl Sums {
     /// Adds what another worker sent of a sweep.
     pub fn add_moved(&mut self, words: &mut impl Iterator<Item = u64>) {
         for sums in &mut self.pools {
-            let moved =
-                [&mut sums.deposited_pin, &mut sums.deposited_disc, &mut sums.spared_pin, &mut sums.spared_disc];
-            moved.into_iter().for_each(|sum| *sum += of_words(words));
+            sums.counted().into_iter().for_each(|sum| *sum += of_words(words));
             sums.limited |= words.next() == Some(1);
-            sums.seldom().into_iter().for_each(|sum| sum.add(StepVolume::of_integer(of_words(words))));
+            sums.seldom().into_iter().for_each(|sum| sum.add(ExactSum::of_integer(of_words(words))));
         }
     }
 
@@ -229,11 +279,9 @@ impl Sums {
     /// Writes what was moved, for other workers.
     pub fn write_moved(&self, message: &mut Vec<u64>) {
         for sums in &self.pools {
-            for sum in [sums.deposited_pin, sums.deposited_disc, sums.spared_pin, sums.spared_disc] {
-                message.extend(words(sum));
-            }
-            message.push(u64::from(sums.limited));
             let mut sums = *sums;
+            sums.counted().into_iter().for_each(|sum| message.extend(words(*sum)));
+            message.push(u64::from(sums.limited));
             sums.seldom().into_iter().for_each(|sum| message.extend(words(sum.integer())));
         }
     }
@@ -260,7 +308,8 @@ impl RowWeights {
             sums.pin_loss += product(pin_loss[row], overlap);
             sums.pin_loss_rate += product(pin_loss[row], count);
         }
-        if self.needs.disc_wears {
+        // Where build-up has properties of its own, each loss is counted when it is lost.
+        if self.needs.disc_wears && !self.needs.distinct {
             let disc_loss = self.disc_loss[pair].rows(rows.clone());
             for row in 0..rows.len() {
                 let (count, overlap) = split(overlaps[row]);
@@ -274,9 +323,17 @@ impl RowWeights {
 
 impl PoolSums {
     /// What happens in few cells.
-    fn seldom(&mut self) -> [&mut StepVolume; 4] {
-        let Self { returned, spared_resin, deposited_pin_of_resin, deposited_disc_of_resin, .. } = self;
-        [returned, spared_resin, deposited_pin_of_resin, deposited_disc_of_resin]
+    fn seldom(&mut self) -> [&mut ExactSum; 5] {
+        let Self { returned, deposited_pin_of_resin, deposited_disc_of_resin, worn_through, raw_through, .. } = self;
+        [returned, deposited_pin_of_resin, deposited_disc_of_resin, worn_through, &mut raw_through.near]
+    }
+
+    /// What is counted in quanta.
+    fn counted(&mut self) -> [&mut i128; 8] {
+        let Self { deposited_pin, deposited_disc, lost_pin, lost_disc, raw_through, .. } = self;
+        let [[pin, pin_rest], [disc, disc_rest]] = [lost_pin, lost_disc];
+        let RawLoss { low, rate, .. } = raw_through;
+        [deposited_pin, deposited_disc, pin, pin_rest, disc, disc_rest, low, rate]
     }
 }
 

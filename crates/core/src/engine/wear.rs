@@ -9,8 +9,8 @@ use crate::engine::lanes::Lanes;
 pub(crate) struct Worn<L> {
     /// New surface height, m.
     pub height: L,
-    /// What of the raw loss was not lost, m.
-    pub spared: L,
+    /// What was really lost, m.
+    pub lost: L,
 }
 
 /// Wears cells of the pin by their raw loss (m, 0 where nothing wears): the build-up t first, then what lies below.
@@ -24,7 +24,7 @@ pub(crate) fn pin<L: Lanes>(height: L, substrate: L, raw: L, below: L) -> Worn<L
     let deeper = (raw - build_up) * below;
     Worn {
         height: L::select(through, substrate + deeper, height + raw),
-        spared: (raw - build_up - deeper).only(through),
+        lost: L::select(through, build_up + deeper, raw),
     }
 }
 
@@ -33,7 +33,7 @@ pub(crate) fn pin<L: Lanes>(height: L, substrate: L, raw: L, below: L) -> Worn<L
 pub(crate) fn disc<L: Lanes>(height: L, substrate: L, raw: L, below: L) -> Worn<L> {
     // The disc is the pin upside down.
     let worn = pin(upside_down(height), upside_down(substrate), raw, below);
-    Worn { height: upside_down(worn.height), spared: worn.spared }
+    Worn { height: upside_down(worn.height), lost: worn.lost }
 }
 
 /// Off 0 and not negated, so that the height 0 stays 0 and does not become −0, which is equal but has other bits.
@@ -53,34 +53,42 @@ mod tests {
         chunk.0
     }
 
-    /// Height and spared loss of one cell.
+    /// Height and loss of one cell.
     fn worn(wear: fn(Portable, Portable, Portable, Portable) -> Worn<Portable>, cell: [f64; 4]) -> (f64, f64) {
         let [height, substrate, raw, below] = cell.map(Portable::splat);
         let worn = wear(height, substrate, raw, below);
-        (values(worn.height)[5], values(worn.spared)[5])
+        (values(worn.height)[5], values(worn.lost)[5])
     }
 
     #[test]
     fn a_thick_build_up_wears_like_any_plateau() {
-        assert_eq!(worn(pin, [1.0, 3.0, 0.5, 9.0]), (1.5, 0.0));
+        assert_eq!(worn(pin, [1.0, 3.0, 0.5, 9.0]), (1.5, 0.5));
     }
 
     #[test]
     fn a_worn_through_build_up_passes_the_rest_of_the_step_on_to_the_fibre() {
         // Half of the step wears off the build-up of 1; the other half takes half of the fibre's raw loss of 0.25,
         // an eighth of the build-up's raw loss of 2.
-        assert_eq!(worn(pin, [2.0, 3.0, 2.0, 0.125]), (3.125, 0.875));
+        assert_eq!(worn(pin, [2.0, 3.0, 2.0, 0.125]), (3.125, 1.125));
     }
 
     #[test]
     fn below_a_worn_through_build_up_resin_stays() {
         assert_eq!(worn(pin, [2.0, 3.0, 2.0, 0.0]), (3.0, 1.0));
-        assert_eq!(worn(pin, [2.0, 3.0, 1.0, 0.5]), (3.0, 0.0));
+        assert_eq!(worn(pin, [2.0, 3.0, 1.0, 0.5]), (3.0, 1.0));
+    }
+
+    #[test]
+    fn a_film_far_thinner_than_the_raw_loss_keeps_its_digits() {
+        // 2^-80 of a raw loss of 1.
+        let film = 2.0_f64.powi(-80);
+        assert_eq!(worn(pin, [-film, 0.0, 1.0, 0.0]), (0.0, film));
+        assert_eq!(worn(disc, [film, 0.0, 1.0, 0.0]), (0.0, film));
     }
 
     #[test]
     fn bare_fibre_loses_all() {
-        assert_eq!(worn(pin, [3.0, 3.0, 0.5, 9.0]), (3.5, 0.0));
+        assert_eq!(worn(pin, [3.0, 3.0, 0.5, 9.0]), (3.5, 0.5));
     }
 
     #[test]
@@ -91,7 +99,7 @@ mod tests {
 
     #[test]
     fn the_disc_wears_the_other_way() {
-        assert_eq!(worn(disc, [3.0, 2.0, 2.0, 0.25]), (1.75, 0.75));
-        assert_eq!(worn(disc, [1.75, 1.75, 0.25, 0.5]), (1.5, 0.0));
+        assert_eq!(worn(disc, [3.0, 2.0, 2.0, 0.25]), (1.75, 1.25));
+        assert_eq!(worn(disc, [1.75, 1.75, 0.25, 0.5]), (1.5, 0.25));
     }
 }

@@ -16,6 +16,18 @@ pub enum MeshError {
         /// Which count.
         name: &'static str,
     },
+    /// There are more rows or columns than sums over them have room for.
+    #[error(
+        "{name} is {found}, expected at most {most}: beyond that, sums over all cells have no room; take larger cells"
+    )]
+    TooMany {
+        /// Which count.
+        name: &'static str,
+        /// What it is.
+        found: usize,
+        /// The most that it may be.
+        most: usize,
+    },
     /// The pin covers more columns than the ring has.
     #[error("pin_columns is {pin_columns}, expected at most disc_columns = {disc_columns}")]
     PinWiderThanRing {
@@ -88,6 +100,10 @@ pub struct Mesh {
     chords: Vec<Range<usize>>,
 }
 
+/// Rows and columns for which the exact sums of the engine have room: docs/stability.md has the bounds of each.
+const MOST_ROWS: usize = 1 << 22;
+const MOST_COLUMNS: usize = 1 << 24;
+
 /// What rounding may add to a diameter that is as large as the track is wide.
 const ROUNDING: f64 = 1e-9;
 
@@ -95,7 +111,7 @@ impl Mesh {
     /// Divides the ring between the two radii (m) into cells.
     ///
     /// # Errors
-    /// [`MeshError`] when a count is zero, the pin is wider than the ring, or the radii do not span a ring.
+    /// [`MeshError`] when a count is zero or too large, the pin is wider than the ring, or the radii do not span a ring.
     pub fn new(
         rows: usize,
         disc_columns: usize,
@@ -106,6 +122,11 @@ impl Mesh {
         for (name, count) in [("rows", rows), ("disc_columns", disc_columns), ("pin_columns", pin_columns)] {
             if count == 0 {
                 return Err(MeshError::Empty { name });
+            }
+        }
+        for (name, found, most) in [("rows", rows, MOST_ROWS), ("disc_columns", disc_columns, MOST_COLUMNS)] {
+            if found > most {
+                return Err(MeshError::TooMany { name, found, most });
             }
         }
         if pin_columns > disc_columns {

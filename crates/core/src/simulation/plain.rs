@@ -29,6 +29,8 @@ pub(crate) struct Plain {
     clock: Clock,
     /// V(0), m³.
     initial_volume: f64,
+    /// Initial heights of disc and pin, m.
+    initial_heights: [Vec<f64>; 2],
     accounts: Option<Accounts>,
     /// The parameters with the wear rates that hold now.
     worn_with: Arc<Parameters>,
@@ -46,6 +48,7 @@ impl Plain {
             course: Course::default(),
             clock: parameters.clock(),
             initial_volume: 0.0,
+            initial_heights: [state.disc.height.clone(), state.pin.height.clone()],
             accounts: Accounts::of(&parameters),
             worn_with: parameters.clone(),
             state,
@@ -228,7 +231,7 @@ impl Plain {
                 initial => 1.0 - self.open_volume() / initial,
             },
             load_residual: step.map_or(0.0, |step| self.load_residual(step)),
-            balance_residual: totals.balance_residual(pool),
+            balance_residual: totals.balance_residual(pool, self.lost()),
             accounts: self.accounts.as_ref().map_or(AccountsReport::default(), |accounts| {
                 accounts.report(self.course.steps, parameters.step_angle(), self.course.time, None)
             }),
@@ -241,6 +244,18 @@ impl Plain {
         let areas = self.parameters.mesh.area().iter().cycle();
         let load: f64 = step.pressure.iter().zip(areas).map(|(pressure, area)| pressure * area).sum();
         (load / step.load - 1.0).abs()
+    }
+
+    /// Volume that disc and pin have lost since the start, by their heights, m³.
+    fn lost(&self) -> f64 {
+        let (State { disc, pin, .. }, mesh) = (&self.state, &self.parameters.mesh);
+        let [disc_before, pin_before] = &self.initial_heights;
+        let disc = disc_before.iter().zip(&disc.height).zip(mesh.area().iter().copied().cycle());
+        let pin = pin.height.iter().zip(pin_before).zip(mesh.pin_areas());
+        let mut lost = RunningSum::default();
+        disc.for_each(|((before, now), area)| lost.add((before - now) * area));
+        pin.for_each(|((now, before), area)| lost.add((now - before) * area));
+        lost.value()
     }
 
     /// V = Σ A (z_ref − z_d)₊, m³.

@@ -7,6 +7,7 @@ use plateau_core::simulation::{Simulation, SimulationError};
 
 use super::case::{Case, Expected};
 use super::local::LocalLaws;
+use crate::scenes::balance_rounding;
 
 /// Steps of a case that are watched one by one; the others are taken in one go.
 const WATCHED: u64 = 600;
@@ -45,6 +46,8 @@ pub struct Outcome {
 struct Measured {
     load_residual: f64,
     balance_residual: f64,
+    /// Whether each was within the bound, or what rounding of the heights explains.
+    is_balanced: bool,
     /// Largest distance by which a plateau in contact was worn past the other surface, by the largest overlap of its step.
     overshoot: f64,
     extra_readings: u64,
@@ -58,7 +61,7 @@ struct Measured {
 impl Outcome {
     /// Runs a case.
     pub fn of(case: Case) -> Self {
-        let mut measured = Measured { is_finite: true, ..Measured::default() };
+        let mut measured = Measured { is_finite: true, is_balanced: true, ..Measured::default() };
         let verdict = match run(&case, &mut measured) {
             Ok(()) if case.expected == Expected::Refused => Verdict::Fail("not refused".into()),
             Ok(()) => match defect(&case, &measured) {
@@ -110,7 +113,7 @@ fn defect(case: &Case, measured: &Measured) -> Option<String> {
     if measured.load_residual > LOAD.max(load_rounding(case)) {
         return Some("load residual".into());
     }
-    if measured.balance_residual > BALANCE {
+    if !measured.is_balanced {
         return Some("balance residual".into());
     }
     if let Some(law) = measured.broken_law {
@@ -130,13 +133,17 @@ fn defect(case: &Case, measured: &Measured) -> Option<String> {
 fn load_rounding(case: &Case) -> f64 {
     let Parameters { mesh, materials, foundation_height, normal_force, .. } = &case.parameters;
     let stiffness = materials.combined_modulus(Status::Primary, false) / foundation_height;
-    let heights = case.surfaces.disc_height.iter().chain(&case.surfaces.pin_height);
-    let highest = heights.fold(0.0_f64, |highest, height| highest.max(height.abs()));
     // Over very many steps the pin goes far from where it was.
     let recession =
         if case.expected == Expected::Recession { recession_per_step(case) * case.steps as f64 } else { 0.0 };
-    let highest = highest.max(recession);
+    let highest = highest(case).max(recession);
     stiffness * mesh.pin_area() * highest * 0.5 * f64::EPSILON / normal_force
+}
+
+/// The largest initial height of either surface, m.
+pub fn highest(case: &Case) -> f64 {
+    let heights = case.surfaces.disc_height.iter().chain(&case.surfaces.pin_height);
+    heights.fold(0.0, |highest, height| highest.max(height.abs()))
 }
 
 fn run(case: &Case, measured: &mut Measured) -> Result<(), SimulationError> {
@@ -147,7 +154,7 @@ fn run(case: &Case, measured: &mut Measured) -> Result<(), SimulationError> {
         let step = simulation.steps_done();
         simulation.advance()?;
         let sample = simulation.sample()?;
-        measured.take(&sample);
+        measured.take(case, &sample);
         let after = State::of(&mut simulation)?;
         measured.is_finite &= after.is_finite();
         measured.broken_law = measured.broken_law.or_else(|| laws.broken(&sample, &after.disc));
@@ -157,7 +164,7 @@ fn run(case: &Case, measured: &mut Measured) -> Result<(), SimulationError> {
     let first = simulation.sample()?;
     simulation.advance_to(case.steps)?;
     let last = simulation.sample()?;
-    measured.take(&last);
+    measured.take(case, &last);
     let end = State::of(&mut simulation)?;
     measured.is_finite &= end.is_finite();
     measured.broken_law = measured.broken_law.or_else(|| laws.broken(&last, &end.disc));
@@ -185,8 +192,11 @@ fn recession_rounding(case: &Case) -> f64 {
 }
 
 impl Measured {
-    fn take(&mut self, sample: &Sample) {
+    fn take(&mut self, case: &Case, sample: &Sample) {
         self.balance_residual = self.balance_residual.max(sample.balance_residual.abs());
+        let highest = highest(case).max(sample.displacement.abs());
+        let rounding = balance_rounding(&case.parameters, highest, sample);
+        self.is_balanced &= sample.balance_residual.abs() <= BALANCE.max(rounding);
         self.is_finite &= QUANTITIES.iter().map(|quantity| quantity.value(sample)).all(f64::is_finite);
     }
 }

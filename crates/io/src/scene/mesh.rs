@@ -176,6 +176,7 @@ impl Cells {
             let (key, message) = match error {
                 MeshError::PinWiderThanRing { .. } => ("pin_columns", error.to_string()),
                 MeshError::Radii { .. } => ("outer_radius", error.to_string()),
+                MeshError::TooMany { name, .. } => (name, error.to_string()),
                 MeshError::Empty { .. } | MeshError::TooLarge { .. } => ("rows", error.to_string()),
                 MeshError::RoundPinWiderThanTrack { diameter, track } => {
                     let [diameter, track] = [diameter, track].map(Length);

@@ -67,10 +67,10 @@ impl Ahead {
         let below = if on_resin { 0.0 } else { rules.fibre.entry(pair, row) };
         let pin = wear(z_p, b_p, raw, below);
         let of_resin = if is_resin { rules.wear_height } else { 0.0 };
-        let mut lost = raw - pin.spared;
+        let mut lost = pin.lost;
         if DISC_WEARS {
             let raw = clearance * rules.disc_loss.entry(pair, row);
-            lost = lost + raw - wear(0.0 - z_d, 0.0 - b_d, raw, rules.coating.entry(pair, row)).spared;
+            lost += wear(0.0 - z_d, 0.0 - b_d, raw, rules.coating.entry(pair, row)).lost;
         }
         let height = if is_resin { f64::INFINITY } else { pin.height };
         Self { height, captured: rules.captured(lost, of_resin), plateau: !is_resin }
@@ -80,7 +80,7 @@ impl Ahead {
 /// A cell of the pin after wear.
 struct Worn {
     height: f64,
-    spared: f64,
+    lost: f64,
 }
 
 /// What [`crate::engine::wear::pin`] does to eight cells.
@@ -88,9 +88,9 @@ fn wear(height: f64, substrate: f64, raw: f64, below: f64) -> Worn {
     let build_up = substrate - height;
     if height < substrate && raw >= build_up {
         let deeper = (raw - build_up) * below;
-        return Worn { height: substrate + deeper, spared: raw - build_up - deeper };
+        return Worn { height: substrate + deeper, lost: build_up + deeper };
     }
-    Worn { height: height + raw, spared: 0.0 }
+    Worn { height: height + raw, lost: raw }
 }
 
 /// Wears a column of pairs, the first of a span, without changing it.

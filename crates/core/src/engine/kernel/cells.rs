@@ -120,9 +120,9 @@ pub(super) fn update<
     let worn = wear::<L, DISTINCT, DISC_WEARS, FORMS>(rules, cells);
     let Worn { mut z_p, mut b_p, mut z_d, b_d, on_resin, mut clearance, touches, build_up, worn_through, .. } = worn;
     if DISTINCT {
-        moved.spared_pin = moved.spared_pin.plus(rules.loss(worn.spared_pin));
+        moved.lost_pin = rules.plus_loss(moved.lost_pin, worn.lost_pin);
         if DISC_WEARS {
-            moved.spared_disc = moved.spared_disc.plus(rules.loss(worn.spared_disc));
+            moved.lost_disc = rules.plus_loss(moved.lost_disc, worn.lost_disc);
         }
     }
 
@@ -131,11 +131,11 @@ pub(super) fn update<
         let falls = if DESTROYS { plateau::falls::<L>(build_up & !worn_through, supported) } else { nothing };
         if (falls | worn_through).any() {
             let mut heights = Chunk([0.0; LANES]);
-            let mut raw_losses = Chunk([0.0; LANES]);
+            let mut gaps = Chunk([0.0; LANES]);
             (b_p - L::select(falls, z_p, cells.z_p)).store(&mut heights);
-            worn.raw_pin.store(&mut raw_losses);
-            let spared = if DISTINCT { nothing } else { worn_through };
-            note_seldom(seldom, &heights, &raw_losses, falls.byte(), spared.byte(), rules.strip);
+            (cells.z_p - cells.z_d).store(&mut gaps);
+            let through = if DISTINCT { nothing } else { worn_through };
+            note_seldom(seldom, &heights, &gaps, falls.byte(), through.byte(), rules.strip);
             z_p = L::select(falls | worn_through, b_p, z_p);
             clearance = L::select(falls, z_p - z_d - rules.displacement, clearance);
         }

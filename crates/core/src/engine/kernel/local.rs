@@ -15,7 +15,7 @@ use super::read::Span;
 use super::reading::{Reading, StripReading};
 use super::rules::{Conditions, Rules, StripRules};
 use super::worn::{Cells, wear};
-use crate::engine::lanes::{Chunk, Integers, LANES, Lanes, Mask};
+use crate::engine::lanes::{Chunk, LANES, Lanes, Mask};
 use crate::engine::parts::Needs;
 use crate::engine::pin_strips::PinStrips;
 use crate::engine::strips::DiscSector;
@@ -117,15 +117,15 @@ fn update<L: Lanes, const DISTINCT: bool, const DISC_WEARS: bool>(
     let cells = Cells::<L>::load::<DISTINCT, DISC_WEARS, true>(fields, strip.pin.resin[column], [column, column]);
     let worn = wear::<L, DISTINCT, DISC_WEARS, true>(rules, cells);
     if DISTINCT {
-        moved.spared_pin = moved.spared_pin.plus(rules.loss(worn.spared_pin));
+        moved.lost_pin = rules.plus_loss(moved.lost_pin, worn.lost_pin);
         if DISC_WEARS {
-            moved.spared_disc = moved.spared_disc.plus(rules.loss(worn.spared_disc));
+            moved.lost_disc = rules.plus_loss(moved.lost_disc, worn.lost_disc);
         }
     } else if worn.worn_through.any() {
-        let (mut heights, mut raw_losses) = (Chunk([0.0; LANES]), Chunk([0.0; LANES]));
+        let (mut heights, mut gaps) = (Chunk([0.0; LANES]), Chunk([0.0; LANES]));
         (worn.b_p - cells.z_p).store(&mut heights);
-        worn.raw_pin.store(&mut raw_losses);
-        note_seldom(seldom, &heights, &raw_losses, 0, worn.worn_through.byte(), rules.strip);
+        (cells.z_p - cells.z_d).store(&mut gaps);
+        note_seldom(seldom, &heights, &gaps, 0, worn.worn_through.byte(), rules.strip);
     }
     let z_p = L::select(worn.worn_through, worn.b_p, worn.z_p);
     let b_p = worn.b_p.greater(z_p);

@@ -24,6 +24,7 @@ pub(crate) use cells::Sweep;
 pub(crate) use edge::Edge;
 pub use instructions::InstructionSet;
 pub(crate) use moved::Moved;
+pub(crate) use pairs::PLATEAU;
 pub(crate) use read::{Read, Span, read};
 pub(crate) use reading::{Bracket, NearPair, Reading, told_apart};
 pub(crate) use rules::{Conditions, Rules};

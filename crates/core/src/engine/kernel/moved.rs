@@ -16,11 +16,11 @@ pub struct Moved {
     pub deposited_pin: RowIntegers,
     /// Heights compacted on the disc beyond the even deposit of a pool, in quanta of the deposits.
     pub deposited_disc: RowIntegers,
-    /// What pin cells did not lose of their raw loss because their build-up was worn through, in quanta of the losses;
-    /// only where build-up has properties of its own.
-    pub spared_pin: RowIntegers,
-    /// The same for disc cells.
-    pub spared_disc: RowIntegers,
+    /// What plateaus of the pin lost, in coarse quanta of the losses and, of the rest, in fine ones; only where build-up
+    /// has properties of its own.
+    pub lost_pin: [RowIntegers; 2],
+    /// The same of the disc.
+    pub lost_disc: [RowIntegers; 2],
     /// Rows of each strip, one bit each, in which an open cell had no room for the whole share.
     pub limited: Vec<u8>,
     /// What happened in few cells.
@@ -34,8 +34,10 @@ pub struct SeldomEvent {
     pub row: u32,
     /// Height that returned to the pool because the plateau fell, m.
     pub returned: f64,
-    /// What resin was spared of the raw loss because the build-up on it was worn through, m.
-    pub spared: f64,
+    /// Build-up on resin that was worn through, m: it lost that instead of its raw loss.
+    pub worn_through: f64,
+    /// Gap of such a pair, m.
+    pub gap: f64,
     /// What was compacted on pin and disc of what resin ahead lost, m.
     pub deposited: [f64; 2],
 }
@@ -48,7 +50,7 @@ impl SeldomEvent {
 
     /// Nothing yet, in a row.
     fn in_row(row: usize) -> Self {
-        Self { row: row as u32, returned: 0.0, spared: 0.0, deposited: [0.0; 2] }
+        Self { row: row as u32, returned: 0.0, worn_through: 0.0, gap: 0.0, deposited: [0.0; 2] }
     }
 }
 
@@ -59,8 +61,8 @@ impl Moved {
         Self {
             deposited_pin: rows(forms),
             deposited_disc: rows(forms),
-            spared_pin: rows(distinct),
-            spared_disc: rows(distinct),
+            lost_pin: [rows(distinct), rows(distinct)],
+            lost_disc: [rows(distinct), rows(distinct)],
             limited: vec![0; if forms { strips } else { 0 }],
             seldom: Vec::new(),
         }
@@ -68,9 +70,9 @@ impl Moved {
 
     /// Starts a new step.
     pub fn clear(&mut self) {
-        for rows in [&mut self.deposited_pin, &mut self.deposited_disc, &mut self.spared_pin, &mut self.spared_disc] {
-            rows.clear();
-        }
+        self.deposited_pin.clear();
+        self.deposited_disc.clear();
+        self.lost_pin.iter_mut().chain(&mut self.lost_disc).for_each(RowIntegers::clear);
         self.limited.fill(0);
         self.seldom.clear();
     }
@@ -90,8 +92,8 @@ impl Moved {
 pub(super) struct StripMoved<L: Lanes> {
     pub deposited_pin: L::Integers,
     pub deposited_disc: L::Integers,
-    pub spared_pin: L::Integers,
-    pub spared_disc: L::Integers,
+    pub lost_pin: [L::Integers; 2],
+    pub lost_disc: [L::Integers; 2],
     /// Rows in which an open cell had no room for the whole share.
     pub limited: L::Mask,
 }
@@ -104,8 +106,8 @@ impl<L: Lanes> StripMoved<L> {
         Self {
             deposited_pin: zero,
             deposited_disc: zero,
-            spared_pin: zero,
-            spared_disc: zero,
+            lost_pin: [zero; 2],
+            lost_disc: [zero; 2],
             limited: L::Mask::of_byte(0),
         }
     }
@@ -119,8 +121,12 @@ impl<L: Lanes> StripMoved<L> {
             moved.limited[strip] |= self.limited.byte();
         }
         if DISTINCT {
-            add::<L>(&mut moved.spared_pin.0[strip], self.spared_pin);
-            add::<L>(&mut moved.spared_disc.0[strip], self.spared_disc);
+            let mut size = 0;
+            while size < 2 {
+                add::<L>(&mut moved.lost_pin[size].0[strip], self.lost_pin[size]);
+                add::<L>(&mut moved.lost_disc[size].0[strip], self.lost_disc[size]);
+                size += 1;
+            }
         }
     }
 }
@@ -130,20 +136,20 @@ fn add<L: Lanes>(chunk: &mut IntegerChunk, sum: L::Integers) {
     L::Integers::load(chunk).plus(sum).store(chunk);
 }
 
-/// Notes, for some of eight cells on resin whose build-up ends, its height: returned where the plateau falls; where it is
-/// worn through, what the resin is spared of the raw loss.
+/// Notes, for some of eight cells on resin whose build-up ends, its height: where the plateau falls, and where it is worn
+/// through, there with the gap of the pair.
 #[cold]
 #[inline(never)]
 pub(super) fn note_seldom(
     seldom: &mut Vec<SeldomEvent>,
     build_up: &Chunk,
-    raw: &Chunk,
+    gap: &Chunk,
     fallen: u8,
     worn_through: u8,
     strip: usize,
 ) {
     let event = |lane: usize| SeldomEvent::in_row(strip * LANES + lane);
     seldom.extend(lanes_of(fallen).map(|lane| SeldomEvent { returned: build_up.0[lane], ..event(lane) }));
-    let spared = |lane: usize| raw.0[lane] - build_up.0[lane];
-    seldom.extend(lanes_of(worn_through).map(|lane| SeldomEvent { spared: spared(lane), ..event(lane) }));
+    let through = |lane: usize| SeldomEvent { worn_through: build_up.0[lane], gap: gap.0[lane], ..event(lane) };
+    seldom.extend(lanes_of(worn_through).map(through));
 }

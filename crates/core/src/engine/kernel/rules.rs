@@ -67,8 +67,8 @@ pub struct Conditions<'a> {
     pub ahead: Option<&'a Edge>,
     /// Of which deposits are counted as multiples.
     pub deposit_quantum: Quantum,
-    /// Of which losses that were spared are counted as multiples.
-    pub loss_quantum: Quantum,
+    /// Of which losses are counted as multiples, and what the coarse one leaves of them.
+    pub loss_quanta: [Quantum; 2],
     /// Where the next load balance is expected.
     pub bracket: Bracket,
     /// The strip of the mesh that is the first of the worker.
@@ -90,8 +90,8 @@ pub(super) struct StripRules<'a, L: Lanes> {
     pub even_on_disc: L,
     /// Number whose last bit is worth a quantum of the deposits.
     deposit_anchor: L,
-    /// Number whose last bit is worth a quantum of the losses.
-    loss_anchor: L,
+    /// Numbers whose last bits are worth a coarse and a fine quantum of the losses.
+    loss_anchors: [L; 2],
     pub bracket: BracketLanes<L>,
 }
 
@@ -110,7 +110,7 @@ impl<'a, L: Lanes> StripRules<'a, L> {
             even_on_pin,
             even_on_disc: share - even_on_pin,
             deposit_anchor: L::splat(conditions.deposit_quantum.anchor()),
-            loss_anchor: L::splat(conditions.loss_quantum.anchor()),
+            loss_anchors: [L::splat(conditions.loss_quanta[0].anchor()), L::splat(conditions.loss_quanta[1].anchor())],
             bracket: BracketLanes::new(&conditions.bracket),
         }
     }
@@ -157,9 +157,12 @@ impl<'a, L: Lanes> StripRules<'a, L> {
         (self.deposit_anchor + deposit).bits().minus((self.deposit_anchor + even).bits())
     }
 
-    /// A loss in quanta.
+    /// Sums of losses in coarse quanta, and of what those leave in fine ones, with another loss.
     #[inline(always)]
-    pub fn loss(&self, height: L) -> L::Integers {
-        (self.loss_anchor + height).bits().minus(self.loss_anchor.bits())
+    pub fn plus_loss(&self, [coarse, fine]: [L::Integers; 2], height: L) -> [L::Integers; 2] {
+        let [coarse_anchor, fine_anchor] = self.loss_anchors;
+        let anchored = coarse_anchor + height;
+        let rest = fine_anchor + (height - (anchored - coarse_anchor));
+        [coarse.plus(anchored.bits().minus(coarse_anchor.bits())), fine.plus(rest.bits().minus(fine_anchor.bits()))]
     }
 }

@@ -50,11 +50,9 @@ pub(super) struct Worn<L: Lanes> {
     pub build_up: L::Mask,
     /// Build-up on resin that is worn through.
     pub worn_through: L::Mask,
-    /// Raw loss of the pin, m.
-    pub raw_pin: L,
-    /// What of them was not lost, m; only where build-up has properties of its own.
-    pub spared_pin: L,
-    pub spared_disc: L,
+    /// What plateaus of the pin and what the disc really lost, m; only where build-up has properties of its own.
+    pub lost_pin: L,
+    pub lost_disc: L,
 }
 
 /// Wears eight pairs.
@@ -77,22 +75,22 @@ pub(super) fn wear<L: Lanes, const DISTINCT: bool, const DISC_WEARS: bool, const
 
     // 4.2 Resin loses its wear height at once, all else wears by its coefficient times the overlap.
     let raw_pin = (clearance * pairs.pick::<DISTINCT>(&rules.pin_loss())).only(touches & !pairs.resin());
-    let mut spared_pin = rules.zero;
+    let mut lost_pin = rules.zero;
     if DISTINCT {
         let below = L::select(on_resin, rules.zero, pairs.pick::<true>(&rules.fibre()));
         let worn = wear::pin(z_p, b_p, raw_pin, below);
-        (z_p, spared_pin) = (worn.height, worn.spared);
+        (z_p, lost_pin) = (worn.height, worn.lost);
     } else {
         z_p = z_p + raw_pin;
     }
     let resin = touches & pairs.resin();
     z_p = z_p.plus_where(resin, rules.wear_height());
-    let mut spared_disc = rules.zero;
+    let mut lost_disc = rules.zero;
     if DISC_WEARS {
         let raw_disc = (clearance * pairs.pick::<DISTINCT>(&rules.disc_loss())).only(touches);
         if DISTINCT {
             let worn = wear::disc(z_d, b_d, raw_disc, pairs.pick::<true>(&rules.coating()));
-            (z_d, spared_disc) = (worn.height, worn.spared);
+            (z_d, lost_disc) = (worn.height, worn.lost);
         } else {
             z_d = z_d - raw_disc;
         }
@@ -105,5 +103,5 @@ pub(super) fn wear<L: Lanes, const DISTINCT: bool, const DISC_WEARS: bool, const
         build_up = on_resin & pairs.pin_secondary;
         worn_through = build_up & !z_p.below(b_p);
     }
-    Worn { z_p, b_p, z_d, b_d, on_resin, clearance, touches, build_up, worn_through, raw_pin, spared_pin, spared_disc }
+    Worn { z_p, b_p, z_d, b_d, on_resin, clearance, touches, build_up, worn_through, lost_pin, lost_disc }
 }

@@ -3,8 +3,9 @@
 use super::Worker;
 use crate::engine::coefficients::StatusPair;
 use crate::engine::comm::Communicator;
-use crate::engine::contact::Verdict;
+use crate::engine::contact::{Carried, Verdict};
 use crate::engine::error::SimulationError;
+use crate::engine::exact::{ExactSum, Unit, of_words, words};
 use crate::engine::kernel::{Bracket, Span};
 use crate::engine::quantum::Quantum;
 use crate::engine::sector::Segment;
@@ -13,6 +14,14 @@ use crate::model::state::pin_status;
 
 /// Readings of one step; Newton's method needs few, this bound only keeps rounding from going round in circles.
 const MOST_READINGS: u32 = 200;
+/// Share of the load that the rounding of overlaps may hide; where it may hide more, the balance is refined.
+const LEAST_DOUBT: f64 = 1e-10;
+/// Newton's method from so near needs one or two.
+const MOST_REFINEMENTS: u32 = 8;
+/// By how much a quantum must be finer for another reading.
+const FINER: f64 = 16.0;
+/// Bits of the load below which what cells carry is cut off where it is added up.
+const LOAD_BITS: i32 = 64;
 
 impl<C: Communicator> Worker<C> {
     /// Finds the displacement that carries the load: nearly always the last sweep has read all that this needs. Returns a
@@ -35,12 +44,26 @@ impl<C: Communicator> Worker<C> {
                 self.contact.balance(&self.weights, &self.sums, &mut self.reading.near, &bracket, normal_force);
             match verdict.map_err(|source| SimulationError::Contact { step, source })? {
                 Verdict::Solved => {
+                    let displacement = self.contact.displacement();
+                    if self.contact.doubt() > LEAST_DOUBT * normal_force {
+                        let rounding = bracket.quantum.value();
+                        let finest = Quantum::of_sum(largest.max(displacement - bracket.low), columns);
+                        let finer = Bracket::new(displacement - rounding, 2.0 * rounding, finest);
+                        if finer.quantum.value() < rounding / FINER {
+                            bracket = finer;
+                            self.read_columns(&bracket)?;
+                            continue;
+                        }
+                        self.refine(&bracket)?;
+                    }
+                    self.bracket = Some(bracket);
                     self.note_near_touches();
                     if largest > 0.0 {
                         self.overlap_quantum = Quantum::of_sum(largest, columns);
                     }
                     self.course.largest_load_residual = self.course.largest_load_residual.max(self.contact.residual());
-                    return Ok(largest.max(0.0) + (self.contact.displacement() - bracket.low));
+                    let above = self.contact.displacement() - bracket.low;
+                    return Ok(largest.max(0.0) + above + bracket.quantum.value());
                 }
                 Verdict::Between(low, high) => {
                     bracket = Bracket::new(low, high - low, self.overlap_quantum);
@@ -51,6 +74,60 @@ impl<C: Communicator> Worker<C> {
         }
         let source = ContactError::NotCarried { displacement: bracket.low, normal_force };
         Err(SimulationError::Contact { step, source })
+    }
+
+    /// Finds the displacement once more, from what every pair carries at it: where build-up is far softer than fibre, no
+    /// quantum that holds the overlaps of the one is fine enough for those of the other.
+    fn refine(&mut self, bracket: &Bracket) -> Result<(), SimulationError> {
+        let (normal_force, unit) = (self.operation.load, self.load_unit());
+        let mut best: Option<Carried> = None;
+        let mut displacement = self.contact.displacement();
+        for _ in 0..MOST_REFINEMENTS {
+            let mut own = Vec::with_capacity(2 * StatusPair::COUNT);
+            self.carried(displacement).into_iter().for_each(|load| own.extend(words(load.integer())));
+            let mut loads = [ExactSum::default(); StatusPair::COUNT];
+            self.communicator.all_gather(&own, &mut |_, words| {
+                let mut words = words.iter().copied();
+                loads.iter_mut().for_each(|load| load.add(ExactSum::of_integer(of_words(&mut words))));
+            })?;
+            let loads = loads.map(|load| unit.value(load));
+            let missing = normal_force - loads.iter().sum::<f64>();
+            let residual = (missing / normal_force).abs();
+            let is_better = residual < best.map_or(f64::INFINITY, |best| best.residual);
+            if !is_better {
+                break;
+            }
+            best = Some(Carried { displacement, loads, residual });
+            displacement += missing / self.contact.slope();
+        }
+        if let Some(carried) = best {
+            let Self { contact, weights, sums, reading, .. } = self;
+            contact.refine(weights, sums, &reading.near, bracket, &carried);
+        }
+        Ok(())
+    }
+
+    /// Σ k A (δ − g)₊ of the own pairs at a displacement, by pair.
+    fn carried(&self, displacement: f64) -> [ExactSum; StatusPair::COUNT] {
+        let unit = self.load_unit();
+        let mut loads = [ExactSum::default(); StatusPair::COUNT];
+        self.for_each_pair(|row, _, gap, pair| {
+            let overlap = displacement - gap;
+            if overlap > 0.0 {
+                loads[pair].add(unit.exact(self.coefficients.stiffness[pair][row] * overlap));
+            }
+        });
+        loads
+    }
+
+    /// Of which loads of cells are multiples where they are added up.
+    fn load_unit(&self) -> Unit {
+        Unit::new(libm::ilogb(self.operation.load).saturating_sub(LOAD_BITS), 0.0)
+    }
+
+    /// |Σ k A u − F_N| / F_N of the last step, by what all of its cells carried.
+    pub(super) fn load_residual(&self, carried: ExactSum) -> f64 {
+        (self.load_unit().value(carried) / self.operation.load - 1.0).abs()
     }
 
     /// Reads the pairs at the displacement at which the first cell would carry the load alone: it is never below the
@@ -110,17 +187,23 @@ impl<C: Communicator> Worker<C> {
         }
     }
 
-    /// p = k u of every own cell under the pin.
+    /// p = k u of every own cell under the pin, and what all of them carry.
     pub(super) fn record_pressures(&mut self) {
         let mut pressure = std::mem::take(&mut self.pressure);
-        let mesh = &self.parameters.mesh;
-        pressure.resize(mesh.pin_cells(), 0.0);
+        pressure.resize(self.parameters.mesh.pin_cells(), 0.0);
+        let (mesh, unit) = (&self.parameters.mesh, self.load_unit());
         let displacement = self.contact.displacement();
+        let mut load = ExactSum::default();
         self.for_each_pair(|row, column, gap, pair| {
             let overlap = displacement - gap;
-            let stiffness = self.coefficients.stiffness[pair][row] / mesh.area()[row];
-            pressure[mesh.column(column).start + row] = if overlap > 0.0 { stiffness * overlap } else { 0.0 };
+            let stiffness = self.coefficients.stiffness[pair][row];
+            let cell = &mut pressure[mesh.column(column).start + row];
+            *cell = 0.0;
+            if overlap > 0.0 {
+                *cell = stiffness / mesh.area()[row] * overlap;
+                load.add(unit.exact(stiffness * overlap));
+            }
         });
-        self.pressure = pressure;
+        (self.pressure, self.load) = (pressure, load);
     }
 }

@@ -48,7 +48,7 @@ impl<C: Communicator> Worker<C> {
         self.course.largest_stiffness_number = self.course.largest_stiffness_number.max(now.stiffness_number());
         self.coefficients = Coefficients::new(&now);
         self.rules = Rules::new(&now, &self.coefficients, self.filling.reference_height(), self.shortcut);
-        self.weights = RowWeights::new(&now, &self.coefficients, self.rows.clone());
+        self.weights = RowWeights::new(&now, &self.coefficients, self.rows.clone(), self.weights.relief);
         self.debris.set_coefficients(&self.coefficients);
     }
 }

@@ -10,7 +10,6 @@ use crate::engine::error::SimulationError;
 use crate::engine::kernel::{Bracket, Conditions, Edge, Span};
 use crate::engine::lanes::LANES;
 use crate::engine::pin_strips::PinStrips;
-use crate::engine::quantum::Quantum;
 use crate::engine::sector::{Partition, Segment};
 use crate::engine::strips::strips;
 
@@ -94,7 +93,7 @@ impl<C: Communicator> Worker<C> {
         bracket: Bracket,
         ahead: Option<&Edge>,
     ) {
-        let conditions = conditions(&self.contact, &self.debris, self.quantum, bracket, self.rows.start, ahead);
+        let conditions = conditions(&self.contact, &self.debris, bracket, self.rows.start, ahead);
         let Some(sector) = &mut self.sectors[segment.sector] else { return };
         let span = Span {
             first: segment.pin.start + columns.start,
@@ -151,7 +150,6 @@ impl<C: Communicator> Worker<C> {
 pub(super) fn conditions<'a>(
     contact: &Contact,
     debris: &'a Debris,
-    quantum: Quantum,
     bracket: Bracket,
     first_row: usize,
     ahead: Option<&'a Edge>,
@@ -161,7 +159,7 @@ pub(super) fn conditions<'a>(
         share: debris.share(),
         ahead,
         deposit_quantum: debris.deposit_quantum(),
-        loss_quantum: debris.loss_quantum(quantum),
+        loss_quanta: debris.loss_quanta(),
         bracket,
         first_strip: first_row / LANES,
     }

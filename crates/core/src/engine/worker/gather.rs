@@ -9,7 +9,9 @@ impl<C: Communicator> Worker<C> {
     /// The sums over all workers after a sweep that read the next step against a bracket.
     pub(super) fn gather_sweep(&mut self, bracket: &Bracket) -> Result<(), SimulationError> {
         self.sums.take_reading(&self.weights, &self.reading, bracket);
-        self.sums.take_moved(&self.weights, &self.moved);
+        if let Some(taken) = &self.bracket {
+            self.sums.take_moved(&self.weights, &self.moved, taken, self.contact.displacement());
+        }
         self.exchange(true)
     }
 

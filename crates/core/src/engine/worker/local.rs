@@ -68,7 +68,7 @@ impl<C: Communicator> Worker<C> {
         let mut edge = Edge::default();
         if let Some(sector) = &self.sectors[segment.sector] {
             let span = Span { first: segment.pin.start + column, over: segment.over + column, columns: 1 };
-            let conditions = conditions(&self.contact, &self.debris, self.quantum, bracket, self.rows.start, None);
+            let conditions = conditions(&self.contact, &self.debris, bracket, self.rows.start, None);
             (self.wear_column)(&self.rules, &conditions, &self.pin, sector, span, &mut edge);
         }
         edge

@@ -19,8 +19,9 @@ use crate::engine::comm::Communicator;
 use crate::engine::contact::Contact;
 use crate::engine::debris::Debris;
 use crate::engine::error::SimulationError;
+use crate::engine::exact::ExactSum;
 use crate::engine::execution::Execution;
-use crate::engine::filling::Filling;
+use crate::engine::filling::{Filling, relief};
 use crate::engine::forecast::Forecast;
 use crate::engine::history::{Course, History};
 use crate::engine::kernel::{
@@ -53,9 +54,8 @@ pub(crate) struct Worker<C> {
     wear_column: WearColumn,
     rules: Rules,
     coefficients: Coefficients,
-    /// Of which losses are counted as multiples: the quantum of the largest overlap that the load allows.
-    quantum: Quantum,
-    /// Of which the overlaps of the coming steps are counted as multiples, by the largest of the last step.
+    /// Of which the overlaps of the coming steps are counted as multiples, by the largest of the last step; of the first,
+    /// by the largest that the load allows.
     overlap_quantum: Quantum,
     pin: PinStrips,
     /// The worker's own sectors, by their number.
@@ -78,6 +78,8 @@ pub(crate) struct Worker<C> {
     edges: Vec<Edge>,
     message: Vec<u64>,
     halo: Vec<u64>,
+    /// Σ k A u of the own cells in the last step, if it was watched.
+    load: ExactSum,
     /// p of the own pin cells in the last step, column by column, Pa; empty if it was not watched.
     pressure: Vec<f64>,
     course: Course,
@@ -122,7 +124,7 @@ impl<C: Communicator> Worker<C> {
         let sectors: Vec<_> = (0..partition.sectors()).map(own).collect();
         let strips = strips(rows.len());
         let filling = Filling::new(mesh, rows.clone(), surfaces, sectors.iter().flatten());
-        let weights = RowWeights::new(&parameters, &coefficients, rows.clone());
+        let weights = RowWeights::new(&parameters, &coefficients, rows.clone(), relief(mesh, surfaces));
         let quantum =
             Quantum::of(parameters.largest_load() / coefficients.least_plateau_stiffness(), mesh.pin_columns());
         let largest_stiffness_number = parameters.first_stiffness_number();
@@ -135,7 +137,6 @@ impl<C: Communicator> Worker<C> {
             wear_column: wear_column(needs),
             rules: Rules::new(&parameters, &coefficients, filling.reference_height(), execution.shortcut),
             contact: Contact::new(&weights, by_status),
-            quantum,
             overlap_quantum: quantum,
             pin: PinStrips::new(mesh, rows.clone(), &surfaces.pin_height, &surfaces.pin_base, needs),
             forecast: Forecast::new(mesh.disc_columns()),
@@ -150,6 +151,7 @@ impl<C: Communicator> Worker<C> {
             weights,
             message: Vec::new(),
             halo: Vec::new(),
+            load: ExactSum::default(),
             pressure: Vec::new(),
             course: Course { largest_stiffness_number, ..Course::default() },
             accounts: Accounts::of(&parameters).map(Box::new),
@@ -210,7 +212,7 @@ impl<C: Communicator> Worker<C> {
         let bracket = self.sweep_columns()?;
         self.gather_sweep(&bracket)?;
         self.bracket = Some(bracket);
-        let moved = self.debris.settle(&self.contact, &self.sums, self.debris.loss_quantum(self.quantum));
+        let moved = self.debris.settle(&self.weights, &self.contact, &self.sums);
         self.course.contact_area = self.contact.area();
         self.history.record(self.course.contact_area, &self.operation);
         self.course.steps += 1;

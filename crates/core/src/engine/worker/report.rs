@@ -5,7 +5,9 @@ use std::ops::Range;
 use super::Worker;
 use crate::engine::comm::Communicator;
 use crate::engine::error::SimulationError;
-use crate::engine::exact::{self, RingSum};
+use crate::engine::exact::{self, ExactSum};
+use crate::engine::filling::RingSums;
+use crate::engine::lanes::LANES;
 use crate::engine::strips::DiscSector;
 use crate::model::accounts::AccountsReport;
 use crate::model::material::Status;
@@ -22,7 +24,7 @@ impl<C: Communicator> Worker<C> {
         let own = self.own_part();
         let mut rest = OwnPart { largest_pressure: 0.0, pin: vec![0; own.pin.len()], ..OwnPart::default() };
         self.communicator.all_gather(&own.words(), &mut |_, words| rest.add(words))?;
-        let OwnPart { largest_pressure, open_volume, secondary_area, pin } = rest;
+        let OwnPart { largest_pressure, load, ring, pin } = rest;
         let area_of =
             |counts: &[u64]| -> f64 { counts.iter().zip(mesh.area()).map(|(count, area)| *count as f64 * area).sum() };
         let coverage: Vec<f64> =
@@ -53,10 +55,10 @@ impl<C: Communicator> Worker<C> {
             pin_primary: coverage[Status::Primary as usize],
             pin_secondary: coverage[Status::Secondary as usize],
             // Rounding may leave all of the disc a trace above 1.
-            disc_secondary: (secondary_area.value() / mesh.disc_area()).min(1.0),
-            filled_fraction: self.filling.filled_fraction(open_volume),
-            load_residual: self.contact.residual(),
-            balance_residual: self.debris.balance_residual(),
+            disc_secondary: (self.filling.secondary_area(&ring) / mesh.disc_area()).min(1.0),
+            filled_fraction: self.filling.filled_fraction(&ring),
+            load_residual: if self.course.steps > 0 { self.load_residual(load) } else { 0.0 },
+            balance_residual: self.debris.balance_residual(self.filling.lost(&ring)),
             accounts: self.accounts.as_ref().map_or(AccountsReport::default(), |accounts| {
                 accounts.report(self.course.steps, parameters.step_angle(), self.course.time, None)
             }),
@@ -67,16 +69,17 @@ impl<C: Communicator> Worker<C> {
     /// What a sample needs of the worker's own cells.
     fn own_part(&self) -> OwnPart {
         let rows = self.parameters.mesh.rows();
-        let mut part = OwnPart {
-            largest_pressure: 0.0,
-            open_volume: self.filling.open_volume(),
-            secondary_area: self.filling.secondary_area(),
-            pin: vec![0; 3 * rows],
-        };
+        let mut part =
+            OwnPart { largest_pressure: 0.0, load: self.load, ring: self.filling.own(), pin: vec![0; 3 * rows] };
         for column in self.own_pin_columns() {
             for (own, status) in self.pin_statuses(column).enumerate() {
                 let is_there = self.pin.is_present(own, column);
                 part.pin[status as usize * rows + self.rows.start + own] += u64::from(is_there);
+            }
+            for (strip, area) in self.parameters.mesh.area()[self.rows.clone()].chunks(LANES).enumerate() {
+                let is_there = |row: usize| self.pin.is_present(LANES * strip + row, column);
+                let heights = &self.pin.height.chunk(strip, column).0;
+                part.ring.pin_volume.add(self.filling.pin_volume(heights, area, is_there));
             }
             let cells = self.pressure.get(self.own_cells(column)).unwrap_or(&[]);
             part.largest_pressure = cells.iter().copied().fold(part.largest_pressure, f64::max);
@@ -181,10 +184,10 @@ fn disc_words(sector: &DiscSector, column: usize, map: Map) -> Vec<u64> {
 struct OwnPart {
     /// Pa.
     largest_pressure: f64,
-    /// Σ A (z_ref − z_d)₊, m³.
-    open_volume: RingSum,
-    /// Σ A over the disc's secondary cells, m².
-    secondary_area: RingSum,
+    /// Σ k A u of the last step.
+    load: ExactSum,
+    /// Volumes and areas of disc and pin.
+    ring: RingSums,
     /// Cells of the pin by status and row.
     pin: Vec<u64>,
 }
@@ -192,7 +195,8 @@ struct OwnPart {
 impl OwnPart {
     fn words(&self) -> Vec<u64> {
         let mut words = vec![self.largest_pressure.to_bits()];
-        for sum in [self.open_volume, self.secondary_area] {
+        let mut ring = self.ring;
+        for sum in std::iter::once(&mut self.load.clone()).chain(ring.each()) {
             words.extend(exact::words(sum.integer()));
         }
         words.extend(&self.pin);
@@ -201,9 +205,11 @@ impl OwnPart {
 
     fn add(&mut self, words: &[u64]) {
         self.largest_pressure = self.largest_pressure.max(f64::from_bits(words[0]));
-        let mut sums = words[1..5].iter().copied();
-        self.open_volume.add(RingSum::of_integer(exact::of_words(&mut sums)));
-        self.secondary_area.add(RingSum::of_integer(exact::of_words(&mut sums)));
-        self.pin.iter_mut().zip(&words[5..]).for_each(|(sum, count)| *sum += count);
+        let (sums, pin) = words[1..].split_at(10);
+        let mut sums = sums.iter().copied();
+        for sum in std::iter::once(&mut self.load).chain(self.ring.each()) {
+            sum.add(ExactSum::of_integer(exact::of_words(&mut sums)));
+        }
+        self.pin.iter_mut().zip(pin).for_each(|(sum, count)| *sum += count);
     }
 }
