@@ -21,6 +21,7 @@ case $program in /*) ;; *) program=$PWD/$program ;; esac
 [ -x "$program" ] || die "$program is no program: build it with ./plateau, or name it"
 version=$("$program" --version) || die "$program does not run"
 version=${version#plateau }
+version=${version%% *}
 
 make_folder() {
     mkdir -p "$1" || die "cannot make $1"

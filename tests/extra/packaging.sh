@@ -25,7 +25,7 @@ fail() {
     exit 1
 }
 
-version=$("$program" --version) && version=${version#plateau }
+version=$("$program" --version) && version=${version#plateau } && version=${version%% *}
 name=plateau-$version-$(uname -m)-linux
 sh scripts/install.sh "$lab/$name" "$program" || exit 1
 grep -q hdf5-metno-src "$lab/$name/share/doc/plateau/THIRD-PARTY-NOTICES" || fail 'the notices do not name HDF5'
@@ -34,7 +34,7 @@ grep -q hdf5-metno-src "$lab/$name/share/doc/plateau/THIRD-PARTY-NOTICES" || fai
 modules() {
     env -u PLATEAU_PROGRAM sh -c '. /usr/share/modules/init/sh; module use "$1"; module load plateau || exit 1; eval "$2"' sh "$@"
 }
-found=$(modules "$lab/$name/share/modulefiles" 'command -v plateau; plateau --version; echo "$PLATEAU_PROGRAM"')
+found=$(modules "$lab/$name/share/modulefiles" 'command -v plateau; plateau --version | cut -d " " -f 1,2; echo "$PLATEAU_PROGRAM"')
 [ "$found" = "$lab/$name/bin/plateau
 plateau $version
 $lab/$name/bin/plateau" ] || fail "the module gives: $found"

@@ -205,6 +205,17 @@ fn too_few_handles_are_not_taken_for_damage() {
 }
 
 #[test]
+fn the_name_of_a_file_decides_no_exit_status() {
+    let directory = WorkingDirectory::new();
+    for name in ["a (os error 24).h5", "a, errno = 12, b.h5"] {
+        for arguments in [&["plot"][..], &["verify"], &["surface"], &["sweep", "plan"]] {
+            let outcome = directory.plateau(arguments.iter().chain(&[name]));
+            assert_eq!(outcome.status, Some(2), "{arguments:?}: {outcome:?}");
+        }
+    }
+}
+
+#[test]
 fn files_have_the_permissions_that_the_user_wants() {
     let directory = WorkingDirectory::new();
     let arguments = ["run", &scene("quick.toml"), "-o", "run.h5"];

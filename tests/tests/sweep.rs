@@ -1,5 +1,7 @@
 //! Studies: planned, run, stopped, gone on with and collected, as their users do it.
 
+mod identity;
+mod shared;
 mod stopped;
 
 use std::collections::BTreeSet;

@@ -22,6 +22,7 @@ use clap_complete::Shell;
 use plateau_io::text::{odd_character, shown_on_one_line};
 
 use crate::failure::Failure;
+use crate::version;
 
 pub use accuracy::AccuracyArguments;
 pub use answers::{ImportArguments, LimitOn, OptimizeArguments, PredictArguments};
@@ -41,7 +42,7 @@ pub use sweep::{
 
 /// How a pin of friction material and a rough, coated brake disc wear into each other.
 #[derive(Debug, Parser)]
-#[command(name = "plateau", version, max_term_width = 100, arg_required_else_help = true)]
+#[command(name = "plateau", version = version::WITH_REVISION, max_term_width = 100, arg_required_else_help = true)]
 pub struct Arguments {
     /// What to do.
     #[command(subcommand)]
@@ -67,7 +68,7 @@ pub fn refuse_odd_characters(arguments: impl Iterator<Item = OsString>) -> Resul
         is_value = text == "--set";
         let text = if is_set { text.replace(['\n', '\t'], " ") } else { text.into_owned() };
         if let Some(found) = odd_character(&text) {
-            return Err(Failure::input(format_args!(
+            return Err(Failure::input(format!(
                 "the argument \"{}\" has {found}; take it out, rename the file if it is one",
                 shown_on_one_line(&text)
             )));

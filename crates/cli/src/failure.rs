@@ -1,8 +1,11 @@
 //! How the program ends when it cannot do what was asked.
 
-use std::fmt;
+use std::error::Error;
 use std::process::ExitCode;
+use std::{fmt, io};
 
+use plateau_core::simulation::SimulationError;
+use plateau_io::run_file::{ReadError, RunFileError};
 use plateau_io::scene::SceneError;
 use plateau_io::study::StudyError;
 use plateau_run::{Job, Progress, RunError};
@@ -26,10 +29,16 @@ pub enum Failure {
 }
 
 impl Failure {
-    /// A wrong input; or a failed run, where the system lacks what it takes to look at the input.
-    pub fn input(error: impl fmt::Display) -> Self {
-        let message = error.to_string();
-        if LACKS.iter().any(|number| is_lacking(&message, *number)) { Self::Run(message) } else { Self::Input(message) }
+    /// A wrong input; or a failed run, where the error says, or comes from one that says, that the system lacks what it takes to look at the
+    /// input.
+    pub fn input(error: impl Into<Box<dyn Error>>) -> Self {
+        let error = error.into();
+        Self::because(&*error, &error)
+    }
+
+    /// As [`input`](Self::input), with a message of its own.
+    pub fn because(error: &(dyn Error + 'static), message: impl fmt::Display) -> Self {
+        if lacks(error) { Self::Run(message.to_string()) } else { Self::Input(message.to_string()) }
     }
 
     /// A failed run.
@@ -44,7 +53,7 @@ impl Failure {
 
     /// A study that cannot be used, with the lines that are wrong.
     pub fn of_study(error: StudyError) -> Self {
-        Self::input(excerpt::of(&error.0))
+        Self::Input(excerpt::of(&error.0))
     }
 
     /// How a run failed.
@@ -92,13 +101,41 @@ impl Failure {
     }
 }
 
+impl fmt::Display for Failure {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Input(message) | Self::Run(message) | Self::Stopped { message: Some(message), .. } => {
+                f.write_str(message)
+            }
+            Self::Stopped { message: None, .. } => Ok(()),
+        }
+    }
+}
+
 /// Numbers of the system's errors that are not the user's fault: no thread, no memory, too many open files, in all or of this
 /// process.
-const LACKS: [u8; 4] = [11, 12, 23, 24];
+const LACKS: [i32; 4] = [11, 12, 23, 24];
 
-/// Whether a message ends in that number of the system, as the standard library and HDF5 write it.
-fn is_lacking(message: &str, number: u8) -> bool {
-    message.contains(&format!("(os error {number})")) || message.contains(&format!("errno = {number},"))
+/// Whether an error, or what it comes from, is that the system lacks something.
+fn lacks(error: &(dyn Error + 'static)) -> bool {
+    let number = |error: &(dyn Error + 'static)| match error.downcast_ref::<ReadError>() {
+        Some(ReadError::System { number, .. }) => *number,
+        _ => error.downcast_ref::<io::Error>().and_then(io::Error::raw_os_error),
+    };
+    let is_lack = |error: &(dyn Error + 'static)| {
+        number(error).is_some_and(|number| LACKS.contains(&number))
+            || matches!(error.downcast_ref(), Some(ReadError::Handles { .. }))
+            || matches!(error.downcast_ref(), Some(RunFileError::NoHandle { .. }))
+            || matches!(error.downcast_ref(), Some(SimulationError::Threads { .. }))
+    };
+    let mut next = Some(error);
+    while let Some(error) = next {
+        if is_lack(error) {
+            return true;
+        }
+        next = error.source();
+    }
+    false
 }
 
 /// Works together with the other processes of the job if there are any. From here on only the first of them gives warnings; if
@@ -127,5 +164,30 @@ pub fn in_job(work: impl FnOnce(&mut Job) -> Result<(), Failure>) -> Result<(), 
             job.fail(failure.status(), || failure.say());
             Err(failure)
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::PathBuf;
+
+    use plateau_run::InputError;
+
+    use super::*;
+
+    #[test]
+    fn the_status_comes_from_the_error_and_not_from_its_words() {
+        let named = "cannot read notes (os error 24), errno = 12, of mine.toml";
+        assert_eq!(Failure::input(named).status(), 2);
+        let system = |number| io::Error::from_raw_os_error(number);
+        for (number, status) in [(2, 2), (13, 2), (11, 1), (12, 1), (23, 1), (24, 1)] {
+            assert_eq!(Failure::input(system(number)).status(), status, "{number}");
+            assert_eq!(Failure::because(&system(number), "said in other words").status(), status, "{number}");
+            // However deep it lies.
+            let aside = InputError::SetAside { path: PathBuf::from("run.h5"), error: system(number) };
+            assert_eq!(Failure::of(RunError::Input(aside)).status(), status, "{number}");
+        }
+        let threads = SimulationError::Threads { workers: 2, message: "no".into() };
+        assert_eq!(Failure::of(RunError::Input(InputError::Simulation(threads))).status(), 1);
     }
 }

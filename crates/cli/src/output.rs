@@ -18,14 +18,12 @@ use crate::failure::Failure;
 pub fn check(path: &Path, force: bool, inputs: &[PathBuf]) -> Result<(), Failure> {
     let shown = path.display();
     if path.as_os_str().as_encoded_bytes().ends_with(b"/") {
-        return Err(Failure::input(format_args!("cannot write {shown}: it names a folder; name a file")));
+        return Err(Failure::input(format!("cannot write {shown}: it names a folder; name a file")));
     }
     let directory = directory(path);
     if !directory.is_dir() {
         let directory = directory.display();
-        return Err(Failure::input(format_args!(
-            "cannot write {shown}: {directory} is not a directory; make it first"
-        )));
+        return Err(Failure::input(format!("cannot write {shown}: {directory} is not a directory; make it first")));
     }
     let Ok(there) = fs::symlink_metadata(path) else { return Ok(()) };
     let real = fs::metadata(path);
@@ -33,16 +31,14 @@ pub fn check(path: &Path, force: bool, inputs: &[PathBuf]) -> Result<(), Failure
     if there.is_symlink() && real.is_err() {
         let to = fs::read_link(path).unwrap_or_default();
         let to = to.display();
-        let what = format_args!("{shown} is a link to {to}, which is not there; remove it, or name another file");
+        let what = format!("{shown} is a link to {to}, which is not there; remove it, or name another file");
         return Err(Failure::input(what));
     }
     if there.is_dir() || real.is_ok_and(|real| !real.is_file()) {
-        return Err(Failure::input(format_args!(
-            "{shown} is not a regular file and is not replaced; name another file"
-        )));
+        return Err(Failure::input(format!("{shown} is not a regular file and is not replaced; name another file")));
     }
     if regular::is_one_of(path, inputs) {
-        return Err(Failure::input(format_args!("{shown} is an input and is not replaced; name another file")));
+        return Err(Failure::input(format!("{shown} is an input and is not replaced; name another file")));
     }
     if force { Ok(()) } else { Err(exists(path)) }
 }
@@ -118,7 +114,8 @@ fn fill_at(
 pub fn make_directory(path: &Path) -> Result<(), Failure> {
     fs::create_dir_all(path).map_err(|error| {
         let reason = if path.exists() { "there is a file of that name".to_owned() } else { error.to_string() };
-        Failure::input(format_args!("cannot make the folder {}: {reason}; name another one with -o", path.display()))
+        let path = path.display();
+        Failure::because(&error, format_args!("cannot make the folder {path}: {reason}; name another one with -o"))
     })
 }
 
@@ -126,9 +123,9 @@ pub fn make_directory(path: &Path) -> Result<(), Failure> {
 fn unwritable(path: &Path, error: &io::Error) -> Failure {
     let directory = directory(path).display();
     let path = path.display();
-    Failure::input(format_args!(
-        "cannot write {path}: {error}; make the directory {directory} writable, or name a file elsewhere"
-    ))
+    let message =
+        format_args!("cannot write {path}: {error}; make the directory {directory} writable, or name a file elsewhere");
+    Failure::because(error, message)
 }
 
 /// The folder in which a path is.
@@ -137,5 +134,5 @@ pub fn directory(path: &Path) -> &Path {
 }
 
 fn exists(path: &Path) -> Failure {
-    Failure::input(format_args!("{} exists; give --force to replace it, or write elsewhere", path.display()))
+    Failure::input(format!("{} exists; give --force to replace it, or write elsewhere", path.display()))
 }

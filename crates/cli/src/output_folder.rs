@@ -42,7 +42,7 @@ impl OutputFolder {
     /// [`Failure::Input`] when it has the files of an earlier call, unless `force` is set.
     pub fn new(path: PathBuf, force: bool) -> Result<Self, Failure> {
         if !force && List::read(&path).is_some() {
-            return Err(Failure::input(format_args!(
+            return Err(Failure::input(format!(
                 "{} has the files of an earlier call; give --force to replace them, or name another folder with -o",
                 path.display()
             )));
@@ -61,7 +61,7 @@ impl OutputFolder {
             Some(list) if list.of.as_ref() == Some(&of) => list.names,
             Some(list) if !force => {
                 let other = list.of.map_or_else(String::new, |of| format!(", of {of}"));
-                return Err(Failure::input(format_args!(
+                return Err(Failure::input(format!(
                     "{} has the files of another call{other}; give --force to replace them, or name another folder with -o",
                     path.display()
                 )));

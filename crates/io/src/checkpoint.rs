@@ -88,6 +88,7 @@ pub enum CheckpointError {
         /// The file.
         path: PathBuf,
         /// What the system says.
+        #[source]
         error: io::Error,
     },
     /// It is damaged, or something else.

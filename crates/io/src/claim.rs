@@ -9,6 +9,10 @@
 //! claims the right to do so in the same way, with a file named by the number that only this lock has; then it looks
 //! whether that lock still is there, and replaces it. So of several that find a lock left over one gets it, and nobody
 //! takes a new one for it.
+//!
+//! Of a process of another machine nobody can see whether it lives. Where others wait for what it has, as those that share a study, it
+//! touches its lock now and then: [`Claim::touch`]. Who has seen for long that nobody touches it takes it over: [`Claim::of_silent`]. Only
+//! changes count, so clocks need not agree.
 
 use std::fs::{self, File};
 use std::io::{self, ErrorKind, Read, Write};
@@ -46,6 +50,13 @@ pub struct Claim {
     owner: Owner,
     /// Who had the lock and left it.
     before: Option<Process>,
+}
+
+/// A lock as somebody saw it: which, and when it was touched last.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Seen {
+    number: String,
+    touched: SystemTime,
 }
 
 /// What a lock says.
@@ -130,6 +141,7 @@ pub enum ClaimError {
         /// The file that says so.
         lock: PathBuf,
         /// What the system says.
+        #[source]
         error: io::Error,
     },
     /// No lock can be made.
@@ -138,6 +150,7 @@ pub enum ClaimError {
         /// The directory.
         directory: PathBuf,
         /// What the system says.
+        #[source]
         error: io::Error,
     },
 }
@@ -156,14 +169,46 @@ impl Claim {
     /// # Errors
     /// [`ClaimError`] when another process has it, or this one, or no lock can be made.
     pub fn of(path: &Path) -> Result<Self, ClaimError> {
+        Self::with(path, None)
+    }
+
+    /// As [`of`](Self::of), and takes over the lock of a process of another machine if it still is as it was [`seen`](Self::seen).
+    ///
+    /// # Errors
+    /// Those of [`of`](Self::of).
+    pub fn of_silent(path: &Path, seen: &Seen) -> Result<Self, ClaimError> {
+        Self::with(path, Some(seen))
+    }
+
+    fn with(path: &Path, silent: Option<&Seen>) -> Result<Self, ClaimError> {
         let lock = lock_of(path);
-        let claim = Self::take(path, &lock, 0)?;
+        let claim = Self::take(path, &lock, silent, 0)?;
         remove_left(&lock);
         Ok(claim)
     }
 
+    /// The lock of a file as it is now, if there is one.
+    pub fn seen(path: &Path) -> Option<Seen> {
+        let lock = lock_of(path);
+        let number = read(path, &lock).ok()??.number;
+        // What is opened is as it is now, also on network file systems.
+        Some(Seen { number, touched: File::open(&lock).ok()?.metadata().ok()?.modified().ok()? })
+    }
+
+    /// Shows others that this process lives.
+    pub fn touch(&self) {
+        if self.is_in_place() {
+            // Who sees nothing for long takes the claim over; then the work is done twice.
+            let _ = File::options().append(true).open(&self.lock).and_then(|lock| lock.set_modified(SystemTime::now()));
+        }
+    }
+
+    fn is_in_place(&self) -> bool {
+        read(&self.lock, &self.lock).is_ok_and(|there| there.as_ref() == Some(&self.owner))
+    }
+
     /// Makes a lock.
-    fn take(path: &Path, lock: &Path, depth: usize) -> Result<Self, ClaimError> {
+    fn take(path: &Path, lock: &Path, silent: Option<&Seen>, depth: usize) -> Result<Self, ClaimError> {
         let system = |error| ClaimError::System { directory: folder(lock).to_owned(), error };
         let owner = Owner::this();
         let text = serde_json::to_string(&owner).map_err(|error| system(error.into()))? + "\n";
@@ -175,7 +220,13 @@ impl Claim {
                 return Ok(Self { lock: lock.to_owned(), owner, before: None });
             }
             let Some(there) = read(path, lock)? else { continue };
-            if there.writer.life() != Life::Ended || depth == DEPTH {
+            let is_silent = || silent.is_some() && Self::seen(path).as_ref() == silent;
+            let is_gone = match there.writer.life() {
+                Life::Ended => true,
+                Life::Unknown => is_silent(),
+                Life::Lives => false,
+            };
+            if !is_gone || depth == DEPTH {
                 return Err(there.refusal(path, lock));
             }
             // Whoever writes the file on this machine lives, whatever the lock says.
@@ -184,7 +235,7 @@ impl Claim {
             {
                 return Err(ClaimError::Here { path: path.to_owned(), process, since: there.since });
             }
-            let _right = Self::take(path, &right_to(lock, &there.number), depth + 1)?;
+            let _right = Self::take(path, &right_to(lock, &there.number), None, depth + 1)?;
             // Only who has the right replaces that lock, and nobody else would remove it.
             if read(path, lock)?.is_some_and(|now| now == there) {
                 fs::rename(temporary.path(), lock).map_err(system)?;
@@ -215,7 +266,7 @@ impl Claim {
 impl Drop for Claim {
     fn drop(&mut self) {
         // Somebody may have removed the lock, and another process made its own. Nobody is left to tell what fails.
-        if read(&self.lock, &self.lock).is_ok_and(|there| there.as_ref() == Some(&self.owner)) {
+        if self.is_in_place() {
             let _ = fs::remove_file(&self.lock);
         }
     }

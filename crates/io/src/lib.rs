@@ -17,6 +17,7 @@
 //! | regular files, and nothing else | [`regular`] |
 //! | how much is read of a file | [`limits`] |
 //! | how much memory there is | [`memory`] |
+//! | generations of the numbers of runs, each with its reason | [`generation`] |
 //! | lists in messages, as much of them as is read | [`brief`] |
 //! | text that others have written, as it can be shown | [`text`] |
 //! | files that appear when they are complete | [`temporary`] |
@@ -29,6 +30,7 @@ pub mod claim;
 pub mod dataset_file;
 pub mod delimited;
 pub mod export;
+pub mod generation;
 mod hdf5_file;
 pub mod limits;
 pub mod machine;

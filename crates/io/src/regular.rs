@@ -2,6 +2,7 @@
 
 use std::fs::{self, File};
 use std::io::{self, ErrorKind, Read};
+use std::os::unix::fs::MetadataExt as _;
 use std::path::{Path, PathBuf};
 
 use sha2::{Digest, Sha256};
@@ -118,6 +119,41 @@ fn refuse_large(bytes: u64, most: u64) -> io::Result<()> {
     Err(io::Error::new(ErrorKind::FileTooLarge, limits::more(bytes, most, "bytes")))
 }
 
+/// How often a file is read that changes meanwhile.
+const READINGS: usize = 5;
+
+/// What `read` makes of a file, and the SHA-256 of the content that it read: a file that is replaced or written meanwhile is read again.
+///
+/// # Errors
+/// Those of `read`; as `failed` puts it what the system says, and [`ErrorKind::InvalidData`] where the file changes again and again.
+pub(crate) fn digested<T, E>(
+    path: &Path,
+    mut read: impl FnMut() -> Result<T, E>,
+    failed: impl Fn(io::Error) -> E,
+) -> Result<(T, String), E> {
+    let state = || {
+        let there = fs::metadata(path)?;
+        let times = [there.mtime(), there.mtime_nsec(), there.ctime(), there.ctime_nsec()];
+        Ok((there.dev(), there.ino(), there.len(), times))
+    };
+    for _ in 0..READINGS {
+        // Of what is not there `read` says so, and what is too large it does not read.
+        let before = state();
+        let content = read()?;
+        let digest = sha256(path).map_err(&failed)?;
+        if before.map_err(&failed)? == state().map_err(&failed)? {
+            return Ok((content, digest));
+        }
+    }
+    let message = "it changes while it is read; try again when it is written";
+    Err(failed(io::Error::new(ErrorKind::InvalidData, message)))
+}
+
+/// SHA-256 of bytes, 64 hexadecimal digits.
+pub fn sha256_of(bytes: &[u8]) -> String {
+    format!("{:x}", Sha256::digest(bytes))
+}
+
 /// SHA-256 of a file's content, 64 hexadecimal digits.
 ///
 /// # Errors
@@ -149,6 +185,30 @@ mod tests {
         assert_eq!(said("quick.h5"), "No such file or directory (os error 2)");
         assert_eq!(said("else.toml"), "No such file or directory (os error 2)");
         assert_eq!(said("."), "it is a folder, expected a file");
+    }
+
+    #[test]
+    fn the_digest_is_that_of_what_was_read() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("surface");
+        fs::write(&path, "0").unwrap();
+        // It grows behind the first two readings.
+        let mut readings = 0;
+        let growing = || {
+            let content = read_to_string(&path, 9)?;
+            readings += 1;
+            let next = "0".repeat(readings.min(2) + 1);
+            if content != next { fs::write(&path, next).map(|()| content) } else { Ok(content) }
+        };
+        let (content, digest) = digested(&path, growing, |error| error).unwrap();
+        assert_eq!((content.as_str(), readings, digest), ("000", 3, sha256_of(b"000")));
+        let mut count = 0;
+        let endless = || {
+            count += 1;
+            fs::write(&path, "0".repeat(count))
+        };
+        let said = digested(&path, endless, |error| error).unwrap_err().to_string();
+        assert!(said.starts_with("it changes while it is read"), "{said}");
     }
 
     #[test]

@@ -14,6 +14,7 @@ use plateau_core::model::state::{Base, InitialSurfaces};
 use plateau_core::observe::Map;
 use plateau_core::observe::schedule::SampleEvery;
 use plateau_core::surface::{Crop, FibreSynthesis, Fill, Flip, HeightSynthesis, Level, Preparation, Texture, Unroll};
+use plateau_io::regular::sha256_of;
 use plateau_io::scene::{self, memory_estimate};
 use plateau_io::scene::{BaseSource, HeightSettings, HeightSource, Scene, Workers};
 use plateau_io::surface::{Decimal, Lay, ReadOptions};
@@ -75,7 +76,8 @@ fn the_example_of_the_format_gives_its_values() {
     assert_eq!(scene.output.sample_every, SampleEvery::Time(1.0));
     assert_eq!(scene.output.maps_at, [0.0, 500.0, 3000.0]);
     assert_eq!(scene.output.maps, Map::CHOICES);
-    assert_eq!(scene.files, [good("full.toml")]);
+    let digest = sha256_of(&std::fs::read(good("full.toml")).unwrap());
+    assert_eq!(scene.files, [(good("full.toml"), digest)]);
     assert_eq!(scene.warnings, []);
 }
 

@@ -8,6 +8,7 @@ use plateau_core::model::state::Base;
 use plateau_core::observe::Map;
 use plateau_core::observe::schedule::SampleEvery;
 use plateau_core::surface::{Extension, FibreSynthesis, Fill, HeightSynthesis, Level, Preparation};
+use plateau_io::regular::sha256_of;
 use plateau_io::scene::{self};
 use plateau_io::scene::{BaseSource, HeightSettings, HeightSource, Scene, Workers};
 use plateau_io::surface::ReadOptions;
@@ -18,7 +19,8 @@ use crate::good_scenes::{good, input, load};
 fn an_extending_scene_overrides_key_by_key_and_removes_the_other_alternatives() {
     let scene = load("extending.toml", &[]);
     assert_eq!(scene.title, "measured");
-    assert_eq!(scene.files, ["extending.toml", "parts/measured.toml", "parts/../minimal.toml"].map(good));
+    let files = ["extending.toml", "parts/measured.toml", "parts/../minimal.toml"].map(good);
+    assert_eq!(scene.files, files.map(|file| (file.clone(), sha256_of(&std::fs::read(file).unwrap()))));
     assert_eq!(scene.parameters.angular_velocity, 850.0 * TAU / 60.0);
     // 0.5 s at ten revolutions in one: 0.5 · 850/60 · 276/10 = 195.5 steps.
     assert_eq!(scene.steps, 196);
@@ -142,7 +144,7 @@ fn a_resolved_scene_reads_back_alike() {
                 (scene.pin_base, scene.pin_base_mirror, scene.workers, scene.output, scene.seeds, scene.resolved),
             )
         };
-        assert_eq!(again.files, [path]);
+        assert_eq!(again.files.iter().map(|(file, _)| file).collect::<Vec<_>>(), [&path]);
         assert_eq!(content(again), content(scene));
     }
 }

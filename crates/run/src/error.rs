@@ -33,11 +33,11 @@ pub enum InputError {
     #[error(transparent)]
     Surface(Box<SurfaceError>),
     /// Surfaces and parameters make no simulation.
-    #[error(transparent)]
+    #[error("{0}")]
     Simulation(#[from] SimulationError),
     /// No run file can be made there.
-    #[error(transparent)]
-    RunFile(RunFileError),
+    #[error("{0}")]
+    RunFile(#[source] RunFileError),
     /// There is a run file, whose run has not come to its end.
     #[error(
         "{} exists, and its run was stopped before its end; --resume goes on with it if the scene is the same, --force begins again, \
@@ -55,16 +55,8 @@ pub enum InputError {
     #[error(transparent)]
     Checkpoint(#[from] CheckpointError),
     /// A run file cannot be read.
-    #[error(transparent)]
+    #[error("{0}")]
     Read(#[from] ReadError),
-    /// A file of the scene cannot be read any more.
-    #[error("{}: {error}", path.display())]
-    File {
-        /// The file.
-        path: PathBuf,
-        /// What the system says.
-        error: io::Error,
-    },
     /// The output, or a checkpoint of it, is a file that the run reads.
     #[error("the {what} {} is an input of this run and is not replaced; write elsewhere with -o FILE", path.display())]
     ReplacesInput {
@@ -87,6 +79,7 @@ pub enum InputError {
         /// The run file.
         path: PathBuf,
         /// What the system says.
+        #[source]
         error: io::Error,
     },
     /// The samples of a run without a checkpoint cannot be kept.
@@ -97,6 +90,7 @@ pub enum InputError {
         /// The run file.
         path: PathBuf,
         /// What the system says.
+        #[source]
         error: io::Error,
     },
     /// A run that is to be extended has come further.
@@ -150,13 +144,13 @@ pub enum InputError {
 #[derive(Debug, Error)]
 pub enum RunFailure {
     /// A step, or what was to be reported of one.
-    #[error(transparent)]
+    #[error("{0}")]
     Simulation(#[from] SimulationError),
     /// The run file could not be made or written.
     #[error(transparent)]
     RunFile(#[from] RunFileError),
     /// The run file, though complete, could not be read again.
-    #[error(transparent)]
+    #[error("{0}")]
     Read(#[from] ReadError),
     /// There is no space for the lock of the run file.
     #[error(transparent)]

@@ -6,24 +6,20 @@ use plateau_io::run_file::{Header, InputFile};
 use plateau_io::scene::Scene;
 
 use crate::assembly::Assembly;
-use crate::error::InputError;
 use crate::machine;
 use crate::options::Program;
 
 /// The part of the run file that is known before the first step. `surface_files` are those that were read, with their digests;
 /// `surfaces` says what was done for the surfaces.
-///
-/// # Errors
-/// [`InputError::File`] when a scene file is gone.
 pub fn header(
     scene: &Scene,
     assembly: &Assembly,
     program: &Program,
     surface_files: &[(PathBuf, String)],
     surfaces: Vec<String>,
-) -> Result<Header, InputError> {
+) -> Header {
     let execution = assembly.simulation.execution();
-    Ok(Header {
+    Header {
         title: scene.title.clone(),
         mesh: scene.parameters.mesh.clone(),
         pin_base: assembly.simulation.pin_base().to_vec(),
@@ -37,21 +33,13 @@ pub fn header(
         workers: execution.workers,
         instruction_set: execution.means().into(),
         seeds: scene.seeds.clone(),
-        inputs: input_files(scene, surface_files)?,
+        inputs: input_files(scene, surface_files),
         surfaces,
-    })
+    }
 }
 
-/// Every file that a scene reads, with its digest; those of surfaces, `surface_files`, are digested already.
-///
-/// # Errors
-/// [`InputError::File`] when a scene file is gone.
-pub fn input_files(scene: &Scene, surface_files: &[(PathBuf, String)]) -> Result<Vec<InputFile>, InputError> {
-    let mut inputs = InputFile::read_all(&scene.files).map_err(|(path, error)| InputError::File { path, error })?;
-    inputs.extend(
-        surface_files
-            .iter()
-            .map(|(path, sha256)| InputFile { path: path.to_string_lossy().into_owned(), sha256: sha256.clone() }),
-    );
-    Ok(inputs)
+/// Every file that a scene read, with the digest of what was read; those of surfaces are `surface_files`.
+pub fn input_files(scene: &Scene, surface_files: &[(PathBuf, String)]) -> Vec<InputFile> {
+    let read = scene.files.iter().chain(surface_files);
+    read.map(|(path, sha256)| InputFile { path: path.to_string_lossy().into_owned(), sha256: sha256.clone() }).collect()
 }

@@ -100,12 +100,14 @@ impl Prepared {
         let execution = decide(&scene, job.ranks(), &options.execution, &surfaces, observer)?;
         let assembly = Assembly::on(job, &scene, surfaces, execution)?;
         assembly.idle().into_iter().for_each(|idle| observer.warning(&idle_warning(idle)));
-        let header = header(&scene, &assembly, &options.program, &inputs, report)?;
+        let header = header(&scene, &assembly, &options.program, &inputs, report);
         job.compare(
             &[&header.scene, &header.source_revision, &format!("{:?}", header.inputs)].map(String::as_str).concat(),
         )?;
         let (program, engine) = (options.program.build(), execution.engine);
-        let inputs = inputs.into_iter().chain(cycle_file(&scene, &header)).collect();
+        // With another content of the cycle it is another run.
+        let cycle = scene.cycle.as_ref().and_then(|operation| operation.file.clone());
+        let inputs = inputs.into_iter().chain(cycle).collect();
         let identity = RunIdentity { program, engine, scene: scene.resolved.clone(), inputs };
         Ok(Self { scene, path, assembly, header, identity })
     }
@@ -219,13 +221,6 @@ fn stop_if_asked(observer: &mut dyn Observer, job: &mut Job) -> Result<(), RunEr
     Err(Stopped { signal, progress }.into())
 }
 
-/// The file of the cycle, if there is one, with its digest: with another content it is another run.
-fn cycle_file(scene: &Scene, header: &Header) -> Option<(PathBuf, String)> {
-    let path = scene.cycle.as_ref()?.file.clone()?;
-    let digest = header.inputs.iter().find(|input| Path::new(&input.path) == path)?.sha256.clone();
-    Some((path, digest))
-}
-
 /// Says what else the scene can hardly mean, and keeps it with what was said of it before.
 fn warn_of_scene(scene: &mut Scene, warnings: Vec<Warning>, observer: &mut dyn Observer) {
     warnings.iter().for_each(|warning| observer.warning(warning));
@@ -234,7 +229,7 @@ fn warn_of_scene(scene: &mut Scene, warnings: Vec<Warning>, observer: &mut dyn O
 
 /// Refuses an output, or a checkpoint of it, that is a file which the run reads: not even to be replaced is meant like that.
 fn refuse_to_replace_inputs(output: &Path, scene: &Scene, loaded: &Loaded) -> Result<(), InputError> {
-    let inputs = scene.files.iter().chain(loaded.inputs.iter().map(|(path, _)| path));
+    let inputs = scene.files.iter().chain(&loaded.inputs).map(|(path, _)| path);
     let inputs: Vec<_> = inputs.filter_map(|input| input.canonicalize().ok()).collect();
     let [last, before] = checkpoint::paths(output);
     for (what, path) in [("output file", output), ("checkpoint", &last), ("checkpoint", &before)] {

@@ -1,5 +1,7 @@
 //! A run as another program has it: observed, stopped, gone on with, refused.
 
+mod generations;
+
 use std::fmt::Display;
 use std::path::Path;
 

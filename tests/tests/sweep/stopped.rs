@@ -106,7 +106,9 @@ fn a_long_run_that_was_stopped_or_killed_goes_on() {
     });
     let start = ["sweep", "run", "study.toml", "--jobs", "2"];
     assert_eq!(whole.plateau(start).status, Some(0));
-    let states = || fs::read_dir(directory.path("results/under-way")).map_or(0, Iterator::count);
+    let is_state = |entry: &fs::DirEntry| entry.file_name().len() == 64;
+    let folder = directory.path("results/under-way");
+    let states = || fs::read_dir(&folder).map_or(0, |entries| entries.flatten().filter(is_state).count());
     for signal in ["TERM", "KILL"] {
         let mut command = directory.command(start);
         let mut child = command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
@@ -162,6 +164,7 @@ at = "end"
         }
         let output = child.wait_with_output().unwrap();
         assert_eq!(output.status.code(), Some(143), "{output:?}");
+        // No lock is left either.
         let states = fs::read_dir(directory.path("results/under-way")).map_or(0, Iterator::count);
         assert_eq!(states, kept, "{output:?}");
         let _ = fs::remove_dir_all(directory.path("results"));

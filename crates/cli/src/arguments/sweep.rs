@@ -17,8 +17,8 @@ pub enum SweepCommand {
     /// Make the runs that are not there yet, several at a time
     #[command(after_help = "Examples:\n  plateau sweep run data/studies/pad-properties.toml\n  \
                       plateau sweep run data/studies/pad-properties.toml --task 3/10\n\n\
-                      It can be stopped and started again at any time, and on several machines that share a folder: \
-                      runs that are there are not made again.")]
+                      It can be stopped and started again at any time, and several times at once, on several machines that share a folder: \
+                      no run is made twice.")]
     Run(SweepRunArguments),
     /// Write a batch script that makes the runs as a Slurm job array
     #[command(
@@ -84,7 +84,7 @@ pub struct SweepRunArguments {
     /// Stop when so many runs have failed; unless given, the others go on
     #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = clap::value_parser!(u32).range(1..))]
     pub max_failures: Option<u32>,
-    /// Make runs again that failed before
+    /// Make runs again that failed before, or that did not keep a series which a response asks for
     #[arg(long)]
     pub retry: bool,
     /// Print one JSON document instead of text
@@ -137,7 +137,7 @@ pub struct CollectArguments {
     /// Folder for results.h5 and results.csv; the study's own unless given
     #[arg(short, long, value_name = "DIR")]
     pub output: Option<PathBuf>,
-    /// Replace files of these names that were not collected from a study
+    /// Replace files of these names that were not collected from a study, or that have more finished runs than there are now
     #[arg(long)]
     pub force: bool,
     /// Print one JSON document instead of text

@@ -67,7 +67,7 @@ fn measure_into(
 
     let making = Making {
         scene: scene.resolved.clone(),
-        inputs: input_files(scene, &loaded.inputs).map_err(Failure::input)?,
+        inputs: input_files(scene, &loaded.inputs),
         workers: execution.workers,
         instruction_set: execution.instructions.name(),
         budget: arguments.budget,
@@ -106,8 +106,8 @@ fn places(
     scene: &Scene,
     surfaces: &[(PathBuf, String)],
 ) -> Result<[PathBuf; 5], Failure> {
-    let mut inputs = scene.files.clone();
-    inputs.extend(surfaces.iter().map(|(path, _)| path.clone()));
+    let read = scene.files.iter().chain(surfaces);
+    let mut inputs: Vec<PathBuf> = read.map(|(path, _)| path.clone()).collect();
     inputs.extend(arguments.reference.clone());
     let places = FILES.map(|name| arguments.output.join(name));
     let check = |path: &PathBuf| output::check(path, arguments.force, &inputs);

@@ -32,7 +32,7 @@ impl File {
 
 /// Every file that a run of the scene reads, and those that it writes, with where they really are.
 pub(super) fn files(scene: &Scene, inputs: &[(PathBuf, String)]) -> Vec<File> {
-    let read = scene.files.iter().chain(inputs.iter().map(|(path, _)| path));
+    let read = scene.files.iter().chain(inputs).map(|(path, _)| path);
     let mut files: Vec<File> = Vec::new();
     for path in read {
         // It was there a moment ago.

@@ -61,5 +61,5 @@ impl Page {
 
 fn unknown(program: &Command, name: &str) -> Failure {
     let names: Vec<_> = program.get_subcommands().map(Command::get_name).collect();
-    Failure::input(format_args!("no command is called \"{name}\", there are {}", names.join(", ")))
+    Failure::input(format!("no command is called \"{name}\", there are {}", names.join(", ")))
 }

@@ -109,11 +109,11 @@ fn refuse_if_written(path: &Path, force: bool) -> Result<(), Failure> {
     let file = path.display();
     match writer_of(path) {
         Writer::Process(process) => {
-            return Err(Failure::input(format_args!("{file} is being written by process {process}; stop it first")));
+            return Err(Failure::input(format!("{file} is being written by process {process}; stop it first")));
         }
         // The lock of a run that was killed says that this run has ended.
         Writer::Hidden if !is_known && !force => {
-            return Err(Failure::input(format_args!(
+            return Err(Failure::input(format!(
                 "{file} belongs to another user, who may still be writing it: this system does not tell; if not, give --force"
             )));
         }
@@ -130,7 +130,7 @@ fn refuse_if_written(path: &Path, force: bool) -> Result<(), Failure> {
         message::note(format_args!("{file} was last written on the machine {host}"));
         return Ok(());
     };
-    Err(Failure::input(format_args!(
+    Err(Failure::input(format!(
         "{file} was written {} ago on the machine {host}, where its run may still go on; if not, give --force",
         number::duration(age.as_secs_f64().floor())
     )))

@@ -39,7 +39,7 @@ fn refuse_other_format(page: &Path) -> Result<(), Failure> {
     if !NO_PAGES.contains(&output::ending(page).as_str()) {
         return Ok(());
     }
-    Err(Failure::input(format_args!(
+    Err(Failure::input(format!(
         "-o {}: a report is a page in HTML, expected a name such as {}; a browser prints it as PDF, `{} plot` makes single figures",
         page.display(),
         page.with_extension("html").display(),

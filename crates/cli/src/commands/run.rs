@@ -73,7 +73,7 @@ fn refuse_other_format(given: &str, file: &Path) -> Result<(), Failure> {
     let ending = output::ending(file);
     match MADE_OF_RUNS.iter().find(|(other, _)| *other == ending) {
         None => Ok(()),
-        Some((_, call)) => Err(Failure::input(format_args!(
+        Some((_, call)) => Err(Failure::input(format!(
             "{given} {}: a run file is HDF5, expected a name such as {}; afterwards `{} {call}` makes .{ending} of it",
             file.display(),
             file.with_extension("h5").display(),

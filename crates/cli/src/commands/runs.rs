@@ -58,7 +58,7 @@ pub fn warn_of_times(run: &RunFile, at: &[f64]) {
 pub fn open_runs(paths: &[PathBuf]) -> Result<Vec<RunFile>, Failure> {
     let count = paths.len();
     if count > MOST_RUNS {
-        return Err(Failure::input(format_args!(
+        return Err(Failure::input(format!(
             "{count} runs: expected at most {MOST_RUNS}, more make no legible figure; name fewer"
         )));
     }

@@ -38,7 +38,7 @@ pub fn verify(arguments: &VerifyArguments) -> Result<(), Failure> {
     match (foreign, bad) {
         (0, 0) => Ok(()),
         (0, bad) => Err(Failure::run(format_args!("not intact: {bad} of {files}"))),
-        (foreign, _) => Err(Failure::input(format_args!("cannot be verified: {foreign} of {files}"))),
+        (foreign, _) => Err(Failure::input(format!("cannot be verified: {foreign} of {files}"))),
     }
 }
 

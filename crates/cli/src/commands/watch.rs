@@ -140,7 +140,7 @@ impl<'a> Watcher<'a> {
         } else {
             String::new()
         };
-        Err(Failure::input(format_args!("{error}{waited}")))
+        Err(Failure::because(&error, format_args!("{error}{waited}")))
     }
 
     /// That the run may have been killed, if so it seems.

@@ -6,7 +6,6 @@
 use std::collections::BTreeSet;
 
 use plateau_io::study::collected::{Collected, CollectedRun};
-use plateau_io::study::journal::Entry;
 use plateau_io::study::level::Level;
 use plateau_io::study::plan::Plan;
 use plateau_io::study::{DesignSource, Order, Study};
@@ -18,7 +17,8 @@ use serde::Serialize;
 
 use super::floor::Floor;
 use super::progress::Progress;
-use super::resolved::Resolved;
+use super::resolved::{Resolved, ResolvedRun};
+use super::unkept::is_whole;
 use super::{journal, refuse_unwritable};
 use crate::arguments::CoresArguments;
 use crate::failure::{Failure, in_job};
@@ -60,11 +60,12 @@ pub fn confirm(
     };
     let extra = Plan::new(study).map_err(Failure::of_study)?;
     let resolved = Resolved::of(&extra)?;
+    let identities = resolved.identities();
     resolved.warnings.say("confirming runs");
-    warn_of_known(known, &resolved);
+    warn_of_known(known, &identities);
     in_job(|job| make(&extra, &resolved, cores, job))?;
     let journal = journal(extra.study())?;
-    let collected = Collected::new(&extra, &resolved.identities, &journal).map_err(Failure::run)?;
+    let collected = Collected::new(&extra, &identities, &journal).map_err(Failure::run)?;
     if collected.count("finished") == 0 {
         let place = if places.len() > 1 { "any of these places" } else { "this place" };
         return Err(Failure::run(format_args!("no run at {place} ended well, so nothing is confirmed")));
@@ -78,9 +79,9 @@ pub fn confirm(
 }
 
 /// Warns of confirming runs that are runs of the study: the fit has used them.
-fn warn_of_known(known: &[String], extra: &Resolved) {
+fn warn_of_known(known: &[String], extra: &[String]) {
     let number = |identity: &String| known.iter().position(|other| other == identity).map(|at| at + 1);
-    let numbers: BTreeSet<usize> = extra.identities.iter().filter_map(number).collect();
+    let numbers: BTreeSet<usize> = extra.iter().filter_map(number).collect();
     if !numbers.is_empty() {
         let runs = if numbers.len() == 1 { "run" } else { "runs" };
         let list = brief::list(numbers.iter().map(ToString::to_string), ", ");
@@ -96,20 +97,20 @@ fn make(plan: &Plan, resolved: &Resolved, cores: &CoresArguments, job: &mut Job)
         return Err(Failure::input("confirming runs are made by one process: call this without mpirun"));
     }
     let journal = journal(plan.study())?;
-    let is_missing = |place: &usize| {
-        let entry = journal.get(&resolved.identities[*place]);
-        !resolved.is_repeat(*place) && !matches!(entry, Some(Entry { failure: None, .. }))
+    let is_missing = |(number, run): &(&usize, &ResolvedRun)| {
+        let is_there = journal.get(&run.identity).is_some_and(|entry| is_whole(entry, &run.needed));
+        !resolved.is_repeat(**number) && !is_there
     };
-    let pending: Vec<usize> = (0..plan.runs()).filter(is_missing).map(|place| place + 1).collect();
+    let pending: Vec<usize> = resolved.runs.iter().filter(is_missing).map(|(number, _)| *number).collect();
     if pending.is_empty() {
         return Ok(());
     }
     refuse_unwritable(plan.study())?;
     let interrupt = Interrupt::listen().map_err(Failure::run)?;
     interrupt.listen_for_save().map_err(Failure::run)?;
-    let steps = pending.iter().map(|number| resolved.steps[number - 1]).sum();
+    let steps = pending.iter().map(|number| resolved.runs[number].steps).sum();
     let progress = Progress::new(pending.len(), steps, job.leads());
-    let floor = Floor::new(plan, resolved, cores.workers(), interrupt, progress);
+    let floor = Floor::new(plan, Some(resolved), journal, cores.workers(), interrupt, progress);
     let shared = job.share(&pending, cores.runs_at_a_time(), None, &|number| floor.make(number));
     floor.say_warnings();
     let made = floor.end(shared.map_err(Failure::run))?;
@@ -117,8 +118,9 @@ fn make(plan: &Plan, resolved: &Resolved, cores: &CoresArguments, job: &mut Job)
         let message = format!("stopped by {}; the same command goes on", signal_in_words(signal));
         return Err(Failure::Stopped { signal, message: Some(message) });
     }
-    if made.failed > 0 {
-        message::warning(format_args!("{} failed and are left out", number::count(made.failed, "confirming run")));
+    let failed = made.failed + made.failed_elsewhere;
+    if failed > 0 {
+        message::warning(format_args!("{} failed and are left out", number::count(failed, "confirming run")));
     }
     Ok(())
 }

@@ -68,7 +68,7 @@ impl Estimate {
 
 /// The scene of a run.
 fn scene(plan: &Plan, number: usize) -> Result<Scene, Failure> {
-    let failed = |error| Failure::input(format_args!("{}:\n{error}", run_in_words(plan, number)));
+    let failed = |error| Failure::input(format!("{}:\n{error}", run_in_words(plan, number)));
     plan.scene(&plan.run(number)).map_err(failed)
 }
 

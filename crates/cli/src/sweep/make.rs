@@ -1,5 +1,6 @@
 //! One run of a study, from its scene to what is kept of it.
 
+use std::collections::BTreeSet;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use plateau_core::observe::event::event_quantities;
@@ -7,65 +8,93 @@ use plateau_core::observe::{Quantity, Sample, quantities};
 use plateau_core::simulation::{Execution, Simulation};
 use plateau_io::scene::Scene;
 use plateau_io::study::Study;
+use plateau_io::study::identity::Identity;
 use plateau_io::study::record::{CONTACT_TIME, Outcome, REVOLUTIONS, Series};
+use plateau_io::study::response::Response;
 use plateau_run::{Assembly, Sink};
 
 use super::surfaces::surfaces;
 use super::under_way::UnderWay;
 use super::watcher::{Ended, Stopped, Watcher};
+use crate::version;
+
+/// A run that has ended.
+pub struct MadeRun {
+    /// How.
+    pub outcome: Outcome,
+    /// What it was the run of, by what was read of its files; none if it failed before that was known.
+    pub of: Option<Identity>,
+}
 
 /// Makes a run.
 ///
 /// # Errors
 /// [`Stopped`] when it was not to be ended; what fails is an outcome.
-pub fn make(
-    study: &Study,
-    scene: &Scene,
-    workers: usize,
-    watcher: &dyn Watcher,
-    under_way: &mut UnderWay,
-) -> Result<Outcome, Stopped> {
+pub fn make(request: &Request<'_>, watcher: &dyn Watcher, under_way: &mut UnderWay) -> Result<MadeRun, Stopped> {
+    let mut of = None;
     // A panic is a mistake of this program; it ends the run, not the study.
-    let made = catch_unwind(AssertUnwindSafe(|| finish(study, scene, workers, watcher, under_way)));
-    match made {
-        Ok(Ok(outcome)) => Ok(outcome),
-        Ok(Err(Ended::Stopped(signal))) => Err(Stopped(signal)),
-        Ok(Err(Ended::Failed(error))) => Ok(Outcome::Failed { error }),
-        Err(_) => Ok(Outcome::Failed { error: "the program panicked: this is a mistake of the program".into() }),
-    }
+    let made = catch_unwind(AssertUnwindSafe(|| request.finish(watcher, under_way, &mut of)));
+    let outcome = match made {
+        Ok(Ok(outcome)) => outcome,
+        Ok(Err(Ended::Stopped(signal))) => return Err(Stopped(signal)),
+        Ok(Err(Ended::Failed(error))) => Outcome::Failed { error },
+        Err(_) => Outcome::Failed { error: "the program panicked: this is a mistake of the program".into() },
+    };
+    Ok(MadeRun { outcome, of })
 }
 
-fn finish(
-    study: &Study,
-    scene: &Scene,
-    workers: usize,
-    watcher: &dyn Watcher,
-    under_way: &mut UnderWay,
-) -> Result<Outcome, Ended> {
-    let loaded = surfaces(scene, watcher)?;
-    watcher.surfaces(scene, &loaded);
-    let surfaces = loaded.surfaces;
-    // A study keeps no maps.
-    let mut scene = scene.clone();
-    scene.output.maps.clear();
-    let mut assembly = Assembly::new(&scene, surfaces, Execution { workers, ..Execution::default() })?;
-    let mut recorder = Recorder::new(study, &scene, watcher, under_way);
-    if let Some(state) = recorder.under_way.find(&scene.parameters.mesh, &recorder.names()) {
-        assembly.restore(&state.simulation)?;
-        let steps = state.simulation.run.steps();
-        watcher.goes_on(steps);
-        (recorder.columns, recorder.told) = (state.columns, steps);
+/// A run that is to be made.
+pub struct Request<'a> {
+    /// Of which study.
+    pub study: &'a Study,
+    /// Its scene.
+    pub scene: &'a Scene,
+    /// What it is taken for.
+    pub expected: &'a Identity,
+    /// Series that are kept besides those that the study wants.
+    pub besides: &'a BTreeSet<String>,
+    /// Threads.
+    pub workers: usize,
+}
+
+impl Request<'_> {
+    fn finish(
+        &self,
+        watcher: &dyn Watcher,
+        under_way: &mut UnderWay,
+        of: &mut Option<Identity>,
+    ) -> Result<Outcome, Ended> {
+        let loaded = surfaces(self.scene, watcher, under_way)?;
+        watcher.surfaces(self.scene, &loaded);
+        let read = of.insert(Identity::of(self.scene, &loaded.inputs));
+        if read != self.expected {
+            under_way.is_another();
+        }
+        let surfaces = loaded.surfaces;
+        // A study keeps no maps.
+        let mut scene = self.scene.clone();
+        scene.output.maps.clear();
+        let execution = Execution { workers: self.workers, ..Execution::default() };
+        let mut assembly = Assembly::new(&scene, surfaces, execution)?;
+        let mut recorder = Recorder::new(self, &scene, watcher, under_way);
+        let state = recorder.under_way.find(&scene.parameters.mesh, &recorder.program, &recorder.names());
+        if let Some(state) = state {
+            assembly.restore(&state.simulation)?;
+            let steps = state.simulation.run.steps();
+            watcher.goes_on(steps);
+            (recorder.columns, recorder.told) = (state.columns, steps);
+        }
+        assembly.run_to_end(&mut recorder)?;
+        let steps = assembly.simulation.steps_done();
+        recorder.watcher.steps(steps - recorder.told);
+        let events = (!assembly.events().is_empty()).then(|| {
+            let extras = scene.extras(false);
+            let quantities = || event_quantities(&extras);
+            let columns = quantities().map(|quantity| assembly.events().iter().map(quantity.value).collect());
+            Series::new(quantities().map(|quantity| quantity.name.to_owned()).collect(), columns.collect()).pack()
+        });
+        Ok(Outcome::Finished { steps, until: scene.duration, series: recorder.series().pack(), events })
     }
-    assembly.run_to_end(&mut recorder)?;
-    let steps = assembly.simulation.steps_done();
-    recorder.watcher.steps(steps - recorder.told);
-    let events = (!assembly.events().is_empty()).then(|| {
-        let extras = scene.extras(false);
-        let quantities = || event_quantities(&extras);
-        let columns = quantities().map(|quantity| assembly.events().iter().map(quantity.value).collect());
-        Series::new(quantities().map(|quantity| quantity.name.to_owned()).collect(), columns.collect()).pack()
-    });
-    Ok(Outcome::Finished { steps, until: scene.duration, series: recorder.series().pack(), events })
 }
 
 /// Keeps the series that the study wants.
@@ -78,24 +107,23 @@ struct Recorder<'a> {
     /// Steps that the watcher was told of.
     told: u64,
     under_way: &'a mut UnderWay,
+    program: String,
     signal: Option<u8>,
 }
 
 impl<'a> Recorder<'a> {
-    fn new(study: &Study, scene: &Scene, watcher: &'a dyn Watcher, under_way: &'a mut UnderWay) -> Self {
-        let asked = |name: &str| {
-            let responses = &study.responses;
+    fn new(request: &Request<'_>, scene: &Scene, watcher: &'a dyn Watcher, under_way: &'a mut UnderWay) -> Self {
+        let study = request.study;
+        let asked: BTreeSet<&str> = study.responses.iter().flat_map(Response::needs).collect();
+        let is_kept = |name: &str| {
+            let is_wanted = study.series.as_ref().is_none_or(|series| series.iter().any(|wanted| wanted == name));
             // Means of the contact area are taken from its integral, and over the time in contact.
             let of_area = ["contact_area_integral", CONTACT_TIME].contains(&name)
-                && responses.iter().any(|other| other.series.starts_with("contact_area"));
-            of_area || responses.iter().any(|response| response.series == name)
+                && asked.iter().any(|series| series.starts_with("contact_area"));
+            is_wanted || of_area || asked.contains(name) || request.besides.contains(name)
         };
-        let kept: Vec<_> = quantities(&scene.extras(scene.adaptive.is_some()))
-            .filter(|quantity| {
-                study.series.as_ref().is_none_or(|series| series.iter().any(|name| name == quantity.name))
-                    || asked(quantity.name)
-            })
-            .collect();
+        let extras = scene.extras(scene.adaptive.is_some());
+        let kept: Vec<_> = quantities(&extras).filter(|quantity| is_kept(quantity.name)).collect();
         let disc_columns = scene.parameters.mesh.disc_columns();
         Self {
             columns: vec![Vec::new(); 2 + kept.len()],
@@ -104,6 +132,7 @@ impl<'a> Recorder<'a> {
             watcher,
             told: 0,
             under_way,
+            program: version::this().build(),
             signal: None,
         }
     }
@@ -130,6 +159,7 @@ impl Sink for Recorder<'_> {
     }
 
     fn look(&mut self, simulation: &Simulation, steps: u64) -> Result<u64, Ended> {
+        self.under_way.touch();
         let done = simulation.steps_done();
         self.signal = self.watcher.steps(done - self.told);
         self.told = done;
@@ -138,7 +168,7 @@ impl Sink for Recorder<'_> {
 
     fn rest(&mut self, assembly: &mut Assembly) -> Result<(), Ended> {
         if self.signal.is_some() || self.under_way.is_due() {
-            self.under_way.keep(assembly, &self.columns, self.names())?;
+            self.under_way.keep(assembly, self.program.clone(), &self.columns, self.names())?;
         }
         self.signal.map_or(Ok(()), |signal| Err(Ended::Stopped(signal)))
     }

@@ -2,7 +2,9 @@
 //!
 //! | what | where |
 //! |---|---|
-//! | the scenes of all runs, resolved | [`resolved`] |
+//! | the scenes of runs, resolved | [`resolved`] |
+//! | what runs of before did not keep | [`unkept`] |
+//! | why results are left out | [`left_out`] |
 //! | what these scenes can hardly mean | [`scene_warnings`] |
 //! | how long runs are | [`run_length`] |
 //! | what `mean = "last tenth"` is a mean over | [`short_tenth`] |
@@ -13,12 +15,13 @@
 //! | all of them, several at a time | [`plateau_run::Job::share`] |
 //! | what those that are made at a time share | [`floor`] |
 //! | extra runs that confirm a prediction | [`confirmation`] |
-//! | what is kept of those that are under way | [`under_way`] |
+//! | those that are under way: one process makes each, and keeps what lets it go on | [`under_way`] |
 //! | how far they are | [`progress`] |
 
 pub mod confirmation;
 pub mod estimate;
 pub mod floor;
+pub mod left_out;
 pub mod make;
 pub mod progress;
 pub mod resolved;
@@ -27,6 +30,7 @@ pub mod scene_warnings;
 pub mod short_tenth;
 pub mod surfaces;
 pub mod under_way;
+pub mod unkept;
 pub mod watcher;
 
 use std::fs;
@@ -46,7 +50,11 @@ use crate::machine;
 /// # Errors
 /// [`Failure::Input`] with everything that is wrong.
 pub fn plan(path: &Path) -> Result<Plan, Failure> {
-    Study::load(path).and_then(Plan::new).map_err(Failure::of_study)
+    Study::load(path).and_then(Plan::new).map_err(|error| match regular::open(path) {
+        // What the system lacks is no fault of the study.
+        Err(system) => Failure::because(&system, Failure::of_study(error)),
+        Ok(_) => Failure::of_study(error),
+    })
 }
 
 /// Refuses a study that has no scene to run.
@@ -58,9 +66,9 @@ fn refuse_without_scene(plan: &Plan) -> Result<(), Failure> {
     match &plan.study().base {
         Some(base) => regular::open(base).map(drop).map_err(|error| {
             let problem = format!("{}: cannot read the scene: {error}", base.display());
-            Failure::input(format_args!("{}: base: {problem}", plan.study().base_place))
+            Failure::because(&error, format_args!("{}: base: {problem}", plan.study().base_place))
         }),
-        None => Err(Failure::input(format_args!(
+        None => Err(Failure::input(format!(
             "{path}: no base scene, so there is nothing to run; `plateau sweep import` takes in its responses"
         ))),
     }
@@ -79,11 +87,9 @@ pub fn refuse_unwritable(study: &Study) -> Result<(), Failure> {
     let folder = journal_folder(study);
     let probed = fs::create_dir_all(&folder).and_then(|()| Temporary::create(&folder.join("probe")));
     probed.map(drop).map_err(|error| {
-        Failure::input(format_args!(
-            "cannot write to {}: {error}; make it writable, or name another folder with `directory` in {}",
-            folder.display(),
-            study.path.display()
-        ))
+        let (folder, study) = (folder.display(), study.path.display());
+        let advice = format_args!("make it writable, or name another folder with `directory` in {study}");
+        Failure::because(&error, format_args!("cannot write to {folder}: {error}; {advice}"))
     })
 }
 

@@ -1,11 +1,11 @@
-//! The scenes of all runs of a study: whether they can be built, and what their results are told by.
+//! The scenes of runs of a study: whether they can be built, and what their results are told by.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::{BTreeMap, BTreeSet, HashSet};
 use std::path::PathBuf;
 
 use plateau_io::brief;
 use plateau_io::study::Study;
-use plateau_io::study::identity::{Digests, firsts, identity};
+use plateau_io::study::identity::{Digests, Identity};
 use plateau_io::study::plan::Plan;
 use plateau_io::study::record::EVENT;
 use plateau_io::study::response::Response;
@@ -14,58 +14,80 @@ use rayon::prelude::*;
 
 use super::run_length::{RunLength, seconds};
 use super::scene_warnings::{Found, SceneWarnings, of_scene};
+use super::unkept::needed;
 use crate::failure::Failure;
-use crate::{message, version};
+use crate::message;
 
 /// Problems that are shown.
 const SHOWN: usize = 10;
 
-/// What a scene tells of its run.
-struct KnownScene {
-    steps: u64,
-    length: RunLength,
-    warnings: Vec<Found>,
-    /// For each response what it lacks to record its series, if anything.
-    lacking: Vec<Option<String>>,
+/// What is known of a run before it is made.
+#[derive(Debug, Clone)]
+pub struct ResolvedRun {
+    /// By what its result is known: the name of [`of`](Self::of).
+    pub identity: String,
+    /// What it is the run of.
+    pub of: Identity,
+    /// Its steps.
+    pub steps: u64,
+    /// How long it is.
+    pub length: RunLength,
+    /// Series and quantities of events that the responses of the study need and its scene records.
+    pub needed: BTreeSet<String>,
 }
 
-/// What is known of every run before it is made, in the order of the design.
-#[derive(Debug, Clone)]
+/// What is known of runs before they are made.
+#[derive(Debug)]
 pub struct Resolved {
-    /// By what its results are known.
-    pub identities: Vec<String>,
-    /// The place of the first run with the same identity: that of the run itself unless it repeats another one.
-    pub firsts: Vec<usize>,
-    /// Its steps.
-    pub steps: Vec<u64>,
-    /// How long each is.
-    pub lengths: Vec<RunLength>,
+    /// By their numbers.
+    pub runs: BTreeMap<usize, ResolvedRun>,
     /// What the scenes can hardly mean.
     pub warnings: SceneWarnings,
     /// The files of the scenes, and those that they read.
     pub files: BTreeSet<PathBuf>,
+    /// Runs that repeat one of these before them.
+    repeats: BTreeSet<usize>,
     /// Of every response that some runs do not record: its place, how many, and what their scenes lack.
     unrecorded: BTreeMap<usize, (usize, String)>,
+}
+
+/// What a scene tells of its run.
+struct Known {
+    run: ResolvedRun,
+    warnings: Vec<Found>,
+    /// For each response what it lacks to record its series, if anything.
+    lacking: Vec<Option<String>>,
+    files: Vec<(PathBuf, String)>,
 }
 
 impl Resolved {
     /// Runs up to which every scene is built where no run is made, to see what there is to know of them.
     pub const MOST_AT_ONCE: usize = 20_000;
 
-    /// Whether a run, by its place in the design, repeats another one, so that it has its result.
-    pub fn is_repeat(&self, place: usize) -> bool {
-        self.firsts.get(place).is_some_and(|first| *first != place)
+    /// Whether a run repeats another one of these, so that it has its result.
+    pub fn is_repeat(&self, number: usize) -> bool {
+        self.repeats.contains(&number)
     }
 
     /// How many runs repeat another one.
     pub fn repeats(&self) -> usize {
-        (0..self.firsts.len()).filter(|place| self.is_repeat(*place)).count()
+        self.repeats.len()
+    }
+
+    /// By what results are known, in the order of the design.
+    pub fn identities(&self) -> Vec<String> {
+        self.runs.values().map(|run| run.identity.clone()).collect()
+    }
+
+    /// How long the runs are.
+    pub fn lengths(&self) -> Vec<RunLength> {
+        self.runs.values().map(|run| run.length).collect()
     }
 
     /// Warns of responses that ask for a time after the end of some run, or of all, which then give none. Another question to the same runs costs
     /// none of them, so nothing is refused.
     pub fn warn_of_late_questions(&self, study: &Study) {
-        let ends = || self.lengths.iter().map(|length| length.duration);
+        let ends = || self.runs.values().map(|run| run.length.duration);
         let (shortest, longest) = (ends().fold(f64::INFINITY, f64::min), ends().fold(0.0, f64::max));
         let is_after = |time: f64, end: f64| time > end * (1.0 + 1e-9);
         for response in &study.responses {
@@ -91,10 +113,10 @@ impl Resolved {
             let Response { name, series, .. } = &study.responses[*place];
             let dataset = if series.starts_with(EVENT) { format!("/{series}") } else { format!("/series/{series}") };
             let told = format!("{file}: response \"{name}\": {dataset} is recorded only with {lacking}");
-            if *runs == self.identities.len() {
+            if *runs == self.runs.len() {
                 refused.push(format!("{told}; add it to the base scene, or to `set` in the study"));
             } else {
-                let all = self.identities.len();
+                let all = self.runs.len();
                 message::warning(format_args!("{told}, which {runs} of {all} runs do not have: they give no value"));
             }
         }
@@ -104,50 +126,66 @@ impl Resolved {
     /// Builds the scene of every run.
     ///
     /// # Errors
-    /// [`Failure::Input`] with the runs whose scenes cannot be built, before any is made.
+    /// Those of [`of_runs`](Self::of_runs).
     pub fn of(plan: &Plan) -> Result<Self, Failure> {
+        Self::of_runs(plan, (1..=plan.runs()).collect())
+    }
+
+    /// Builds the scenes of some runs, by their numbers.
+    ///
+    /// # Errors
+    /// [`Failure::Input`] with the runs whose scenes cannot be built, before any is made.
+    pub fn of_runs(plan: &Plan, numbers: Vec<usize>) -> Result<Self, Failure> {
         super::refuse_without_scene(plan)?;
-        let (digests, program) = (Digests::default(), version::this().build());
+        let digests = Digests::default();
+        let study = plan.study();
         // What is imported asks no series.
-        let asked: Vec<&str> = plan.study().responses.iter().map(|response| response.series.as_str()).collect();
+        let asked: Vec<&str> = study.responses.iter().map(|response| response.series.as_str()).collect();
         let resolve = |number: usize| {
-            let run = plan.run(number);
-            let scene = plan.scene(&run).map_err(|error| error.to_string())?;
-            let identity = identity(&scene, &digests, &program)
+            let scene = plan.scene(&plan.run(number)).map_err(|error| error.to_string())?;
+            let of = Identity::expected(&scene, &digests)
                 .map_err(|(path, error)| format!("cannot read {}: {error}", path.display()))?;
-            let known = KnownScene {
+            let run = ResolvedRun {
+                identity: of.name(),
+                of,
                 steps: scene.steps,
                 length: RunLength::of(&scene),
+                needed: needed(study, &scene),
+            };
+            Ok(Known {
+                run,
                 warnings: of_scene(&scene),
                 lacking: asked.iter().map(|series| lacking(&scene, series)).collect(),
-            };
-            Ok(((identity, known), scene.files))
+                files: scene.files,
+            })
         };
-        let all: Vec<Result<_, String>> = (1..=plan.runs()).into_par_iter().map(resolve).collect();
+        let all: Vec<(usize, Result<Known, String>)> =
+            numbers.into_par_iter().map(|number| (number, resolve(number))).collect();
+        let of_all = all.len();
         let problems: Vec<(usize, &String)> =
-            (1..).zip(&all).filter_map(|(number, result)| Some((number, result.as_ref().err()?))).collect();
+            all.iter().filter_map(|(number, result)| Some((*number, result.as_ref().err()?))).collect();
         if problems.is_empty() {
-            let (known, files): (Vec<(String, KnownScene)>, Vec<Vec<PathBuf>>) = all.into_iter().flatten().unzip();
-            let files = files.into_iter().flatten().chain(digests.files()).collect();
-            let (mut identities, mut steps, mut lengths) = (Vec::new(), Vec::new(), Vec::new());
+            let (mut runs, mut files) = (BTreeMap::new(), BTreeSet::from_iter(digests.files()));
             let (mut warnings, mut unrecorded) = (SceneWarnings::default(), BTreeMap::new());
-            for (identity, scene) in known {
-                identities.push(identity);
-                steps.push(scene.steps);
-                lengths.push(scene.length);
-                warnings.add(scene.warnings);
-                for (place, lacking) in scene.lacking.into_iter().enumerate() {
+            for (number, known) in all.into_iter().filter_map(|(number, known)| Some((number, known.ok()?))) {
+                runs.insert(number, known.run);
+                warnings.add(known.warnings);
+                files.extend(known.files.into_iter().map(|(file, _)| file));
+                for (place, lacking) in known.lacking.into_iter().enumerate() {
                     if let Some(lacking) = lacking {
                         unrecorded.entry(place).or_insert((0, lacking)).0 += 1;
                     }
                 }
             }
-            return Ok(Self { firsts: firsts(&identities), identities, steps, lengths, warnings, files, unrecorded });
+            let mut seen = HashSet::new();
+            let is_repeat =
+                |(number, run): (&usize, &ResolvedRun)| (!seen.insert(run.identity.clone())).then_some(*number);
+            let repeats = runs.iter().filter_map(is_repeat).collect();
+            return Ok(Self { runs, warnings, files, repeats, unrecorded });
         }
         // The same mistake shows in many runs.
         let mut said: Vec<&String> = Vec::new();
-        let heading =
-            format!("{}: {} of {} runs cannot be made", plan.study().path.display(), problems.len(), plan.runs());
+        let heading = format!("{}: {} of {of_all} runs cannot be made", study.path.display(), problems.len());
         let mut lines = Vec::new();
         for (number, problem) in &problems {
             if !said.contains(problem) && said.len() < SHOWN {
@@ -155,7 +193,7 @@ impl Resolved {
                 lines.push(format!("{}:\n{problem}", run_in_words(plan, *number)));
             }
         }
-        Err(Failure::input(format_args!("{heading}\n{}", brief::list(lines, "\n"))))
+        Err(Failure::input(format!("{heading}\n{}", brief::list(lines, "\n"))))
     }
 }
 

@@ -7,6 +7,7 @@ use std::time::Duration;
 use plateau_io::scene::Scene;
 use plateau_io::surface::{self, Loaded, SurfaceError};
 
+use super::under_way::UnderWay;
 use super::watcher::{Ended, Watcher};
 
 /// Time between two looks at signals.
@@ -17,7 +18,7 @@ const LOOK: Duration = Duration::from_millis(50);
 ///
 /// # Errors
 /// [`Ended`], with the signal or with what is wrong.
-pub fn surfaces(scene: &Scene, watcher: &dyn Watcher) -> Result<Loaded, Ended> {
+pub fn surfaces(scene: &Scene, watcher: &dyn Watcher, under_way: &mut UnderWay) -> Result<Loaded, Ended> {
     let (give, take) = channel();
     let its_own = scene.clone();
     let load = move || drop(give.send(surface::load(&its_own)));
@@ -26,6 +27,7 @@ pub fn surfaces(scene: &Scene, watcher: &dyn Watcher) -> Result<Loaded, Ended> {
             match take.recv_timeout(LOOK) {
                 Ok(loaded) => break loaded,
                 Err(RecvTimeoutError::Timeout) => {
+                    under_way.touch();
                     watcher.steps(0).map_or(Ok(()), |signal| Err(Ended::Stopped(signal)))?
                 }
                 Err(RecvTimeoutError::Disconnected) => panic!("the thread that makes surfaces panicked"),

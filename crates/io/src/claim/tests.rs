@@ -99,6 +99,32 @@ fn who_may_live_elsewhere_is_named_with_the_file_to_remove() {
 }
 
 #[test]
+fn a_lock_from_elsewhere_is_taken_over_when_nobody_touches_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("run");
+    assert_eq!(Claim::seen(&path), None);
+    let mut owner = leave(&lock_of(&path));
+    owner.writer.machine.host = "node17".into();
+    fs::write(lock_of(&path), serde_json::to_string(&owner).unwrap() + "\n").unwrap();
+    let first = Claim::seen(&path).unwrap();
+    // As its process shows that it lives.
+    let later = SystemTime::now() + Duration::from_secs(1);
+    File::options().append(true).open(lock_of(&path)).unwrap().set_modified(later).unwrap();
+    assert!(matches!(Claim::of_silent(&path, &first), Err(ClaimError::Elsewhere { .. })));
+    let seen = Claim::seen(&path).unwrap();
+    assert!(matches!(Claim::of(&path), Err(ClaimError::Elsewhere { .. })));
+    let claim = Claim::of_silent(&path, &seen).unwrap();
+    // Nobody else takes the new one for it.
+    assert!(matches!(Claim::of_silent(&path, &seen), Err(ClaimError::Here { .. })));
+    let before = Claim::seen(&path).unwrap();
+    thread::sleep(Duration::from_millis(20));
+    claim.touch();
+    assert_ne!(Claim::seen(&path).unwrap(), before);
+    drop(claim);
+    assert_eq!(names(folder.path()), [""; 0]);
+}
+
+#[test]
 fn the_lock_of_a_living_process_on_another_machine_of_the_same_name_stays() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("run.h5");

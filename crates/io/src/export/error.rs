@@ -10,7 +10,7 @@ use crate::run_file::ReadError;
 #[derive(Debug, Error)]
 pub enum ExportError {
     /// The run file cannot be read.
-    #[error(transparent)]
+    #[error("{0}")]
     Read(#[from] ReadError),
     /// The system does not take the output.
     #[error(transparent)]

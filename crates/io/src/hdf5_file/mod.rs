@@ -34,7 +34,10 @@ const SIGNATURE: &[u8] = b"\x89HDF\r\n\x1a\n";
 /// Why a file is not opened.
 #[derive(Debug, Error)]
 pub(crate) enum OpenError {
-    /// What the system or the library says.
+    /// What the system says.
+    #[error(transparent)]
+    System(#[from] io::Error),
+    /// What the library says.
     #[error(transparent)]
     Hdf5(#[from] hdf5::Error),
     /// Some of it is in other files.
@@ -65,17 +68,20 @@ pub(crate) fn open_with_datasets(path: &Path) -> Result<(hdf5::File, Vec<Dataset
 }
 
 fn open_with(path: &Path, visit: &mut dyn FnMut(Dataset)) -> Result<hdf5::File, OpenError> {
-    let system = |error: io::Error| hdf5::Error::from(error.to_string());
-    let bytes = regular::open(path).map_err(system)?;
-    if let Some(superblock) = superblock(&bytes).map_err(system)?
-        && let Some(at) = global_heap::endless_object(&bytes, &superblock).map_err(system)?
+    let bytes = regular::open(path)?;
+    if let Some(superblock) = superblock(&bytes)?
+        && let Some(at) = global_heap::endless_object(&bytes, &superblock)?
     {
         return Err(hdf5::Error::from(format!("the global heap is damaged at byte {at}")).into());
     }
-    let mode = if is_being_written(&bytes).map_err(system)? { OpenMode::ReadSWMR } else { OpenMode::Read };
+    let mode = if is_being_written(&bytes)? { OpenMode::ReadSWMR } else { OpenMode::Read };
     let mut builder = FileBuilder::new();
     builder.with_fapl(|list| list.file_locking(false).metadata_read_attempts(READ_ATTEMPTS));
-    let file = builder.open_as(path, mode)?;
+    // What the system lacks, as a handle, the library tells in words only; the system says it again.
+    let file = builder.open_as(path, mode).map_err(|error| match regular::open(path) {
+        Err(system) => OpenError::System(system),
+        Ok(_) => OpenError::Hdf5(error),
+    })?;
     match elsewhere::for_each_dataset(&file, &bytes, visit)? {
         Some(what) => Err(OpenError::Elsewhere(what)),
         None => Ok(file),

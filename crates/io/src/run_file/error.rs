@@ -1,5 +1,6 @@
 //! What can go wrong with a run file, when it is written and when it is read.
 
+use std::io;
 use std::path::{Path, PathBuf};
 
 use thiserror::Error;
@@ -166,16 +167,18 @@ pub(super) fn not_anew(path: &Path) -> impl Fn(hdf5::Error) -> RunFileError {
 }
 
 impl ReadError {
-    /// Of a file of which the library says this: damaged, unless the system has no handle left for it.
+    /// Of a file of which the library says this: damaged.
     pub(super) fn of_library(path: &Path, reason: impl Into<String>) -> Self {
-        let (path, reason) = (path.to_owned(), shown_problem(&reason.into()).into_owned());
-        // Too many open files of this process, or of all: 24 and 23 on Linux.
-        let lacks = |number: u8| {
-            reason.contains(&format!("errno = {number},")) || reason.contains(&format!("(os error {number})"))
-        };
-        match [23, 24].into_iter().find(|number| lacks(*number)) {
-            Some(number) => Self::Handles { path, reason: format!("os error {number}") },
-            None => Self::Damaged { path, reason },
+        Self::Damaged { path: path.to_owned(), reason: shown_problem(&reason.into()).into_owned() }
+    }
+
+    /// Of a file that the system does not give.
+    pub(super) fn of_system(path: &Path, error: &io::Error) -> Self {
+        let path = path.to_owned();
+        match error.raw_os_error() {
+            // Too many open files of this process, or of all: 24 and 23 on Linux.
+            Some(number @ (23 | 24)) => Self::Handles { path, reason: format!("os error {number}") },
+            number => Self::System { path, reason: error.to_string(), number },
         }
     }
 }
@@ -197,6 +200,8 @@ pub enum ReadError {
         path: PathBuf,
         /// What the system said.
         reason: String,
+        /// Its number of the error.
+        number: Option<i32>,
     },
     /// It is no HDF5 file.
     #[error("{} is not an HDF5 file, {expected}", path.display())]

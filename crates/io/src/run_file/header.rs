@@ -1,7 +1,7 @@
 //! What a run file says about its run: before the first step, and how it ended.
 
 use std::io;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::time::Duration;
 
 use plateau_core::model::mesh::Mesh;
@@ -72,21 +72,6 @@ impl InputFile {
     /// What the system says when the file cannot be read.
     pub fn read(path: &Path) -> io::Result<Self> {
         Ok(Self { path: path.to_string_lossy().into_owned(), sha256: sha256(path)? })
-    }
-
-    /// Digests every file of a list, each file once.
-    ///
-    /// # Errors
-    /// The first file that cannot be read, with what the system says.
-    pub fn read_all<'a>(paths: impl IntoIterator<Item = &'a PathBuf>) -> Result<Vec<Self>, (PathBuf, io::Error)> {
-        let mut files: Vec<Self> = Vec::new();
-        for path in paths {
-            let file = Self::read(path).map_err(|error| (path.clone(), error))?;
-            if !files.contains(&file) {
-                files.push(file);
-            }
-        }
-        Ok(files)
     }
 }
 

@@ -15,6 +15,7 @@ pub struct KeepError {
     /// Its copy.
     pub copy: PathBuf,
     /// What the system said.
+    #[source]
     pub error: io::Error,
 }
 

@@ -38,7 +38,7 @@ impl RunFile {
     /// # Errors
     /// [`ReadError`] when there is no file, it is no run file, or it is damaged.
     pub fn open(path: &Path) -> Result<Self, ReadError> {
-        let system = |error: std::io::Error| ReadError::System { path: path.into(), reason: error.to_string() };
+        let system = |error: std::io::Error| ReadError::of_system(path, &error);
         let is_hdf5 = hdf5_file::is_hdf5(path).map_err(system)?;
         if !is_hdf5 {
             return Err(ReadError::NotHdf5 { path: path.into(), expected: expected_of(path) });
@@ -46,6 +46,7 @@ impl RunFile {
         let damaged = |error: hdf5::Error| ReadError::of_library(path, reason(&error));
         hdf5_file::guarded(0, || {
             let file = hdf5_file::open(path).map_err(|error| match error {
+                OpenError::System(error) => system(error),
                 OpenError::Hdf5(error) => damaged(error),
                 elsewhere => ReadError::Elsewhere { path: path.into(), reason: elsewhere.to_string() },
             })?;

@@ -57,7 +57,7 @@ pub enum LeftOut {
 #[derive(Debug, Error)]
 pub enum RepairError {
     /// It cannot be read.
-    #[error(transparent)]
+    #[error("{0}")]
     Read(#[from] ReadError),
     /// Another process writes it.
     #[error(transparent)]
@@ -87,7 +87,7 @@ pub enum RepairError {
 pub fn is_healthy(path: &Path) -> Result<bool, ReadError> {
     let run = RunFile::open(path)?;
     let marked = hdf5_file::is_marked(path);
-    let marked = marked.map_err(|error| ReadError::System { path: path.into(), reason: error.to_string() })?;
+    let marked = marked.map_err(|error| ReadError::of_system(path, &error))?;
     Ok(run.state() != State::Running && !marked)
 }
 

@@ -26,7 +26,7 @@ use crate::memory::refuse_beyond;
 use crate::{brief, number};
 
 /// Makes the scene; `files` are the scene file and those it extends.
-pub(super) fn build(mut settings: Settings, mut files: Vec<PathBuf>, path: &Path) -> Result<Scene, Problem> {
+pub(super) fn build(mut settings: Settings, mut files: Vec<(PathBuf, String)>, path: &Path) -> Result<Scene, Problem> {
     let mut warnings = Vec::new();
     let adaptive = adaptive(&settings)?;
     let (parameters, operation) = parameters(&settings)?;

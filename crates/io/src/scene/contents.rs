@@ -55,8 +55,9 @@ pub struct Scene {
     pub seeds: Vec<(String, u64)>,
     /// The whole resolved scene as TOML: `extends` and `--set` applied, defaults filled in.
     pub resolved: String,
-    /// Every scene file read (this one and those it extends), for the run file's provenance.
-    pub files: Vec<PathBuf>,
+    /// Every scene file read (this one and those it extends) and the file of the cycle, each with the SHA-256 of what was read of it, 64
+    /// hexadecimal digits.
+    pub files: Vec<(PathBuf, String)>,
     /// Things worth telling the user that are no errors (for instance a map time beyond the end).
     pub warnings: Vec<Warning>,
     /// Where every key that has a value was given, by its full path.
@@ -108,8 +109,8 @@ pub struct OperationCycle {
     pub has_road: bool,
     /// Whether the vehicle changes its speed, while the disc turns at one speed.
     pub is_road_alone: bool,
-    /// The file of its rows, if they are not in the scene.
-    pub file: Option<PathBuf>,
+    /// The file of its rows, if they are not in the scene, with the SHA-256 of what was read of it.
+    pub file: Option<(PathBuf, String)>,
 }
 
 /// Heights and how they are prepared.

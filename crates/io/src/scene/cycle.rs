@@ -1,6 +1,6 @@
 //! From the rows of a cycle, in the scene or in a file, to the cycle itself (docs/cycles.md).
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::Arc;
 
 use plateau_core::model::cycle::{Cycle, CycleError, Node};
@@ -14,6 +14,7 @@ use super::interpret::Setting;
 use super::schema::{ACCELERATION, CYCLE, choices, join};
 use super::settings::Settings;
 use crate::number;
+use crate::regular::digested;
 
 /// The cycle of a scene, if it has one; `force` (N) and `speed` (rad/s) take the place of a column that there is not.
 pub(super) fn operation(
@@ -23,17 +24,21 @@ pub(super) fn operation(
     speed: Option<f64>,
 ) -> Result<Option<OperationCycle>, Problem> {
     let key = |name: &str| format!("{CYCLE}.{name}");
+    let mut file = None;
     let (source, table) = match settings.get(&key("points")) {
         Some(Setting::Rows(table)) => (key("points"), table.clone()),
         _ if settings.get(&key("file")).is_some() => {
             let path = settings.text(&key("file"))?;
-            let table = cycle_table::read(Path::new(path)).map_err(|problem| named(settings, problem))?;
+            let path = Path::new(path);
+            let failed = |error| Problem::without_key(&Origin::File(path.into()), format!("cannot read it: {error}"));
+            let read = digested(path, || cycle_table::read(path), failed);
+            let (table, digest) = read.map_err(|problem| named(settings, problem))?;
+            file = Some((path.to_owned(), digest));
             (key("file"), table)
         }
         _ => return Ok(None),
     };
     let place = settings.origin(&source);
-    let file = settings.get(&key("file")).map(|_| settings.text(&key("file")).map(PathBuf::from)).transpose()?;
     let missing = |what: &str, keys: &str| {
         Problem::new(
             &place,

@@ -7,6 +7,7 @@ use std::sync::Arc;
 use super::document::{self, Entries, Value};
 use super::error::{Origin, Problem, SceneError, Warning};
 use super::schema::{self, Group};
+use crate::regular::sha256_of;
 use crate::{brief, limits, regular};
 
 /// The newest version of the scene format that this program reads.
@@ -15,13 +16,16 @@ const VERSION: i128 = 1;
 /// A scene is a page of text; what is larger than this is something else.
 const LARGEST_FILE: u64 = 1 << 20;
 
+/// Scene files, each with the SHA-256 of its text.
+type Files = Vec<(PathBuf, String)>;
+
 /// All layers laid over each other.
 #[derive(Debug)]
 pub(super) struct Layered {
     /// What is left of every layer.
     pub(super) entries: Entries,
-    /// The scene file and those it extends, from the top down.
-    pub(super) files: Vec<PathBuf>,
+    /// The scene file and those it extends, from the top down, each with the SHA-256 of its text.
+    pub(super) files: Files,
     /// What is wrong with single layers: unknown keys, alternatives given together.
     pub(super) problems: Vec<Problem>,
     /// What `--set` puts in the place of another step of a preparation.
@@ -42,12 +46,12 @@ pub(super) fn read(path: &Path, sets: &[String]) -> Result<Layered, SceneError> 
 pub(super) fn of_text(path: &Path, text: &str) -> Result<Layered, SceneError> {
     let mut problems = Vec::new();
     let entries = document::read(&path.into(), text, &mut problems)?;
-    lay_all(vec![path.to_owned()], vec![entries], &[], problems)
+    lay_all(vec![(path.to_owned(), sha256_of(text.as_bytes()))], vec![entries], &[], problems)
 }
 
 /// Lays the scenes, from the top down, and the `--set` arguments over each other.
 fn lay_all(
-    files: Vec<PathBuf>,
+    files: Files,
     mut layers: Vec<Entries>,
     sets: &[String],
     mut problems: Vec<Problem>,
@@ -93,8 +97,8 @@ fn lay_all(
 }
 
 /// Reads the scene and, one after the other, the scenes it extends.
-fn read_chain(path: &Path, problems: &mut Vec<Problem>) -> Result<(Vec<PathBuf>, Vec<Entries>), SceneError> {
-    let (mut files, mut layers, mut identities) = (Vec::new(), Vec::new(), Vec::new());
+fn read_chain(path: &Path, problems: &mut Vec<Problem>) -> Result<(Files, Vec<Entries>), SceneError> {
+    let (mut names, mut files, mut layers, mut identities) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
     let mut next = Some((path.to_path_buf(), None));
     while let Some((path, named)) = next.take() {
         let file: Arc<Path> = path.as_path().into();
@@ -103,9 +107,9 @@ fn read_chain(path: &Path, problems: &mut Vec<Problem>) -> Result<(Vec<PathBuf>,
             None => Problem::without_key(&Origin::File(file.clone()), format!("cannot read the scene: {error}")),
         };
         let identity = path.canonicalize().map_err(|error| unreadable(regular::not_there(&path, error)))?;
-        files.push(path.clone());
+        names.push(path.clone());
         if let (Some(first), Some(origin)) = (identities.iter().position(|known| *known == identity), &named) {
-            let chain: Vec<_> = files[first..].iter().map(|file| file.display().to_string()).collect();
+            let chain: Vec<_> = names[first..].iter().map(|file| file.display().to_string()).collect();
             let message = format!("scenes extend each other in a circle: {}", brief::list(chain, " -> "));
             return Err(Problem::new(origin, "extends", message).into());
         }
@@ -120,6 +124,7 @@ fn read_chain(path: &Path, problems: &mut Vec<Problem>) -> Result<(Vec<PathBuf>,
         }
 
         let text = read_text(&path).map_err(unreadable)?;
+        files.push((path.clone(), sha256_of(text.as_bytes())));
         let entries = document::read(&file, &text, problems).map_err(|problem| {
             let earlier = std::mem::take(problems);
             SceneError::new(earlier.into_iter().chain([problem]).collect())

@@ -1,13 +1,16 @@
-//! What a result is the result of: the scene without what does not show in it, the content of the files that it reads, and
-//! the program.
+//! What a result is the result of: the scene without what does not show in it, the content of the files that it read, and
+//! the generation of the program's numbers.
 
 use std::collections::{BTreeMap, HashMap};
+use std::convert::Infallible;
 use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 
+use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 
+use crate::generation;
 use crate::regular::sha256;
 use crate::scene::schema::{self, Role};
 use crate::scene::{BaseSource, HeightSource, Scene};
@@ -37,24 +40,60 @@ impl Digests {
     }
 }
 
-/// What tells the results of a scene from those of others, 64 hexadecimal digits. `program` is version and revision.
-///
-/// Workers, names of files and titles do not count.
-///
-/// # Errors
-/// The file that cannot be read, and why.
-pub fn identity(scene: &Scene, digests: &Digests, program: &str) -> Result<String, (PathBuf, io::Error)> {
-    let mut hasher = Sha256::new();
-    hasher.update(program);
-    for line in relevant(&scene.resolved) {
-        hasher.update("\n");
-        hasher.update(line);
+/// What a result is the result of. Workers, names of files and titles do not count, nor does the revision of the program as long as it
+/// computes the same numbers.
+#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
+pub struct Identity {
+    /// Generation of the program's numbers: [`crate::generation`]. 0 in records of programs that did not count them.
+    pub generation: u32,
+    /// SHA-256 of what shows in results of the resolved scene.
+    pub scene: String,
+    /// SHA-256 of what was read of each file that shows in results, by what it is for.
+    pub files: BTreeMap<String, String>,
+}
+
+impl Identity {
+    /// That of a scene whose surfaces have such `inputs`: files, with the digest of what was read of them. A file that was read twice and
+    /// changed in between has both.
+    pub fn of(scene: &Scene, inputs: &[(PathBuf, String)]) -> Self {
+        let digests = |path: &Path| -> Vec<&str> {
+            inputs.iter().filter(|(input, _)| input == path).map(|(_, digest)| digest.as_str()).collect()
+        };
+        let found = Self::with(scene, |path| Ok::<_, Infallible>(digests(path).join("+")));
+        found.unwrap_or_else(|(_, never)| match never {})
     }
-    for (key, path) in files(scene) {
-        let digest = digests.of(path).map_err(|error| (path.to_owned(), error))?;
-        hasher.update(format!("\n{key} {digest}"));
+
+    /// That of a scene whose surfaces were not read yet: the files as they are now.
+    ///
+    /// # Errors
+    /// The file that cannot be read, and why.
+    pub fn expected(scene: &Scene, digests: &Digests) -> Result<Self, (PathBuf, io::Error)> {
+        Self::with(scene, |path| digests.of(path))
     }
-    Ok(format!("{:x}", hasher.finalize()))
+
+    fn with<E>(scene: &Scene, digest: impl Fn(&Path) -> Result<String, E>) -> Result<Self, (PathBuf, E)> {
+        let mut hasher = Sha256::new();
+        for line in relevant(&scene.resolved) {
+            hasher.update(line);
+            hasher.update("\n");
+        }
+        let mut files = BTreeMap::new();
+        if let Some((_, digest)) = scene.cycle.as_ref().and_then(|operation| operation.file.as_ref()) {
+            files.insert("operation.cycle".to_owned(), digest.clone());
+        }
+        for (key, path) in surface_files(scene) {
+            files.insert(key.to_owned(), digest(path).map_err(|error| (path.to_owned(), error))?);
+        }
+        Ok(Self { generation: generation::current(), scene: format!("{:x}", hasher.finalize()), files })
+    }
+
+    /// Digest of all of it, 64 hexadecimal digits: the name of the result.
+    pub fn name(&self) -> String {
+        let mut hasher = Sha256::new();
+        hasher.update(format!("{}\n{}\n", self.generation, self.scene));
+        self.files.iter().for_each(|(key, digest)| hasher.update(format!("{key} {digest}\n")));
+        format!("{:x}", hasher.finalize())
+    }
 }
 
 /// Of each run the place of the first one with the same identity, which is its own unless it repeats another run.
@@ -79,14 +118,13 @@ fn shows(key: &str) -> bool {
     !matches!(schema::role(key), Role::Nothing | Role::Maps | Role::MapTimes) && !schema::is_input(key)
 }
 
-/// The files of a scene whose content shows in its results, and what they are for.
-fn files(scene: &Scene) -> impl Iterator<Item = (&'static str, &PathBuf)> {
+/// The files of surfaces whose content shows in results, and what they are for.
+fn surface_files(scene: &Scene) -> impl Iterator<Item = (&'static str, &PathBuf)> {
     let base = match &scene.pin_base {
         BaseSource::File { path, .. } | BaseSource::Image { path, .. } => Some(path),
         BaseSource::Synthetic(_) | BaseSource::Uniform(_) => None,
     };
     let all = [
-        ("operation.cycle", scene.cycle.as_ref().and_then(|operation| operation.file.as_ref())),
         ("disc.surface", heights(&scene.disc_surface.source)),
         ("pin.surface", heights(&scene.pin_surface.source)),
         ("pin.base", base),

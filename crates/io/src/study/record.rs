@@ -9,13 +9,17 @@ use plateau_core::observe::{EXTRAS, quantities};
 use serde::{Deserialize, Serialize};
 use std::io::Read;
 
+use super::identity::Identity;
 use crate::limits;
 
 /// A run that has ended.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Record {
-    /// What was run: see [`super::identity::identity`].
+    /// What was run: the name of [`of`](Self::of).
     pub identity: String,
+    /// The same in parts, by which it can be told why another run is not this one.
+    #[serde(default)]
+    pub of: Identity,
     /// Number of the run in the study, from 1; for people.
     pub run: usize,
     /// How it ended.
@@ -157,6 +161,11 @@ pub struct Packed {
 }
 
 impl Packed {
+    /// Names of the columns.
+    pub fn names(&self) -> &[String] {
+        &self.columns
+    }
+
     /// The series; none if the text is not what [`Series::pack`] made.
     pub fn unpack(&self) -> Option<Series> {
         let count = self.columns.len().checked_mul(self.samples).filter(|count| *count <= limits::RECORD_NUMBERS)?;

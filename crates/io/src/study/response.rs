@@ -15,6 +15,9 @@ use super::measured_series::SeriesFile;
 use super::record::{CONTACT_TIME, EVENT, REVOLUTIONS, Series};
 use crate::number;
 
+/// The series from which means of the contact area are taken: it knows every step.
+const INTEGRAL: &str = "contact_area_integral";
+
 /// A question to the series of a run.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Response {
@@ -150,6 +153,12 @@ impl Response {
         if let Question::Measured(file) = &self.question { Some(file) } else { None }
     }
 
+    /// The series, or the quantity of events, that a run must have kept for an answer; none where it comes from elsewhere.
+    pub fn needs(&self) -> impl Iterator<Item = &str> {
+        let asked = (!self.is_imported()).then_some(self.series.as_str());
+        asked.into_iter().chain(self.has_error().then_some(INTEGRAL))
+    }
+
     /// Whether the answer is known with a standard error: a mean of the contact area.
     pub fn has_error(&self) -> bool {
         self.is_of_contact_area() && matches!(self.question, Question::Mean(..) | Question::MeanOfLastTenth)
@@ -175,7 +184,7 @@ impl Response {
     }
 
     fn integral<'a>(&self, run: &'a Series) -> Option<&'a [f64]> {
-        run.values("contact_area_integral")
+        run.values(INTEGRAL)
     }
 
     /// From when to when a mean is taken, s.

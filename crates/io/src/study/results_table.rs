@@ -99,6 +99,14 @@ fn stated_unit<'a>(levels: &[&'a Level]) -> Option<&'a str> {
     levels.iter().all(|level| unit(level) == Some(first)).then_some(first)
 }
 
+/// How many runs of such a table finished; none where it does not say.
+pub fn finished(path: &Path) -> Option<usize> {
+    let place = FIRST.iter().position(|name| *name == "state")?;
+    let mut reader = csv::ReaderBuilder::new().flexible(true).from_path(path).ok()?;
+    let has_finished = |row: &csv::ByteRecord| row.get(place) == Some(State::Finished.name().as_bytes());
+    Some(reader.byte_records().map_while(Result::ok).filter(has_finished).count())
+}
+
 /// A number with all its digits.
 fn exactly(number: f64) -> String {
     format!("{number:?}")

@@ -30,6 +30,7 @@ pub enum SurfaceError {
         /// The file.
         path: PathBuf,
         /// What is wrong with it.
+        #[source]
         reason: FileError,
     },
     /// Synthetic heights cannot be made.

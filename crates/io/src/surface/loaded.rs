@@ -17,7 +17,7 @@ pub struct Loaded {
     pub disc_cut: Option<f64>,
     /// The same of `pin.prepare.cutoff`.
     pub pin_cut: Option<f64>,
-    /// Every surface file read, each once, with its SHA-256 in hexadecimal digits.
+    /// Every surface file read, each once, with the SHA-256 of what was read of it, in hexadecimal digits.
     pub inputs: Vec<(PathBuf, String)>,
     /// What was read, made and done, one step a line, for people.
     pub report: Vec<String>,

@@ -5,6 +5,7 @@ use std::path::Path;
 
 use plateau_io::study::Study;
 use plateau_io::study::collected::Collected;
+use plateau_io::study::identity::Identity;
 use plateau_io::study::journal::{Journal, Shard, merge};
 use plateau_io::study::plan::Plan;
 use plateau_io::study::record::{Outcome, Record, Series};
@@ -37,7 +38,8 @@ fn lines(folder: &Path) -> Vec<Vec<u8>> {
     for (run, identity) in [(1, "a"), (2, "b")] {
         let outcome = Outcome::Finished { steps: 20, until: 20.0, series: series.clone(), events: None };
         let (identity, host, end_time) = (identity.to_owned(), "h".to_owned(), "now".to_owned());
-        shard.append(&Record { identity, run, outcome, wall_time: 0.5, host, end_time }).unwrap();
+        let of = Identity::default();
+        shard.append(&Record { identity, of, run, outcome, wall_time: 0.5, host, end_time }).unwrap();
     }
     shard.close().unwrap();
     let path = fs::read_dir(folder).unwrap().next().unwrap().unwrap().path();

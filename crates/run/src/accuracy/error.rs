@@ -111,7 +111,7 @@ pub enum PlanError {
 #[derive(Debug, Error)]
 pub enum ReferenceError {
     /// It cannot be read.
-    #[error(transparent)]
+    #[error("{0}")]
     Read(#[from] ReadError),
     /// It cannot be digested.
     #[error("{}: {error}", path.display())]
@@ -119,6 +119,7 @@ pub enum ReferenceError {
         /// The run file.
         path: PathBuf,
         /// What the system says.
+        #[source]
         error: io::Error,
     },
     /// The run did not come to its end.

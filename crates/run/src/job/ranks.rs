@@ -125,17 +125,21 @@ impl Job {
         let queue = WorkQueue::new(pieces, most_failures);
         thread::scope(|scope| {
             let own = scope.spawn(|| queue.work(work));
+            let mut given = vec![None; self.ranks()];
             let mut others = self.ranks() - 1;
             while others > 0 || !own.is_finished() {
                 let Some((rank, word)) = requests.request() else {
                     thread::sleep(PAUSE);
                     continue;
                 };
-                let ends = [PieceEnd::Done, PieceEnd::Failed, PieceEnd::Stopped];
+                let ends = [PieceEnd::Done, PieceEnd::Failed, PieceEnd::Stopped, PieceEnd::Later];
                 let end = ends.into_iter().find(|end| *end as u64 == word).unwrap_or(PieceEnd::Done);
-                queue.note(end);
+                if let Some(piece) = given[rank].take() {
+                    queue.note(piece, end);
+                }
                 // Who stopped wants no more.
                 let piece = if end == PieceEnd::Stopped { None } else { queue.next() };
+                given[rank] = piece;
                 others -= usize::from(piece.is_none());
                 requests.answer(rank, piece);
             }

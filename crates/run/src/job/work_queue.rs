@@ -1,6 +1,8 @@
 //! Work of independent pieces, shared among the threads of this process.
 
+use std::collections::VecDeque;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
 /// How a piece of shared work ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -11,23 +13,25 @@ pub enum PieceEnd {
     Failed,
     /// No more is to be begun.
     Stopped,
+    /// Another process is at it: it is to be looked at again after the others.
+    Later,
 }
 
-/// Hands out pieces, each once.
+/// Hands out pieces, each once, or again where it was to be later.
 #[derive(Debug)]
-pub struct WorkQueue<'a> {
-    pieces: &'a [usize],
-    next: AtomicUsize,
+pub struct WorkQueue {
+    pieces: Mutex<VecDeque<usize>>,
     failures: AtomicUsize,
     most_failures: usize,
     stopped: AtomicBool,
 }
 
-impl<'a> WorkQueue<'a> {
+impl WorkQueue {
     /// These pieces, until so many have failed.
-    pub fn new(pieces: &'a [usize], most_failures: Option<usize>) -> Self {
+    pub fn new(pieces: &[usize], most_failures: Option<usize>) -> Self {
         let most_failures = most_failures.unwrap_or(usize::MAX);
-        Self { pieces, next: 0.into(), failures: 0.into(), most_failures, stopped: false.into() }
+        let pieces = Mutex::new(pieces.iter().copied().collect());
+        Self { pieces, failures: 0.into(), most_failures, stopped: false.into() }
     }
 
     /// The next piece.
@@ -35,14 +39,19 @@ impl<'a> WorkQueue<'a> {
         if self.stopped.load(Ordering::Relaxed) || self.failures.load(Ordering::Relaxed) >= self.most_failures {
             return None;
         }
-        self.pieces.get(self.next.fetch_add(1, Ordering::Relaxed)).copied()
+        self.waiting().pop_front()
+    }
+
+    fn waiting(&self) -> MutexGuard<'_, VecDeque<usize>> {
+        self.pieces.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     /// Takes note of how a piece ended.
-    pub fn note(&self, end: PieceEnd) {
+    pub fn note(&self, piece: usize, end: PieceEnd) {
         match end {
             PieceEnd::Done => {}
             PieceEnd::Failed => drop(self.failures.fetch_add(1, Ordering::Relaxed)),
+            PieceEnd::Later => self.waiting().push_back(piece),
             PieceEnd::Stopped => self.stopped.store(true, Ordering::Relaxed),
         }
     }
@@ -50,7 +59,7 @@ impl<'a> WorkQueue<'a> {
     /// Does pieces until there are no more.
     pub fn work(&self, work: &(dyn Fn(usize) -> PieceEnd + Sync)) {
         while let Some(piece) = self.next() {
-            self.note(work(piece));
+            self.note(piece, work(piece));
         }
     }
 
@@ -64,7 +73,7 @@ impl<'a> WorkQueue<'a> {
         work: &(dyn Fn(usize) -> PieceEnd + Sync),
     ) -> Result<(), rayon::ThreadPoolBuildError> {
         // A thread without a piece would only wait; thousands of them keep a machine busy.
-        let threads = jobs.min(self.pieces.len()).max(1);
+        let threads = jobs.min(self.waiting().len()).max(1);
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build()?;
         pool.scope(|scope| (0..threads).for_each(|_| scope.spawn(|_| self.work(work))));
         Ok(())
@@ -73,8 +82,6 @@ impl<'a> WorkQueue<'a> {
 
 #[cfg(test)]
 mod tests {
-    use std::sync::Mutex;
-
     use super::*;
 
     fn done(count: usize, most_failures: Option<usize>, end: impl Fn(usize) -> PieceEnd + Sync) -> Vec<usize> {
@@ -95,6 +102,19 @@ mod tests {
         assert_eq!(done(1000, None, |_| PieceEnd::Done), (1..=1000).collect::<Vec<_>>());
         assert!(done(0, None, |_| PieceEnd::Done).is_empty());
         assert_eq!(done(100, None, |_| PieceEnd::Failed).len(), 100);
+    }
+
+    #[test]
+    fn what_is_to_be_later_comes_after_the_others_until_it_is_done() {
+        let order = Mutex::new(Vec::new());
+        let work = |piece| {
+            let mut order = order.lock().unwrap();
+            order.push(piece);
+            let is_held = piece == 2 && order.len() < 6;
+            if is_held { PieceEnd::Later } else { PieceEnd::Done }
+        };
+        WorkQueue::new(&[1, 2, 3, 4], None).share(1, &work).unwrap();
+        assert_eq!(order.into_inner().unwrap(), [1, 2, 3, 4, 2, 2]);
     }
 
     #[test]

@@ -6,7 +6,7 @@ use std::path::PathBuf;
 
 use plateau_io::study::collected::Collected;
 use plateau_io::study::factor::Factor;
-use plateau_io::study::journal::{Entry, Journal};
+use plateau_io::study::journal::Journal;
 use plateau_io::study::level::Level;
 use plateau_io::study::plan::Plan;
 use plateau_io::study::{DesignSource, Order, Study};
@@ -22,7 +22,8 @@ use crate::failure::Failure;
 use crate::interrupt::Interrupt;
 use crate::sweep::floor::Floor;
 use crate::sweep::progress::Progress;
-use crate::sweep::resolved::Resolved;
+use crate::sweep::resolved::{Resolved, ResolvedRun};
+use crate::sweep::unkept::{self, is_whole};
 use crate::sweep::{journal, journal_folder, refuse_unwritable};
 use crate::{message, number};
 
@@ -153,37 +154,45 @@ fn made(
     tried: &mut BTreeSet<String>,
     are_first: bool,
 ) -> Result<Option<(Collected, BTreeSet<PathBuf>)>, Failure> {
-    let resolved = Resolved::of(plan)?;
     let warns = are_first && job.leads();
-    if are_first {
-        resolved.refuse_unrecorded(plan.study())?;
-    }
-    if warns {
-        resolved.warnings.say("runs to begin with");
-    }
+    let study = plan.study();
     // The first rank decides what is to be done: another one may see the journal a moment later.
-    let known = if job.leads() { journal(plan.study())? } else { Journal::default() };
-    let is_pending = |number: &usize| match known.get(&resolved.identities[number - 1]) {
-        Some(Entry { failure: None, .. }) => false,
-        // Once each time that the command is given.
-        Some(_) => arguments.retry && !tried.contains(&resolved.identities[number - 1]),
-        None => true,
-    };
-    let mut pending: Vec<usize> =
-        plan.order().filter(|number| !resolved.is_repeat(number - 1)).filter(is_pending).collect();
-    pending.retain(|_| job.leads());
+    let resolved = if job.leads() { Some(Resolved::of(plan)?) } else { None };
+    let known = if job.leads() { journal(study)? } else { Journal::default() };
+    let mut pending = Vec::new();
+    if let Some(resolved) = &resolved {
+        if are_first {
+            resolved.refuse_unrecorded(study)?;
+            resolved.warnings.say("runs to begin with");
+        }
+        // What fails, and what lacks a series, is made again once each time that the command is given.
+        let tried_before = |run: &ResolvedRun| tried.contains(&run.identity);
+        let is_pending = |number: &usize| {
+            let run = &resolved.runs[number];
+            match known.get(&run.identity) {
+                None => true,
+                Some(entry) => arguments.retry && !is_whole(entry, &run.needed) && !tried_before(run),
+            }
+        };
+        pending = plan.order().filter(|number| !resolved.is_repeat(*number)).filter(is_pending).collect();
+        if are_first {
+            unkept::say(study, resolved, &known, arguments.retry);
+        }
+    }
     let is_complete = job.first_says(&[pending.len() as u64]).map_err(Failure::run)? == [0];
     let known = if is_complete {
         known
     } else {
-        tried.extend(pending.iter().map(|number| resolved.identities[number - 1].clone()));
+        let runs = || resolved.iter().flat_map(|resolved| pending.iter().map(|number| &resolved.runs[number]));
+        tried.extend(runs().map(|run| run.identity.clone()));
         let (jobs, workers) = (arguments.cores.runs_at_a_time(), arguments.cores.workers());
-        let steps = pending.iter().map(|number| resolved.steps[number - 1]).sum();
+        let steps = runs().map(|run| run.steps).sum();
         if !pending.is_empty() {
             refuse_unwritable(plan.study())?;
         }
         let own = Interrupt::listen().map_err(Failure::run)?;
-        let floor = Floor::new(plan, &resolved, workers, own, Progress::new(pending.len(), steps, job.leads()));
+        let progress = Progress::new(pending.len(), steps, job.leads());
+        let floor = Floor::new(plan, resolved.as_ref(), known, workers, own, progress);
         let shared = job.share(&pending, jobs, None, &|number| floor.make(number));
         if warns {
             floor.say_warnings();
@@ -197,11 +206,9 @@ fn made(
         }
         if job.leads() { journal(plan.study())? } else { Journal::default() }
     };
-    if !job.leads() {
-        return Ok(None);
-    }
+    let Some(resolved) = resolved else { return Ok(None) };
     let folder = || journal_folder(plan.study());
-    let collected = Collected::new(plan, &resolved.identities, &known)
+    let collected = Collected::new(plan, &resolved.identities(), &known)
         .map_err(|error| Failure::run(format_args!("{}: {error}", folder().display())))?;
     Ok(Some((collected, resolved.files)))
 }

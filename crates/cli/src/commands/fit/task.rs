@@ -39,14 +39,14 @@ impl Task {
         let of_series = |at: &usize| study.responses[*at].measured_series().is_some();
         let series: Vec<usize> = (0..study.responses.len()).filter(of_series).collect();
         if measured.is_empty() && series.is_empty() {
-            return Err(Failure::input(format_args!(
+            return Err(Failure::input(format!(
                 "{at}: nothing was measured: give a [[response]] what was measured of it, such as measured = 0.70, \
                  uncertainty = 0.02, or measured_file = \"FILE.csv\" for a whole series"
             )));
         }
         if let Some((imported, _)) = measured.iter().find(|(at, _)| study.responses[*at].is_imported()) {
             let name = &study.responses[*imported].name;
-            return Err(Failure::input(format_args!(
+            return Err(Failure::input(format!(
                 "{at}: response \"{name}\" is imported; a fit compares what runs of a scene give with what was measured"
             )));
         }
@@ -60,7 +60,7 @@ impl Task {
         let keys = study
             .factors
             .iter()
-            .map(|factor| key(factor).ok_or_else(|| Failure::input(format_args!("{at}: {}", not_a_range(factor)))));
+            .map(|factor| key(factor).ok_or_else(|| Failure::input(format!("{at}: {}", not_a_range(factor)))));
         Ok(Self {
             keys: keys.collect::<Result<_, _>>()?,
             responses: measured.iter().map(|(at, _)| *at).collect(),
@@ -81,7 +81,7 @@ impl Task {
         let end = plan.scene(&plan.run(1)).map_err(Failure::input)?.duration;
         for file in self.series.iter().filter_map(|at| study.responses[*at].measured_series()) {
             if let Some(late) = file.series.times().last().filter(|last| **last > end * (1.0 + 1e-9)) {
-                return Err(Failure::input(format_args!(
+                return Err(Failure::input(format!(
                     "{}:{}: the time is {late} s, and the runs end at {end} s: make them longer, with set = \
                      [\"operation.duration = '{late} s'\"], or leave out the lines after their end",
                     file.path.display(),
@@ -137,7 +137,7 @@ impl Task {
             FitError::Series { index, error: GaussianProcessError::Observations(EffectsError::Response { .. }) } => {
                 let file = study.responses[self.series[*index]].measured_series().map(|file| file.path.display());
                 let file = file.map_or_else(String::new, |file| format!(" in {file}"));
-                Failure::input(format_args!(
+                Failure::input(format!(
                     "{}: response \"{}\": what was measured and what runs give differ by too many times the uncertainty for a number \
                      to hold; look at units, uncertainties and correlation time{file}",
                     study.path.display(),
@@ -148,12 +148,12 @@ impl Task {
             FitError::NoRun(index) => {
                 unfinished(self.series[*index], &"no run has values at all of the measured times")
             }
-            FitError::NoLikelihood => Failure::input(format_args!(
+            FitError::NoLikelihood => Failure::input(format!(
                 "{}: {error}: {}; look at the units and the uncertainties",
                 study.path.display(),
                 self.far_off(study, collected)
             )),
-            error => Failure::input(format_args!("{}: {error}", study.path.display())),
+            error => Failure::input(format!("{}: {error}", study.path.display())),
         })
     }
 

@@ -16,7 +16,7 @@ use crate::{message, number};
 /// The tables of the disc: the file read as it is, levelled, without spikes, filled where points are missing, and extended by its
 /// statistics; of the profile of a surface with grooves, tiled. Besides, what should be known of them.
 pub fn disc(scene: &Path, disc: &Path, reading: &ReadArguments) -> Result<(String, Vec<String>), Failure> {
-    let named = |reason: &dyn fmt::Display| Failure::input(format_args!("{}: {reason}", disc.display()));
+    let named = |reason: &dyn fmt::Display| Failure::input(format!("{}: {reason}", disc.display()));
     let measured = read(disc, reading).map_err(|reason| named(&reason))?;
     if measured.pitch.is_none() {
         return Err(named(&"it does not say how far its points are apart: give --pitch, such as --pitch \"5 um\""));

@@ -76,7 +76,7 @@ fn text(arguments: &NewArguments) -> Result<Written, Failure> {
             let named: Vec<String> =
                 reading.keys().iter().map(|(key, _)| format!("--{}", key.replace('_', "-"))).collect();
             let message = "says how the file of --disc is read, and none is given: give --disc FILE";
-            return Err(Failure::input(format_args!("{} {message}", named.join(", "))));
+            return Err(Failure::input(format!("{} {message}", named.join(", "))));
         }
     };
     let speed_key = arguments.speed_key();

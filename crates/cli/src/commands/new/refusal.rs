@@ -9,7 +9,7 @@ use crate::failure::Failure;
 /// Why the scene that the arguments ask for cannot be run; nothing is written.
 pub fn of(arguments: &NewArguments, error: &SceneError) -> Failure {
     let told = brief::problems(error.problems().iter().map(|problem| told(arguments, problem)));
-    Failure::input(format_args!("{told}\nnothing is written"))
+    Failure::input(format!("{told}\nnothing is written"))
 }
 
 /// A problem with the option that it comes from, or with its key where it comes from none.

@@ -12,7 +12,7 @@ use crate::failure::Failure;
 pub(super) fn describe(name: &str, grid: &Grid) -> Result<Option<Description>, Failure> {
     let Grid { columns, rows, .. } = *grid;
     refuse_beyond(Description::memory_needed(columns, rows)).map_err(|no_room| {
-        Failure::input(format_args!(
+        Failure::input(format!(
             "{name}: its {columns} x {rows} points can be read, but to describe them needs {no_room}; give a coarser surface, or a part of it"
         ))
     })?;

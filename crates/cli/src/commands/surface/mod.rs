@@ -92,7 +92,7 @@ fn refuse_impossible(arguments: &SurfaceArguments) -> Result<(), Failure> {
         let Some(picture) = picture else { continue };
         if Format::of(picture).is_none() {
             let endings = "expected the ending .png, .svg or .pdf";
-            return Err(Failure::input(format_args!("{option} {}: {endings}", picture.display())));
+            return Err(Failure::input(format!("{option} {}: {endings}", picture.display())));
         }
     }
     let outputs: Vec<&PathBuf> = to.iter().chain(plot).chain(preview).collect();
@@ -108,15 +108,17 @@ fn refuse_twice(path: &Path, others: &[&PathBuf]) -> Result<(), Failure> {
     let place = |path: &Path| Some((output::directory(path).canonicalize().ok()?, path.file_name()?.to_owned()));
     let own = place(path);
     if others.iter().any(|other| *other == path || (own.is_some() && place(other) == own)) {
-        return Err(Failure::input(format_args!("{} is named for two outputs", path.display())));
+        return Err(Failure::input(format!("{} is named for two outputs", path.display())));
     }
     Ok(())
 }
 
 /// Reads a file as the arguments say.
 fn read(path: &Path, arguments: &SurfaceArguments) -> Result<Measured, Failure> {
-    surface::read(path, &arguments.reading.options())
-        .map_err(|reason| named(path, format_args!("{reason}{}", as_options(&reason.to_string()))))
+    surface::read(path, &arguments.reading.options()).map_err(|reason| {
+        let advice = as_options(&reason.to_string());
+        Failure::because(&reason, format_args!("{}: {reason}{advice}", path.display()))
+    })
 }
 
 /// Writes heights into a file.
@@ -159,7 +161,7 @@ fn prepared(path: &Path, arguments: &SurfaceArguments) -> Result<Prepared, Failu
     let (loaded, patches) = surface::load_with_patches(&scene).map_err(Failure::input)?;
     loaded.warnings().for_each(message::warning);
     let Loaded { surfaces, report, inputs, .. } = loaded;
-    let inputs = scene.files.iter().chain(inputs.iter().map(|(path, _)| path)).cloned().collect();
+    let inputs = scene.files.iter().chain(&inputs).map(|(path, _)| path.clone()).collect();
     let mut preview = None;
     if arguments.preview.is_some() {
         let micrograph = surface::micrograph(&scene).map_err(Failure::input)?;
@@ -178,13 +180,13 @@ fn prepared(path: &Path, arguments: &SurfaceArguments) -> Result<Prepared, Failu
 
 /// An error of a file.
 fn named(path: &Path, reason: impl std::fmt::Display) -> Failure {
-    Failure::input(format_args!("{}: {reason}", path.display()))
+    Failure::input(format!("{}: {reason}", path.display()))
 }
 
 /// Refuses to draw more than can be told apart.
 fn refuse_many(surfaces: usize) -> Result<(), Failure> {
     if surfaces > MOST_PLOTTED {
-        return Err(Failure::input(format_args!("--plot draws {MOST_PLOTTED} surfaces at most, these are {surfaces}")));
+        return Err(Failure::input(format!("--plot draws {MOST_PLOTTED} surfaces at most, these are {surfaces}")));
     }
     Ok(())
 }

@@ -48,7 +48,7 @@ pub fn of(path: &Path, arguments: &SurfaceArguments) -> Result<Option<Vec<NamedH
             return Ok(None);
         }
         Err(error @ (ReadError::NotHdf5 { .. } | ReadError::Foreign { .. })) => {
-            return Err(Failure::input(format_args!("{error}; --at is a time of a run")));
+            return Err(Failure::input(format!("{error}; --at is a time of a run")));
         }
         Err(error) => return Err(Failure::input(error)),
     };

@@ -63,7 +63,7 @@ impl Subject {
         level(&mut heights, rows, form, closed);
         let grid = Grid { columns, rows, pitch, heights: &heights };
         let points = heights.len();
-        let none = || Failure::input(format_args!("{name}: none of its {points} points has a height"));
+        let none = || Failure::input(format!("{name}: none of its {points} points has a height"));
         let description = describe(&name, &grid)?.ok_or_else(none)?;
         // Numbers that stand for no height make odd heights of any unit.
         if is_measured && stand_in.is_none() {

@@ -21,7 +21,7 @@ use crate::{called, message};
 pub fn analysable(plan: &Plan) -> Result<Found, Failure> {
     let study = plan.study();
     if study.responses.is_empty() {
-        return Err(Failure::input(format_args!(
+        return Err(Failure::input(format!(
             "{}: no [[response]], so there is nothing to analyse; name one, such as dataset = \"/series/contact_area_mean\", \
              at = \"end\"",
             study.path.display()
@@ -90,12 +90,12 @@ impl Analysed {
     /// the results cannot be read.
     pub fn of(plan: Plan, asked: Asked) -> Result<Self, Failure> {
         let study = plan.study();
-        let Found { collected, inputs, identities } = analysable(&plan)?;
+        let Found { collected, inputs, identities, .. } = analysable(&plan)?;
         let analysis = Analysis::of(study, &collected, asked).in_order_of(&plan);
         for response in &analysis.responses {
             if let Err(error @ EffectsError::Domain { .. }) = &response.effects {
                 let path = study.path.display();
-                return Err(Failure::input(format_args!("{path}: response \"{}\": {error}", response.name)));
+                return Err(Failure::input(format!("{path}: response \"{}\": {error}", response.name)));
             }
         }
         Ok(Self { plan, collected, analysis, inputs, identities })

@@ -4,11 +4,11 @@ use std::path::{Path, PathBuf};
 
 use plateau_io::dataset_file::{Attribute, now};
 use plateau_io::scene;
-use plateau_io::study::collected::{CollectError, Collected, State, is_collected};
+use plateau_io::study::collected::{CollectError, Collected, State, finished, is_collected};
 use plateau_io::study::imported;
 use plateau_io::study::journal::Journal;
 use plateau_io::study::plan::Plan;
-use plateau_io::study::results_table::{is_results_table, table as table_of};
+use plateau_io::study::results_table::{self, is_results_table, table as table_of};
 use plateau_io::{brief, limits, regular};
 use serde::Serialize;
 
@@ -17,7 +17,7 @@ use crate::csv_table::csv_table;
 use crate::failure::Failure;
 use crate::sweep::resolved::Resolved;
 use crate::sweep::scene_warnings::{SceneWarnings, of_questions};
-use crate::sweep::{self, journal, short_tenth};
+use crate::sweep::{self, journal, journal_folder, left_out, short_tenth, unkept};
 use crate::table::{list, print, table};
 use crate::{message, number, output, version};
 
@@ -27,7 +27,7 @@ const LISTED: usize = 10;
 /// Collects what there is.
 pub fn collect(arguments: &CollectArguments) -> Result<(), Failure> {
     let plan = sweep::plan(&arguments.study)?;
-    let Found { collected, inputs, .. } = collected(&plan)?;
+    let Found { collected, inputs, left_out, .. } = collected(&plan)?;
     let folder = arguments.output.clone().unwrap_or_else(|| plan.study().directory.clone());
     output::make_directory(&folder)?;
     let [hdf5, csv] = ["results.h5", "results.csv"].map(|name| folder.join(name));
@@ -36,6 +36,18 @@ pub fn collect(arguments: &CollectArguments) -> Result<(), Failure> {
     let is_own = |path: &Path, is: fn(&Path) -> bool| !path.is_symlink() && is(path);
     output::check(&hdf5, arguments.force || is_own(&hdf5, is_collected), &inputs)?;
     output::check(&csv, arguments.force || is_own(&csv, is_results_table), &inputs)?;
+    let before = [(&hdf5, finished(&hdf5)), (&csv, results_table::finished(&csv))];
+    let fewer =
+        before.into_iter().find(|(_, before)| before.is_some_and(|before| before > collected.count("finished")));
+    if let (Some((path, Some(before))), false) = (fewer, arguments.force) {
+        return Err(Failure::input(format!(
+            "{} has {} that finished, of which there are {} now{}; --force replaces it, -o DIR writes elsewhere",
+            path.display(),
+            number::count(before, "run"),
+            collected.count("finished"),
+            left_out.iter().map(|reason| format!("; {reason}")).collect::<String>()
+        )));
+    }
     collected.write(&hdf5, true, &plan, attributes(&plan, &collected)?).map_err(failure)?;
     output::write_in_folder(&csv, csv_table(table_of(&plan, &collected)).as_bytes(), true)?;
     let summary = Summary {
@@ -60,6 +72,8 @@ pub struct Found {
     pub inputs: Vec<PathBuf>,
     /// By what the results of each run are known, in the order of the design.
     pub identities: Vec<String>,
+    /// Why results in the journal are left out.
+    pub left_out: Vec<String>,
 }
 
 /// The results of a study, as far as there are any.
@@ -73,19 +87,17 @@ pub fn collected(plan: &Plan) -> Result<Found, Failure> {
         let numbers: Vec<String> = (1..=plan.runs()).map(|number| number.to_string()).collect();
         let collected = Collected::new(plan, &numbers, &Journal::default()).map_err(failure)?;
         say_idle(plan, &collected);
-        return Ok(Found { collected, inputs, identities: numbers });
+        return Ok(Found { collected, inputs, identities: numbers, left_out: Vec::new() });
     }
     let resolved = Resolved::of(plan)?;
-    short_tenth::say(plan.study(), &resolved.lengths);
-    let journal = journal(plan.study())?;
-    let collected = Collected::new(plan, &resolved.identities, &journal).map_err(failure)?;
-    let (finished, missing) = (collected.count("finished"), collected.count("missing"));
-    if missing > 0 && journal.len() > finished + collected.count("failed") {
-        message::note(format_args!(
-            "{} are in the journal that belong to another version of the study, its files or the program",
-            number::count(journal.len() - finished - collected.count("failed"), "result")
-        ));
-    }
+    short_tenth::say(plan.study(), &resolved.lengths());
+    let (journal, identities) = (journal(plan.study())?, resolved.identities());
+    let collected = Collected::new(plan, &identities, &journal).map_err(failure)?;
+    let left_out = left_out::reasons(&resolved, &journal);
+    left_out
+        .iter()
+        .for_each(|reason| message::note(format_args!("{}: {reason}", journal_folder(plan.study()).display())));
+    unkept::say(plan.study(), &resolved, &journal, false);
     let mut unanswered = SceneWarnings::default();
     for run in collected.runs.iter().filter(|run| run.state == State::Finished) {
         unanswered.add(of_questions(plan.study(), &run.unanswered));
@@ -93,7 +105,7 @@ pub fn collected(plan: &Plan) -> Result<Found, Failure> {
     unanswered.say("finished runs");
     say_idle(plan, &collected);
     inputs.extend(resolved.files);
-    Ok(Found { collected, inputs, identities: resolved.identities })
+    Ok(Found { collected, inputs, identities, left_out })
 }
 
 /// Names what was imported of points and responses that the study does not have now.
@@ -116,7 +128,7 @@ fn attributes(plan: &Plan, collected: &Collected) -> Result<Vec<(&'static str, A
     let text = |text: &str| Attribute::Text(text.to_owned());
     let read = |path: &std::path::Path| {
         regular::read_to_string(path, limits::STUDY)
-            .map_err(|error| Failure::input(format_args!("{}: {error}", path.display())))
+            .map_err(|error| Failure::because(&error, format_args!("{}: {error}", path.display())))
     };
     let state = if collected.count("finished") == collected.runs.len() { "complete" } else { "partial" };
     let mut attributes = vec![

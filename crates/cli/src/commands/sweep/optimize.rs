@@ -123,7 +123,7 @@ fn wanted(analysed: &Analysed, arguments: &OptimizeArguments) -> Result<(Vec<Goa
         let (response, wish) = goals::wish(analysis, aim, text).map_err(Failure::input)?;
         if goals.iter().any(|goal| goal.response == response) {
             let name = &analysis.responses[response].name;
-            return Err(Failure::input(format_args!(
+            return Err(Failure::input(format!(
                 "\"{name}\" has two goals, expected one; a --limit may stand beside it"
             )));
         }
@@ -136,7 +136,7 @@ fn wanted(analysed: &Analysed, arguments: &OptimizeArguments) -> Result<(Vec<Goa
     for (option, text) in powers.into_iter().flat_map(|(option, texts)| texts.iter().map(move |text| (option, text))) {
         let (response, power) = goals::power(analysis, option, text).map_err(Failure::input)?;
         let Some(goal) = goals.iter_mut().find(|goal| goal.response == response) else {
-            return Err(Failure::input(format_args!("{option} \"{text}\": this response has no goal")));
+            return Err(Failure::input(format!("{option} \"{text}\": this response has no goal")));
         };
         if option == "--weight" { goal.weight = power } else { goal.importance = power }
     }
@@ -151,9 +151,9 @@ fn wanted(analysed: &Analysed, arguments: &OptimizeArguments) -> Result<(Vec<Goa
 
 /// Where each factor may be.
 fn axes(analysed: &Analysed, space: &Space<'_>, arguments: &OptimizeArguments) -> Result<Vec<Axis>, Failure> {
-    let held = space.named(&arguments.hold).map_err(|error| Failure::input(format_args!("--hold: {error}")))?;
+    let held = space.named(&arguments.hold).map_err(|error| Failure::input(format!("--hold: {error}")))?;
     if !held.beyond.is_empty() {
-        return Err(Failure::input(format_args!(
+        return Err(Failure::input(format!(
             "--hold: {}; the search stays within the ranges",
             brief::list(&held.beyond, ", ")
         )));
@@ -168,7 +168,7 @@ fn axes(analysed: &Analysed, space: &Space<'_>, arguments: &OptimizeArguments) -
 
 /// The two factors of a contour.
 fn pair(space: &Space<'_>, names: &str, axes: &[Axis]) -> Result<[usize; 2], Failure> {
-    let at = |error: String| Failure::input(format_args!("--contour {names}: {error}"));
+    let at = |error: String| Failure::input(format!("--contour {names}: {error}"));
     // Names may have commas, too.
     let halves = names.match_indices(',').map(|(comma, _)| (names[..comma].trim(), names[comma + 1..].trim()));
     let pairs = halves.map(|(one, other)| Ok([space.factor(one)?, space.factor(other)?]));

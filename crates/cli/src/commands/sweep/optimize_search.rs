@@ -49,7 +49,7 @@ pub(super) fn search(
             }
             (None, Err(error)) if wanted(at) => {
                 let path = analysed.plan.study().path.display();
-                return Err(Failure::input(format_args!("{path}: response \"{}\": {error}", response.name)));
+                return Err(Failure::input(format!("{path}: response \"{}\": {error}", response.name)));
             }
             _ => places.push(None),
         }

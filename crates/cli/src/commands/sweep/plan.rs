@@ -16,7 +16,7 @@ use crate::csv_table::csv_table;
 use crate::failure::Failure;
 use crate::sweep::estimate::Estimate;
 use crate::sweep::resolved::Resolved;
-use crate::sweep::{self, journal, short_tenth};
+use crate::sweep::{self, journal, left_out, short_tenth};
 use crate::table::{columns, list, print, table};
 use crate::{message, number, output};
 
@@ -36,13 +36,14 @@ pub fn plan(arguments: &PlanArguments) -> Result<(), Failure> {
     let (mut ended, mut repeats) = (None, None);
     if plan.runs() <= Resolved::MOST_AT_ONCE && has_scene {
         let (resolved, journal) = (Resolved::of(&plan)?, journal(plan.study())?);
+        left_out::say(plan.study(), &resolved, &journal);
         check(&resolved.files.iter().cloned().collect::<Vec<_>>())?;
         resolved.refuse_unrecorded(plan.study())?;
         resolved.warn_of_late_questions(plan.study());
-        short_tenth::say(plan.study(), &resolved.lengths);
+        short_tenth::say(plan.study(), &resolved.lengths());
         resolved.warnings.say("runs");
-        let different = (0..plan.runs()).filter(|place| !resolved.is_repeat(*place));
-        let entries: Vec<&Entry> = different.filter_map(|place| journal.get(&resolved.identities[place])).collect();
+        let different = resolved.runs.iter().filter(|(number, _)| !resolved.is_repeat(**number));
+        let entries: Vec<&Entry> = different.filter_map(|(_, run)| journal.get(&run.identity)).collect();
         let failed = entries.iter().filter(|entry| entry.failure.is_some()).count();
         ended = Some(Ended { finished: entries.len() - failed, failed });
         repeats = Some(resolved.repeats());

@@ -97,7 +97,7 @@ fn refuse_beyond(places: &[Place], extrapolate: bool) -> Result<(), Failure> {
     let beyond = places.iter().enumerate().find(|(_, place)| !place.beyond.is_empty());
     let Some((at, place)) = beyond.filter(|_| !extrapolate) else { return Ok(()) };
     let which = if places.len() > 1 { format!("place {}: ", at + 1) } else { String::new() };
-    Err(Failure::input(format_args!(
+    Err(Failure::input(format!(
         "{which}{}; the model knows nothing there, give --extrapolate to see what it says nevertheless",
         brief::list(&place.beyond, ", ")
     )))
@@ -113,7 +113,7 @@ fn forecasts_at(
     let path = &analysed.plan.study().path;
     let of = |surrogate: &Option<Box<dyn Surrogate + '_>>| {
         let forecast = surrogate.as_ref().map(|surrogate| surrogate.forecast(&place.settings, confidence));
-        forecast.transpose().map_err(|error| Failure::input(format_args!("{}: {error}", path.display())))
+        forecast.transpose().map_err(|error| Failure::input(format!("{}: {error}", path.display())))
     };
     surrogates.iter().map(of).collect()
 }
@@ -122,7 +122,7 @@ fn forecasts_at(
 fn places(analysed: &Analysed, arguments: &PredictArguments) -> Result<Vec<Place>, Failure> {
     let study = analysed.plan.study();
     let space = Space::new(study, &analysed.analysis);
-    let at = |error: String| Failure::input(format_args!("--at: {error}"));
+    let at = |error: String| Failure::input(format!("--at: {error}"));
     let given = space.named(&arguments.at).map_err(at)?;
     if let Some(path) = &arguments.points {
         return points(analysed, &space, &given, path);
@@ -141,7 +141,7 @@ fn points(analysed: &Analysed, space: &Space<'_>, given: &Place, path: &Path) ->
     let known: HashSet<usize> = columns.iter().copied().flatten().collect();
     if let Some((_, unknown)) = table.heads().iter().enumerate().find(|(at, _)| !known.contains(at)) {
         let (path, unknown) = (path.display(), short(unknown));
-        return Err(Failure::input(format_args!("{path}: column \"{unknown}\" is not a factor of the study")));
+        return Err(Failure::input(format!("{path}: column \"{unknown}\" is not a factor of the study")));
     }
     let place = |row: &Row| {
         let each = factors.iter().zip(&columns).zip(&given.levels);
@@ -169,7 +169,7 @@ fn grid(analysed: &Analysed, space: &Space<'_>, given: &Place, count: usize) -> 
             () => space.levels(factor),
         };
         if all.len().saturating_mul(settings.len()) > MOST_PLACES {
-            return Err(Failure::input(format_args!(
+            return Err(Failure::input(format!(
                 "--grid {count}: more than {MOST_PLACES} places; hold factors with --at"
             )));
         }

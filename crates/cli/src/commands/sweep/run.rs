@@ -16,7 +16,8 @@ use crate::interrupt::Interrupt;
 use crate::sweep::floor::Floor;
 use crate::sweep::progress::Progress;
 use crate::sweep::resolved::Resolved;
-use crate::sweep::{self, journal, journal_folder, refuse_unwritable, short_tenth, under_way};
+use crate::sweep::unkept::{self, is_whole};
+use crate::sweep::{self, journal_folder, left_out, refuse_unwritable, short_tenth, under_way};
 use crate::table::{print, table};
 use crate::{message, number};
 
@@ -30,40 +31,49 @@ pub fn run(arguments: &SweepRunArguments) -> Result<(), Failure> {
 
 fn run_study(arguments: &SweepRunArguments, job: &mut Job) -> Result<(), Failure> {
     let plan = sweep::plan(&arguments.study)?;
-    let resolved = Resolved::of(&plan)?;
-    resolved.refuse_unrecorded(plan.study())?;
-    resolved.warn_of_late_questions(plan.study());
-    short_tenth::say(plan.study(), &resolved.lengths);
-    resolved.warnings.say("runs");
+    let study = plan.study();
     // The first rank decides what is to be done: another one may see the journal a moment later.
-    let journal = if job.leads() { journal(plan.study())? } else { Journal::default() };
-    if journal.damaged > 0 {
-        let lines = number::count(journal.damaged, "damaged line");
-        message::warning(format_args!("{}: {lines} passed over", journal_folder(plan.study()).display()));
-    }
-    warn_of_strange(&journal);
+    let numbers = || {
+        let own = |place: usize| arguments.task.is_none_or(|task| place % task.count == task.number - 1);
+        plan.order().enumerate().filter(move |(place, _)| own(*place)).map(|(_, number)| number)
+    };
+    let resolved = if job.leads() { Some(Resolved::of_runs(&plan, numbers().collect())?) } else { None };
+    let mut journal = Journal::default();
     let mut before = Before::default();
     let mut pending = Vec::new();
-    for (place, number) in plan.order().enumerate().filter(|_| job.leads()) {
-        if arguments.task.is_some_and(|task| place % task.count != task.number - 1) {
-            continue;
+    if let Some(resolved) = &resolved {
+        resolved.refuse_unrecorded(study)?;
+        resolved.warn_of_late_questions(study);
+        short_tenth::say(study, &resolved.lengths());
+        resolved.warnings.say("runs");
+        journal = sweep::journal(study)?;
+        if journal.damaged > 0 {
+            let lines = number::count(journal.damaged, "damaged line");
+            message::warning(format_args!("{}: {lines} passed over", journal_folder(study).display()));
         }
-        // It has the result of the run that it repeats, whichever task makes that.
-        if resolved.is_repeat(number - 1) {
-            before.repeats += 1;
-            continue;
+        warn_of_strange(&journal);
+        unkept::say(study, resolved, &journal, arguments.retry);
+        for number in numbers() {
+            // It has the result of the run that it repeats.
+            if resolved.is_repeat(number) {
+                before.repeats += 1;
+                continue;
+            }
+            let run = &resolved.runs[&number];
+            match journal.get(&run.identity) {
+                Some(entry) if is_whole(entry, &run.needed) => before.finished += 1,
+                Some(Entry { failure: None, .. }) if !arguments.retry => before.finished += 1,
+                Some(_) if !arguments.retry => before.failed += 1,
+                _ => pending.push(number),
+            }
         }
-        match journal.get(&resolved.identities[number - 1]) {
-            Some(Entry { failure: None, .. }) => before.finished += 1,
-            Some(_) if !arguments.retry => before.failed += 1,
-            _ => pending.push(number),
+        if arguments.task.is_none() {
+            left_out::say(study, resolved, &journal);
+            tidy(&plan, resolved, &journal);
         }
-    }
-    if job.leads() {
-        tidy(&plan, &resolved, &journal);
     }
     if !pending.is_empty() {
-        refuse_unwritable(plan.study())?;
+        refuse_unwritable(study)?;
     }
     let interrupt = Interrupt::listen().map_err(Failure::run)?;
     // Else a signal that asks runs for a checkpoint would end all of them; these keep theirs by the clock.
@@ -73,26 +83,30 @@ fn run_study(arguments: &SweepRunArguments, job: &mut Job) -> Result<(), Failure
     if job.ranks() > 1 && arguments.cores.jobs.is_some() && job.leads() {
         message::warning("each rank makes one run at a time: --jobs has no effect");
     }
-    let steps = pending.iter().map(|number| resolved.steps[number - 1]).sum();
+    let steps = resolved.iter().flat_map(|resolved| pending.iter().map(|number| resolved.runs[number].steps)).sum();
     let start = Instant::now();
     let progress = Progress::new(pending.len(), steps, job.leads());
-    let floor = Floor::new(&plan, &resolved, workers, interrupt, progress);
+    let floor = Floor::new(&plan, resolved.as_ref(), journal, workers, interrupt, progress);
     let limit = arguments.max_failures.map(|limit| limit as usize);
     let shared = job.share(&pending, jobs, limit, &|number| floor.make(number));
     let made = floor.end(shared.map_err(Failure::run))?;
     floor.say_warnings();
     let (finished, failed) = job.sum(made.finished, made.failed).map_err(Failure::run)?;
+    let elsewhere = job.sum(made.finished_elsewhere, made.failed_elsewhere).map_err(Failure::run)?;
+    let ended = finished + failed + elsewhere.0 + elsewhere.1;
     let summary = Summary {
-        study: plan.study().title.clone(),
+        study: study.title.clone(),
         runs: plan.runs(),
         finished_before: before.finished,
         failed_before: before.failed,
         repeats: before.repeats,
         finished,
         failed,
-        left: pending.len() - (finished + failed).min(pending.len()),
+        finished_elsewhere: elsewhere.0,
+        failed_elsewhere: elsewhere.1,
+        left: pending.len() - ended.min(pending.len()),
         wall_time: start.elapsed().as_secs_f64(),
-        results: plan.study().directory.display().to_string(),
+        results: study.directory.display().to_string(),
     };
     if job.leads() {
         summary.print(arguments, if job.ranks() > 1 { job.ranks() } else { jobs })?;
@@ -105,7 +119,7 @@ fn run_study(arguments: &SweepRunArguments, job: &mut Job) -> Result<(), Failure
         };
         return Err(Failure::Stopped { signal, message: job.leads().then(message) });
     }
-    match summary.failed + summary.failed_before {
+    match summary.failed + summary.failed_elsewhere + summary.failed_before {
         0 => Ok(()),
         failed => Err(Failure::run(format_args!(
             "{} of {} failed; `plateau sweep collect` lists their errors, --retry makes them again",
@@ -133,12 +147,12 @@ fn warn_of_strange(journal: &Journal) {
 /// Removes what killed processes left of runs that have ended, and says what is of no use to this study.
 fn tidy(plan: &Plan, resolved: &Resolved, journal: &Journal) {
     let results = &plan.study().directory;
-    let runs: HashSet<&str> = resolved.identities.iter().map(String::as_str).collect();
+    let runs: HashSet<&str> = resolved.runs.values().map(|run| run.identity.as_str()).collect();
     let has_ended = |identity: &str| journal.get(identity).is_some_and(|entry| entry.failure.is_none());
     let strangers = under_way::tidy(results, |identity| runs.contains(identity), has_ended);
     if strangers > 0 {
         message::note(format_args!(
-            "{} of runs that the study no longer has, or of another version of the program; nothing needs what is older than that in {}",
+            "{} of runs that the study no longer has, or of another generation of the program; nothing needs what is older than that in {}",
             number::count(strangers, "state"),
             results.join("under-way").display()
         ));
@@ -165,6 +179,9 @@ struct Summary {
     repeats: usize,
     finished: usize,
     failed: usize,
+    /// Made meanwhile by other processes of the study.
+    finished_elsewhere: usize,
+    failed_elsewhere: usize,
     left: usize,
     wall_time: f64,
     results: String,
@@ -186,8 +203,14 @@ impl Summary {
             "finished now",
             format!("{}, {jobs} at a time, in {}", self.finished, number::duration(self.wall_time)),
         ));
-        if self.failed + self.failed_before > 0 {
-            rows.push(("failed", format!("{} now, {} before", self.failed, self.failed_before)));
+        if self.finished_elsewhere > 0 {
+            rows.push(("by other processes", format!("{} meanwhile", self.finished_elsewhere)));
+        }
+        if self.failed + self.failed_elsewhere + self.failed_before > 0 {
+            rows.push((
+                "failed",
+                format!("{} now, {} before", self.failed + self.failed_elsewhere, self.failed_before),
+            ));
         }
         if self.left > 0 {
             rows.push(("left", self.left.to_string()));

@@ -11,6 +11,7 @@
 use std::collections::BTreeSet;
 use std::path::Path;
 
+use hdf5::types::VarLenUnicode;
 use plateau_core::observe::{EXTRAS, quantities};
 
 use super::super::plan::{Plan, Run};
@@ -143,6 +144,13 @@ impl Collected {
 pub fn is_collected(path: &Path) -> bool {
     let has = |file: &hdf5::File, name: &str| file.attr(name).is_ok();
     path.is_file() && hdf5::File::open(path).is_ok_and(|file| has(&file, "design") && has(&file, "collected"))
+}
+
+/// How many runs of a collected file finished; none where it does not say.
+pub fn finished(path: &Path) -> Option<usize> {
+    let file = hdf5::File::open(path).ok()?;
+    let states = file.dataset("state").ok()?.read_raw::<VarLenUnicode>().ok()?;
+    Some(states.iter().filter(|state| state.as_str() == State::Finished.name()).count())
 }
 
 fn coordinate(

@@ -4,5 +4,5 @@ mod file;
 mod results;
 
 pub use super::record::unit_of;
-pub use file::{error_name, is_collected};
+pub use file::{error_name, finished, is_collected};
 pub use results::{CollectError, Collected, CollectedRun, State};

@@ -26,7 +26,7 @@ pub struct Collected {
 pub struct CollectedRun {
     /// The run.
     pub run: Run,
-    /// The first run of the design with the same scene, files and program, by its place: its own unless it repeats that
+    /// The first run of the design with the same scene and files, by its place: its own unless it repeats that
     /// one, whose result it has.
     pub first: usize,
     /// How it ended, if it did.
@@ -55,7 +55,7 @@ pub enum State {
     Finished,
     /// It failed for this reason.
     Failed(String),
-    /// It was not made yet, or not by this program.
+    /// It was not made yet, or with other files or numbers of the program.
     Missing,
 }
 

@@ -5,7 +5,7 @@ use std::io::{self, BufWriter, ErrorKind, Write as _};
 use std::path::Path;
 
 use super::index::Journal;
-use super::shard::{COMPLETE, create_file, shards};
+use super::shard::{COMPLETE, create_file, host_in_names, shards};
 
 /// Complete shards that are left as they are.
 pub(super) const FEW: usize = 8;
@@ -76,7 +76,7 @@ pub fn merge(folder: &Path, host: &str) -> io::Result<()> {
 fn is_of_the_dead(shard: &Path, host: &str) -> bool {
     let name = shard.file_name().map_or_else(Default::default, |name| name.to_string_lossy());
     let mut parts = name.split('_');
-    let own = parts.next() == Some(host);
+    let own = parts.next() == Some(host_in_names(host).as_str());
     let process = parts.next().and_then(|process| process.parse::<u32>().ok());
     // Without /proc nobody is known to be gone.
     let knows = Path::new("/proc/self").exists();

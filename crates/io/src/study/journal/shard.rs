@@ -75,10 +75,15 @@ impl Shard {
     }
 }
 
+/// The name of a machine as it stands in names of shards.
+pub(super) fn host_in_names(host: &str) -> String {
+    host.chars().map(|c| if c.is_ascii_alphanumeric() || c == '-' { c } else { '-' }).collect()
+}
+
 /// A file that nobody else has: host, process, when it was started, and a count.
 pub(super) fn create_file(folder: &Path, host: &str) -> io::Result<(File, PathBuf)> {
     static COUNT: AtomicU32 = AtomicU32::new(0);
-    let host: String = host.chars().map(|c| if c.is_ascii_alphanumeric() || c == '-' { c } else { '-' }).collect();
+    let host = host_in_names(host);
     let (process, now) = (std::process::id(), SystemTime::now().duration_since(SystemTime::UNIX_EPOCH));
     let now = now.map_or(0, |since| since.as_nanos());
     loop {

@@ -7,6 +7,7 @@ use super::line::line;
 use super::merge::FEW;
 use super::shard::{COMPLETE, OPEN, shards};
 use super::{Journal, Shard, merge};
+use crate::study::identity::Identity;
 use crate::study::record::{Outcome, Record, Series};
 
 fn record(identity: &str, finished: bool) -> Record {
@@ -17,7 +18,8 @@ fn record(identity: &str, finished: bool) -> Record {
         Outcome::Failed { error: "no".into() }
     };
     let (host, end_time) = ("h".into(), "now".into());
-    Record { identity: identity.into(), run: 1, outcome, wall_time: 0.5, host, end_time }
+    let of = Identity::default();
+    Record { identity: identity.into(), of, run: 1, outcome, wall_time: 0.5, host, end_time }
 }
 
 fn identities(folder: &Path) -> Vec<(String, bool)> {
@@ -122,17 +124,68 @@ fn a_writer_taken_for_dead_loses_nothing() {
 }
 
 #[test]
+fn a_journal_is_read_on_from_where_it_was_read() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut shard = Shard::create(folder.path(), "h").unwrap();
+    shard.append(&record("a", true)).unwrap();
+    let mut journal = Journal::read(folder.path()).unwrap();
+    // Another process is in the midst of a line, then ends it.
+    let half = line(&record("c", true)).unwrap();
+    let open = folder.path().join(format!("h_1_a-0.{OPEN}"));
+    fs::write(&open, &half[..half.len() - 4]).unwrap();
+    shard.append(&record("b", false)).unwrap();
+    journal.read_on(folder.path()).unwrap();
+    let known = |journal: &Journal| {
+        journal.entries().map(|(identity, entry)| (identity.to_owned(), entry.failure.is_some())).collect::<Vec<_>>()
+    };
+    assert_eq!(known(&journal), [("a".to_owned(), false), ("b".to_owned(), true)]);
+    fs::write(&open, &half).unwrap();
+    shard.append(&record("b", true)).unwrap();
+    shard.close().unwrap();
+    journal.read_on(folder.path()).unwrap();
+    let all = [("a", false), ("b", false), ("c", false)].map(|(identity, failed)| (identity.to_owned(), failed));
+    assert_eq!(known(&journal), all);
+    // What was read is not read again, also under the name that a complete shard has.
+    for shard in shards(folder.path()).unwrap() {
+        let length = fs::metadata(&shard).unwrap().len() as usize;
+        fs::write(&shard, vec![b'x'; length]).unwrap();
+    }
+    journal.read_on(folder.path()).unwrap();
+    assert_eq!((known(&journal), journal.damaged), (all.to_vec(), 1));
+}
+
+#[test]
+fn of_runs_that_were_made_again_the_one_that_kept_most_counts() {
+    let folder = tempfile::tempdir().unwrap();
+    let names = [&["time"][..], &["time", "pool", "worn_pin"], &["time", "pool"]];
+    for names in names {
+        let columns = names.iter().map(|_| vec![1.0]).collect();
+        let series = Series::new(names.iter().map(|name| (*name).to_owned()).collect(), columns).pack();
+        let mut shard = Shard::create(folder.path(), "h").unwrap();
+        let outcome = Outcome::Finished { steps: 2, series, events: None };
+        shard.append(&Record { outcome, ..record("a", true) }).unwrap();
+        shard.close().unwrap();
+    }
+    let journal = Journal::read(folder.path()).unwrap();
+    let entry = journal.get("a").unwrap();
+    assert_eq!((entry.kept.iter().map(String::as_str).collect::<Vec<_>>()), (vec!["pool", "time", "worn_pin"]));
+    assert!(matches!(entry.record().unwrap().outcome, Outcome::Finished { series, .. } if series.names().len() == 3));
+}
+
+#[test]
 fn shards_of_processes_that_are_gone_are_merged() {
     let folder = tempfile::tempdir().unwrap();
-    let mut living = Shard::create(folder.path(), "h").unwrap();
+    // In names of files a dot is not a part of the machine's.
+    let host = "h.cluster.example";
+    let mut living = Shard::create(folder.path(), host).unwrap();
     living.append(&record("living", true)).unwrap();
     for number in 0..12 {
-        let name = format!("h_{}_{number:x}-0.{OPEN}", u32::MAX - number);
+        let name = format!("h-cluster-example_{}_{number:x}-0.{OPEN}", u32::MAX - number);
         fs::write(folder.path().join(name), line(&record(&format!("dead {number}"), true)).unwrap()).unwrap();
         let name = format!("elsewhere_{}_{number:x}-0.{OPEN}", u32::MAX - number);
         fs::write(folder.path().join(name), line(&record(&format!("far {number}"), true)).unwrap()).unwrap();
     }
-    merge(folder.path(), "h").unwrap();
+    merge(folder.path(), host).unwrap();
     // One for the dead; who is elsewhere may be alive.
     assert_eq!(shards(folder.path()).unwrap().len(), 1 + 1 + 12);
     assert_eq!(identities(folder.path()).len(), 25);

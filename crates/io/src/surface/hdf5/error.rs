@@ -1,6 +1,6 @@
 //! Why an HDF5 file gives no surface.
 
-use std::fmt;
+use std::{fmt, io};
 
 use thiserror::Error;
 
@@ -15,6 +15,9 @@ use crate::surface::options::MOST_POINTS;
 /// Why an HDF5 file gives no surface.
 #[derive(Debug, Error)]
 pub enum Hdf5Error {
+    /// The system does not give it.
+    #[error("cannot be read: {0}")]
+    System(#[from] io::Error),
     /// The library cannot make sense of it.
     #[error("cannot be read as HDF5: {0}")]
     Library(#[from] hdf5::Error),
@@ -148,6 +151,7 @@ pub enum Hdf5Error {
 impl From<OpenError> for Hdf5Error {
     fn from(error: OpenError) -> Self {
         match error {
+            OpenError::System(error) => Self::System(error),
             OpenError::Hdf5(error) => Self::Library(error),
             elsewhere => Self::Elsewhere(elsewhere.to_string()),
         }

@@ -56,21 +56,18 @@ impl Loader<'_> {
     }
 
     fn fibre_map(&mut self, path: &Path, micrograph: &Micrograph) -> Result<FibreMap, FileError> {
-        let (map, picture) = fibre_map(path, micrograph, self.mesh)?;
-        self.inputs.add(path)?;
+        let (map, picture) = self.inputs.read(path, || fibre_map(path, micrograph, self.mesh))?;
         let pixel = Length(micrograph.pixel);
         self.report.push(format!("pin.base: {}, {picture}, {pixel} a pixel", path.display()));
         Ok(map)
     }
 
     fn file_base(&mut self, path: &Path, dataset: Option<&str>) -> Result<Vec<Base>, FileError> {
-        let format = detect(path)?;
-        if format != Format::Hdf5 {
-            return Err(FileError::NotABase(format));
-        }
         let shape = (self.mesh.pin_columns(), self.mesh.rows());
-        let (name, base) = hdf5::base(path, dataset, shape, |cell| self.mesh.is_present(cell))?;
-        self.inputs.add(path)?;
+        let (name, base) = self.inputs.read(path, || match detect(path)? {
+            Format::Hdf5 => Ok(hdf5::base(path, dataset, shape, |cell| self.mesh.is_present(cell))?),
+            format => Err(FileError::NotABase(format)),
+        })?;
         self.report.push(format!("pin.base: {}, dataset {name}", path.display()));
         Ok(base)
     }

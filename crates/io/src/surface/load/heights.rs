@@ -120,8 +120,7 @@ impl Loader<'_> {
         body: Body,
         pixel: Option<f64>,
     ) -> Result<(RawHeights, bool), FileError> {
-        let measured = read(path, options)?;
-        self.inputs.add(path)?;
+        let measured = self.inputs.read(path, || read(path, options))?;
         let notes = measured.notes.iter().map(|note| format!("{note}, ")).collect::<String>();
         let surface = surface_key(body);
         self.report.push(format!("{surface}: {}, {notes}{}", path.display(), measured.describe()));

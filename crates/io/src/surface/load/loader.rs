@@ -1,12 +1,12 @@
 //! What is gathered while the surfaces of a scene are made: files that were read, and what was done.
 
-use std::io;
 use std::path::{Path, PathBuf};
 
 use plateau_core::model::mesh::Mesh;
 
+use super::super::error::FileError;
 use super::super::loaded::Patches;
-use crate::regular::sha256;
+use crate::regular::digested;
 use crate::scene::Scene;
 
 /// Makes the surfaces of a scene, and notes what it reads and does.
@@ -25,16 +25,19 @@ impl<'a> Loader<'a> {
     }
 }
 
-/// Every surface file with its SHA-256 in hexadecimal digits, each file once.
+/// Every surface file with the SHA-256 of what was read of it, in hexadecimal digits, each once.
 #[derive(Debug, Default)]
 pub(super) struct Inputs(pub(super) Vec<(PathBuf, String)>);
 
 impl Inputs {
-    /// Adds a file that was read.
-    pub(super) fn add(&mut self, path: &Path) -> io::Result<()> {
-        if !self.0.iter().any(|(known, _)| known == path) {
-            self.0.push((path.to_owned(), sha256(path)?));
+    /// Reads a file, and adds it with the digest of what was read. A file that disc and pin have in common, and that changed in between, is
+    /// there twice.
+    pub(super) fn read<T>(&mut self, path: &Path, read: impl FnMut() -> Result<T, FileError>) -> Result<T, FileError> {
+        let (content, digest) = digested(path, read, FileError::from)?;
+        let input = (path.to_owned(), digest);
+        if !self.0.contains(&input) {
+            self.0.push(input);
         }
-        Ok(())
+        Ok(content)
     }
 }
