@@ -45,7 +45,9 @@ impl<C: Communicator> Worker<C> {
             match verdict.map_err(|source| SimulationError::Contact { step, source })? {
                 Verdict::Solved => {
                     let displacement = self.contact.displacement();
-                    if self.contact.doubt() > LEAST_DOUBT * normal_force {
+                    // What the last place of the displacement carries is hidden whatever the sums say.
+                    let hidden = self.contact.slope() * displacement.abs() * f64::EPSILON;
+                    if self.contact.doubt() > hidden.max(LEAST_DOUBT * normal_force) {
                         let rounding = bracket.quantum.value();
                         let finest = Quantum::of_sum(largest.max(displacement - bracket.low), columns);
                         let finer = Bracket::new(displacement - rounding, 2.0 * rounding, finest);
