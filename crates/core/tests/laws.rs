@@ -139,7 +139,8 @@ proptest! {
         for _ in 0..3 * mesh.disc_columns() {
             simulation.advance().unwrap();
             let sample = simulation.sample().unwrap();
-            prop_assert!(sample.load_residual <= 1e-12_f64.max(rounding), "{:e}", sample.load_residual);
+            // Above this the balance is refined.
+            prop_assert!(sample.load_residual <= 1e-10_f64.max(rounding), "{:e}", sample.load_residual);
             let rounding = balance_rounding(&parameters, 1e-4, &sample);
             prop_assert!(sample.balance_residual.abs() <= 1e-12_f64.max(rounding), "balance {:e}", sample.balance_residual);
             prop_assert!((sample.pin_none + sample.pin_primary + sample.pin_secondary - 1.0).abs() < 1e-13);
