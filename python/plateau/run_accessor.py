@@ -62,8 +62,8 @@ class RunAccessor:
     def mean(self, series: str = "contact_area", start: float | str | None = None, end: float | str | None = None) -> Mean:
         """Mean of a series over a part of the run, with its standard error.
 
-        The mean of the contact area is calculated from its integral, which includes every step. It is the number that ``plateau run``
-        prints. In other series, a sample represents the time since the previous sample; where a sample has no value, as a temperature
+        The mean of the contact area is calculated from its integral, which includes every step, over the time in contact. It is the number
+        that ``plateau run`` prints. In other series, a sample represents the time since the previous sample; where a sample has no value, as a temperature
         of a lifted pin, this time is left out. `plateau.means.mean_between` describes the standard error. It takes into account that neighbouring values are correlated.
 
         Parameters
@@ -102,7 +102,9 @@ class RunAccessor:
                 f"rate({series!r}) is how fast it grows, series[{series!r}].iloc[-1] how much it is at the end"
             )
         if f"{series}_integral" in self._run["series"]:
-            found = self._mean_of(time, self._values(f"series/{series}_integral"), start, end)
+            # With a cycle, the contact area is that of the time in contact: while the pin is lifted there is none.
+            known = self._values("series/contact_time") if "contact_time" in self._run["series"] else None
+            found = self._mean_of(time, self._values(f"series/{series}_integral"), start, end, known)
         else:
             values, steps = self._values(f"series/{series}"), np.diff(time, prepend=0.0)
             there = np.isfinite(values)

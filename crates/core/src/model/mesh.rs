@@ -72,14 +72,6 @@ pub enum MeshError {
         /// Its diameter, m.
         diameter: f64,
     },
-    /// The number of cells does not fit the address space.
-    #[error("{rows} rows times {columns} columns are more cells than this machine can address")]
-    TooLarge {
-        /// Rows asked for.
-        rows: usize,
-        /// Columns asked for.
-        columns: usize,
-    },
 }
 
 /// Ring mesh: `rows` cells in r, `disc_columns` cells in θ around the ring, of which the pin covers `pin_columns`.
@@ -134,10 +126,6 @@ impl Mesh {
         }
         if !(inner_radius > 0.0 && outer_radius > inner_radius && outer_radius.is_finite()) {
             return Err(MeshError::Radii { inner: inner_radius, outer: outer_radius });
-        }
-        let bytes = rows.checked_mul(disc_columns).and_then(|cells| cells.checked_mul(size_of::<f64>()));
-        if bytes.is_none_or(|bytes| bytes > isize::MAX as usize) {
-            return Err(MeshError::TooLarge { rows, columns: disc_columns });
         }
         let row_height = (outer_radius - inner_radius) / rows as f64;
         let column_angle = TAU / disc_columns as f64;

@@ -169,15 +169,14 @@ impl Geometry {
 impl Cells {
     /// Makes the mesh, which takes memory.
     pub(crate) fn mesh(&self) -> Result<Mesh, Refused> {
-        // What is too large for this machine's addresses is refused as such.
+        // What is too large for this machine's addresses is too many cells.
         let [rows, disc_columns, pin_columns] = self.counts.map(|count| usize::try_from(count).unwrap_or(usize::MAX));
         let mesh = Mesh::new(rows, disc_columns, pin_columns, self.radii[0], self.radii[1]);
         mesh.and_then(|mesh| mesh.with_outline(self.outline)).map_err(|error| {
             let (key, message) = match error {
                 MeshError::PinWiderThanRing { .. } => ("pin_columns", error.to_string()),
                 MeshError::Radii { .. } => ("outer_radius", error.to_string()),
-                MeshError::TooMany { name, .. } => (name, error.to_string()),
-                MeshError::Empty { .. } | MeshError::TooLarge { .. } => ("rows", error.to_string()),
+                MeshError::Empty { name } | MeshError::TooMany { name, .. } => (name, error.to_string()),
                 MeshError::RoundPinWiderThanTrack { diameter, track } => {
                     let [diameter, track] = [diameter, track].map(Length);
                     ("pin_diameter", format!("{diameter} are more than the width of the track: expected at most {track}"))

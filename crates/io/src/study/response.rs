@@ -156,7 +156,7 @@ impl Response {
     /// The series, or the quantity of events, that a run must have kept for an answer; none where it comes from elsewhere.
     pub fn needs(&self) -> impl Iterator<Item = &str> {
         let asked = (!self.is_imported()).then_some(self.series.as_str());
-        asked.into_iter().chain(self.has_error().then_some(INTEGRAL))
+        asked.into_iter().chain(self.has_error().then_some([INTEGRAL, CONTACT_TIME]).into_iter().flatten())
     }
 
     /// Whether the answer is known with a standard error: a mean of the contact area.

@@ -56,7 +56,7 @@ fn changed_states_end_in_a_number_or_an_error() {
         let length = (content.len() as u64).to_le_bytes();
         [&b"plateau state 7\n"[..], &length, &content, &Sha256::digest(&content)].concat()
     });
-    Fuzz { corpus: "states", cases: 400, least_accepted: 20 }.run(strategy, |content| {
+    Fuzz { corpus: "states", cases: 400, least_accepted: 25 }.run(strategy, |content| {
         fs::write(&path, content).unwrap();
         let state = match checkpoint::read::<RunState>(&path, None) {
             Err(error) => {

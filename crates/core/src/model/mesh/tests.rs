@@ -64,5 +64,6 @@ fn refuses_what_is_no_ring() {
     assert!(matches!(Mesh::new(1, 10, 11, 1.0, 2.0), Err(MeshError::PinWiderThanRing { .. })));
     assert!(matches!(Mesh::new(1, 10, 5, 2.0, 1.0), Err(MeshError::Radii { .. })));
     assert!(matches!(Mesh::new(1, 10, 5, f64::NAN, 1.0), Err(MeshError::Radii { .. })));
-    assert!(matches!(Mesh::new(1 << 40, 1 << 40, 5, 1.0, 2.0), Err(MeshError::TooLarge { .. })));
+    assert!(matches!(Mesh::new((1 << 22) + 1, 10, 5, 1.0, 2.0), Err(MeshError::TooMany { name: "rows", .. })));
+    assert!(matches!(Mesh::new(1, (1 << 24) + 1, 5, 1.0, 2.0), Err(MeshError::TooMany { name: "disc_columns", .. })));
 }

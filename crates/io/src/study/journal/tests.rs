@@ -162,7 +162,7 @@ fn of_runs_that_were_made_again_the_one_that_kept_most_counts() {
         let columns = names.iter().map(|_| vec![1.0]).collect();
         let series = Series::new(names.iter().map(|name| (*name).to_owned()).collect(), columns).pack();
         let mut shard = Shard::create(folder.path(), "h").unwrap();
-        let outcome = Outcome::Finished { steps: 2, series, events: None };
+        let outcome = Outcome::Finished { steps: 2, until: 3.0, series, events: None };
         shard.append(&Record { outcome, ..record("a", true) }).unwrap();
         shard.close().unwrap();
     }
