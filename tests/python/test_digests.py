@@ -109,7 +109,7 @@ class Digests(unittest.TestCase):
             checked.append(name)
 
         file.visititems(visit)
-        self.assertEqual(len(checked), 36)
+        self.assertEqual(len(checked), 38)
         every = sorted(lines(file, "/", file))
         self.assertEqual(sha256(b"".join(every)), file.attrs["attributes_sha256"])
         others = sorted(other_lines(file))
