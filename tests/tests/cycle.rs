@@ -205,7 +205,7 @@ fn a_run_with_a_cycle_that_is_killed_ends_like_an_undisturbed_one() {
     };
     directory.plateau(arguments("whole.h5", &[])).quiet_success();
     let killed =
-        go_on_through_kills(&directory, &arguments("run.h5", &["--resume"]), few_or_all(6, 40), 0.4, Stream(21));
+        go_on_through_kills(&directory, &arguments("run.h5", &["--resume"]), few_or_all(3, 40), 0.4, Stream(21));
     let [whole, run] = ["whole.h5", "run.h5"].map(|name| RunFile::open(directory.path(name)).content());
     assert!(whole.contains_key("/event/worn"));
     assert_eq!(differences(&whole, &run), [""; 0], "after {killed} kills");

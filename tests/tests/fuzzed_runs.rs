@@ -58,7 +58,7 @@ fn changed_run_files_are_read_or_refused() {
         &resume,
     ];
     let seconds = std::env::var("PLATEAU_FUZZ_SECONDS").ok().map(|text| text.parse().unwrap());
-    let (most, start) = (few_or_all(40, 2000), Instant::now());
+    let (most, start) = (few_or_all(20, 2000), Instant::now());
     let mut random = Stream(if seconds.is_some() { u64::from(std::process::id()) } else { 23 });
     let (mut tried, mut answered) = (0, 0);
     while seconds.map_or(tried < most, |seconds| start.elapsed() < Duration::from_secs(seconds)) {

@@ -157,7 +157,7 @@ fn a_hot_run_that_is_killed_ends_like_an_undisturbed_one() {
     };
     directory.plateau(arguments("whole.h5", &[])).quiet_success();
     let killed =
-        go_on_through_kills(&directory, &arguments("run.h5", &["--resume"]), few_or_all(5, 40), 0.6, Stream(22));
+        go_on_through_kills(&directory, &arguments("run.h5", &["--resume"]), few_or_all(3, 40), 0.6, Stream(22));
     let [whole, run] = ["whole.h5", "run.h5"].map(|name| RunFile::open(directory.path(name)).content());
     assert_eq!(differences(&whole, &run), [""; 0], "after {killed} kills");
 }

@@ -16,10 +16,10 @@ use plateau_tests::scenes::few_or_all;
 /// A run of some seconds with many samples, some maps and a checkpoint every few hundredths of a second.
 fn arguments(file: &str, more: &[&str]) -> Vec<String> {
     let sets = [
-        "operation.duration=150 s",
+        "operation.duration=60 s",
         "numerics.time_acceleration=1",
         "output.sample_every=0.05 s",
-        "output.maps_at=[\"0 s\", \"30 s\", \"100 s\", \"149.99 s\"]",
+        "output.maps_at=[\"0 s\", \"10 s\", \"40 s\", \"59.99 s\"]",
         "output.checkpoint_every=0.03 s",
     ];
     let mut arguments = ["run", &scene("quick.toml"), "-o", file].map(str::to_owned).to_vec();
@@ -229,12 +229,12 @@ fn a_checkpoint_of_the_end_is_believed_only_beside_the_file_of_the_end() {
 #[test]
 fn a_finished_run_goes_on_beyond_its_end() {
     let directory = WorkingDirectory::new();
-    assert_eq!(run(&directory, "run.h5", &["--set", "operation.duration=50 s"]).status, Some(0));
-    let longer = run(&directory, "run.h5", &["--set", "operation.duration=50 s", "--extend-to", "150 s"]);
+    assert_eq!(run(&directory, "run.h5", &["--set", "operation.duration=20 s"]).status, Some(0));
+    let longer = run(&directory, "run.h5", &["--set", "operation.duration=20 s", "--extend-to", "60 s"]);
     assert_eq!(longer.status, Some(0), "{longer:?}");
     assert_eq!(run(&directory, "whole.h5", &[]).status, Some(0));
     let [longer, whole] = ["run.h5", "whole.h5"].map(|name| RunFile::open(directory.path(name)));
-    // 50 s is a multiple of the samples' time, so there is none more.
+    // 20 s is a multiple of the samples' time, so there is none more.
     for series in ["contact_area", "pool", "filled_fraction"] {
         let of = |run: &RunFile| run.floats(&format!("/series/{series}"));
         assert_eq!(of(&longer), of(&whole), "{series}");

@@ -137,7 +137,7 @@ fn what_is_made_of_runs_is_whole_or_as_before() {
         let whole = copied(&before);
         let calls = count(command(&whole));
         println!("{calls} calls of {}", case.arguments.join(" "));
-        for (fault, call) in strikes(calls, few_or_all(13, 5)) {
+        for (fault, call) in strikes(calls, few_or_all(29, 5)) {
             let directory = copied(&before);
             let outcome = strike(command(&directory), fault, call);
             let what = format!("{fault:?} at call {call} of {calls} of {:?}: {outcome:?}", case.arguments);
