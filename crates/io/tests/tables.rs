@@ -307,6 +307,53 @@ fn dimensions_named_x_and_y_are_laid_out_by_name() {
 }
 
 #[test]
+fn packed_numbers_are_what_netcdf_says_also_of_coordinates() {
+    use ::hdf5::types::{FixedAscii, VarLenUnicode};
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.nc");
+    // By hand: as 16 bits without a sign, -1 is 65535 and -32768 is 32768, which marks a missing point.
+    let file = ::hdf5::File::create(&path).unwrap();
+    let dataset = file.new_dataset::<i16>().shape((2, 3)).create("z").unwrap();
+    dataset.write_raw(&[0_i16, 1, -1, -2, -32768, 32767]).unwrap();
+    // A file that is open for writing is not read.
+    let text = |name: &str, text: &str| {
+        let file = ::hdf5::File::open_rw(&path).unwrap();
+        let dataset = file.dataset("z").unwrap();
+        let _ = dataset.delete_attr(name);
+        let text: VarLenUnicode = text.parse().unwrap();
+        dataset.new_attr::<VarLenUnicode>().create(name).unwrap().write_scalar(&text).unwrap();
+    };
+    dataset.new_attr::<i16>().create("_FillValue").unwrap().write_scalar(&-32768).unwrap();
+    dataset.new_attr::<f64>().create("scale_factor").unwrap().write_scalar(&1e-9).unwrap();
+    // Rows first, in labels of one length.
+    let labels = ["y", "x"].map(|label| FixedAscii::<1>::from_ascii(label).unwrap());
+    dataset.new_attr::<FixedAscii<1>>().shape(2).create("DIMENSION_LABELS").unwrap().write_raw(&labels).unwrap();
+    drop((dataset, file));
+    text("_Unsigned", "true");
+    let measured = read(&path, &options()).unwrap();
+    assert_eq!((measured.columns, measured.rows), (3, 2));
+    for (found, expected) in measured.heights.iter().zip([0.0, 65534e-9, 1e-9, f64::NAN, 65535e-9, 32767e-9]) {
+        assert!(
+            (found - expected).abs() < 1e-18 || found.is_nan() && expected.is_nan(),
+            "{found}, expected {expected}"
+        );
+    }
+    text("_Unsigned", "no");
+    assert!(message(&path, &options()).contains("_Unsigned = \"no\", expected \"true\" or \"false\""));
+    text("_Unsigned", "false");
+    text("missing_value", "32767");
+    assert!(message(&path, &options()).contains("the attribute missing_value, expected a number"));
+
+    fs::copy(corpus("packed.nc"), &path).unwrap();
+    let file = ::hdf5::File::open_rw(&path).unwrap();
+    let x = file.dataset("x").unwrap();
+    x.new_attr::<f64>().create("scale_factor").unwrap().write_scalar(&0.5).unwrap();
+    drop((x, file));
+    let pitch = read(&path, &options()).unwrap().pitch.unwrap();
+    assert!((pitch[0] - 1e-6).abs() < 1e-18, "{pitch:?}");
+}
+
+#[test]
 fn coordinates_that_are_no_grid_are_refused() {
     use ::hdf5::types::VarLenUnicode;
     let folder = tempfile::tempdir().unwrap();

@@ -3,10 +3,11 @@
 //! A dimension is named by its label or else by its scale (HDF5 Dimension Scale Specification); the scales are the coordinate
 //! variables of netCDF.
 
-use hdf5::types::{Reference, TypeDescriptor, VarLenArray, VarLenAscii, VarLenUnicode};
+use hdf5::types::{FixedAscii, FixedUnicode, Reference, TypeDescriptor, VarLenArray, VarLenAscii, VarLenUnicode};
 use hdf5::{Dataset, ObjectReference1, ReferencedObject};
 
 use super::error::Hdf5Error;
+use super::packing::Packing;
 use crate::hdf5_file::{refuse_hollow, text_attribute};
 use crate::number;
 use crate::text::short;
@@ -94,6 +95,12 @@ fn labels(dataset: &Dataset) -> hdf5::Result<Vec<String>> {
         TypeDescriptor::VarLenAscii => {
             attribute.read_raw::<VarLenAscii>()?.iter().map(|text| lossy(text.as_bytes())).collect()
         }
+        TypeDescriptor::FixedAscii(_) => {
+            attribute.read_raw::<FixedAscii<64>>()?.iter().map(|text| lossy(text.as_bytes())).collect()
+        }
+        TypeDescriptor::FixedUnicode(_) => {
+            attribute.read_raw::<FixedUnicode<64>>()?.iter().map(|text| lossy(text.as_bytes())).collect()
+        }
         _ => Vec::new(),
     })
 }
@@ -141,7 +148,8 @@ fn step(dataset: &Dataset, place: usize, scale: &Dataset) -> Result<Option<f64>,
         let (dataset, dimension) = (dataset.name(), short(&name).into_owned());
         Err(Hdf5Error::Coordinates { dataset, dimension, problem })
     };
-    let coordinates = scale.read_raw::<f64>()?;
+    let mut coordinates = scale.read_raw::<f64>()?;
+    Packing::of(scale)?.unpack(&mut coordinates);
     let (first, last) = (coordinates[0], coordinates[count - 1]);
     let step = (last - first) / (count - 1) as f64;
     if !(step.is_finite() && step != 0.0) {

@@ -1,13 +1,17 @@
-//! How netCDF packs numbers: a mark for those that are missing, a factor and an offset (NetCDF Users Guide, attribute conventions;
-//! CF conventions, 2.5.1 and 8.1).
+//! How netCDF packs numbers: a mark for those that are missing, a factor and an offset, and integers that are meant to have a sign or
+//! none (NetCDF Users Guide, attribute conventions; CF conventions, 2.5.1 and 8.1).
 
 use hdf5::types::TypeDescriptor;
 use hdf5::{Dataset, Location};
 
 use super::error::Hdf5Error;
+use crate::hdf5_file::text_attribute;
+use crate::text::short;
 
 /// The attribute of the factor, without which integers are no heights.
 const SCALE_FACTOR: &str = "scale_factor";
+/// The attribute that says whether integers are to be read without a sign, whatever their type is.
+const UNSIGNED: &str = "_Unsigned";
 
 /// What a stored number stands for: NaN where it is a mark, else times `scale_factor` plus `add_offset`.
 pub(super) struct Packing {
@@ -15,6 +19,46 @@ pub(super) struct Packing {
     add_offset: f64,
     /// Stored numbers that mark missing points.
     marks: Vec<f64>,
+    /// From which number on another is to be added, of integers that are stored with a sign and have none, or the other way round.
+    wrap: Option<Wrap>,
+}
+
+/// Integers of which some stand for others, 2^bits away.
+struct Wrap {
+    is_other: fn(f64, f64) -> bool,
+    limit: f64,
+    added: f64,
+}
+
+impl Wrap {
+    /// As `_Unsigned` has it; none where it says what the type says.
+    fn of(dataset: &Dataset) -> Result<Option<Self>, Hdf5Error> {
+        let Ok(_) = dataset.attr(UNSIGNED) else { return Ok(None) };
+        let descriptor = dataset.dtype()?.to_descriptor()?;
+        let range = libm::ldexp(1.0, 8 * descriptor.size() as i32);
+        let text = text_attribute(dataset, UNSIGNED)?.map(|text| text.to_ascii_lowercase());
+        match (text.as_deref(), descriptor) {
+            (Some("true"), TypeDescriptor::Integer(_)) => {
+                Ok(Some(Self { is_other: |number, limit| number < limit, limit: 0.0, added: range }))
+            }
+            (Some("false"), TypeDescriptor::Unsigned(_)) => {
+                Ok(Some(Self { is_other: |number, limit| number >= limit, limit: 0.5 * range, added: -range }))
+            }
+            (Some("true" | "false"), _) => Ok(None),
+            (text, _) => Err(Hdf5Error::Attribute {
+                dataset: dataset.name(),
+                found: format!("{UNSIGNED} = {:?}", short(text.unwrap_or_default())),
+                expected: "\"true\" or \"false\"",
+            }),
+        }
+    }
+
+    fn apply(&self, stored: &mut [f64]) {
+        stored
+            .iter_mut()
+            .filter(|number| (self.is_other)(**number, self.limit))
+            .for_each(|number| *number += self.added);
+    }
 }
 
 impl Packing {
@@ -37,18 +81,32 @@ impl Packing {
                 }
             }
         };
-        let mut marks = numbers(dataset, "_FillValue")?;
-        marks.extend(numbers(dataset, "missing_value")?);
+        let mut marks = Vec::new();
+        for name in ["_FillValue", "missing_value"] {
+            let found = numbers(dataset, name)?;
+            if found.is_empty() && dataset.attr(name).is_ok() {
+                return Err(Hdf5Error::Attribute {
+                    dataset: dataset.name(),
+                    found: name.to_owned(),
+                    expected: "a number, or up to 64, in it",
+                });
+            }
+            marks.extend(found);
+        }
+        let wrap = Wrap::of(dataset)?;
+        wrap.iter().for_each(|wrap| wrap.apply(&mut marks));
         Ok(Self {
+            wrap,
             scale_factor: one(SCALE_FACTOR, 1.0, |factor| factor != 0.0, "one finite number that is not 0")?,
             add_offset: one("add_offset", 0.0, |_| true, "one finite number")?,
             marks,
         })
     }
 
-    /// Makes heights of stored numbers, m, in place.
+    /// Makes what they stand for of stored numbers, in place.
     pub(super) fn unpack(&self, stored: &mut [f64]) {
-        let Self { scale_factor, add_offset, ref marks } = *self;
+        let Self { scale_factor, add_offset, ref marks, ref wrap } = *self;
+        wrap.iter().for_each(|wrap| wrap.apply(stored));
         if marks.iter().any(|mark| !mark.is_nan()) {
             stored.iter_mut().filter(|number| marks.contains(number)).for_each(|number| *number = f64::NAN);
         }
