@@ -48,7 +48,8 @@ impl Failure {
 
     /// A scene that cannot be used, with the lines that are wrong.
     pub fn of_scene(error: SceneError) -> Self {
-        Self::Input(excerpt::of(error.problems()))
+        let message = excerpt::of(error.problems());
+        Self::because(&error, message)
     }
 
     /// A study that cannot be used, with the lines that are wrong.
@@ -125,6 +126,10 @@ fn lacks(error: &(dyn Error + 'static)) -> bool {
     let is_lack = |error: &(dyn Error + 'static)| {
         number(error).is_some_and(|number| LACKS.contains(&number))
             || matches!(error.downcast_ref(), Some(ReadError::Handles { .. }))
+            || error.downcast_ref().is_some_and(|error: &SceneError| {
+                let numbers = error.problems().iter().filter_map(|problem| problem.system);
+                numbers.into_iter().any(|number| LACKS.contains(&number))
+            })
             || matches!(error.downcast_ref(), Some(RunFileError::NoHandle { .. }))
             || matches!(error.downcast_ref(), Some(SimulationError::Threads { .. }))
     };
@@ -169,7 +174,9 @@ pub fn in_job(work: impl FnOnce(&mut Job) -> Result<(), Failure>) -> Result<(), 
 
 #[cfg(test)]
 mod tests {
-    use std::path::PathBuf;
+    use std::path::{Path, PathBuf};
+
+    use plateau_io::scene::{Origin, Problem};
 
     use plateau_run::InputError;
 
@@ -186,6 +193,10 @@ mod tests {
             // However deep it lies.
             let aside = InputError::SetAside { path: PathBuf::from("run.h5"), error: system(number) };
             assert_eq!(Failure::of(RunError::Input(aside)).status(), status, "{number}");
+            let origin = Origin::File(Path::new("mine.toml").into());
+            let scene = Problem { origin, key: None, message: named.into(), system: Some(number) };
+            assert_eq!(Failure::input(SceneError::from(scene.clone())).status(), status, "{number}");
+            assert_eq!(Failure::of_scene(SceneError::from(scene)).status(), status, "{number}");
         }
         let threads = SimulationError::Threads { workers: 2, message: "no".into() };
         assert_eq!(Failure::of(RunError::Input(InputError::Simulation(threads))).status(), 1);

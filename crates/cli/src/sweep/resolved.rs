@@ -142,9 +142,10 @@ impl Resolved {
         // What is imported asks no series.
         let asked: Vec<&str> = study.responses.iter().map(|response| response.series.as_str()).collect();
         let resolve = |number: usize| {
-            let scene = plan.scene(&plan.run(number)).map_err(|error| error.to_string())?;
-            let of = Identity::expected(&scene, &digests)
-                .map_err(|(path, error)| format!("cannot read {}: {error}", path.display()))?;
+            let scene = plan.scene(&plan.run(number)).map_err(Failure::input)?;
+            let of = Identity::expected(&scene, &digests).map_err(|(path, error)| {
+                Failure::because(&error, format_args!("cannot read {}: {error}", path.display()))
+            })?;
             let run = ResolvedRun {
                 identity: of.name(),
                 of,
@@ -159,10 +160,10 @@ impl Resolved {
                 files: scene.files,
             })
         };
-        let all: Vec<(usize, Result<Known, String>)> =
+        let all: Vec<(usize, Result<Known, Failure>)> =
             numbers.into_par_iter().map(|number| (number, resolve(number))).collect();
         let of_all = all.len();
-        let problems: Vec<(usize, &String)> =
+        let problems: Vec<(usize, &Failure)> =
             all.iter().filter_map(|(number, result)| Some((*number, result.as_ref().err()?))).collect();
         if problems.is_empty() {
             let (mut runs, mut files) = (BTreeMap::new(), BTreeSet::from_iter(digests.files()));
@@ -184,16 +185,20 @@ impl Resolved {
             return Ok(Self { runs, warnings, files, repeats, unrecorded });
         }
         // The same mistake shows in many runs.
-        let mut said: Vec<&String> = Vec::new();
+        let mut said = Vec::new();
         let heading = format!("{}: {} of {of_all} runs cannot be made", study.path.display(), problems.len());
         let mut lines = Vec::new();
         for (number, problem) in &problems {
-            if !said.contains(problem) && said.len() < SHOWN {
-                said.push(problem);
+            let problem = problem.to_string();
+            if !said.contains(&problem) && said.len() < SHOWN {
+                said.push(problem.clone());
                 lines.push(format!("{}:\n{problem}", run_in_words(plan, *number)));
             }
         }
-        Err(Failure::input(format!("{heading}\n{}", brief::list(lines, "\n"))))
+        let message = format!("{heading}\n{}", brief::list(lines, "\n"));
+        // What the system lacks at the moment is no mistake of the study.
+        let is_lack = problems.iter().any(|(_, problem)| matches!(problem, Failure::Run(_)));
+        Err(if is_lack { Failure::Run(message) } else { Failure::Input(message) })
     }
 }
 

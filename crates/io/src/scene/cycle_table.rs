@@ -87,8 +87,10 @@ fn read_rows(path: &Path, most: usize) -> Result<CycleTable, Problem> {
     let file: Arc<Path> = path.into();
     let of_file = |message: String| Problem::without_key(&Origin::File(file.clone()), message);
     let origin = |line: usize, column: usize| Origin::Place { file: file.clone(), line, column };
-    let wrong =
-        |(head, fault): Wrong| Problem { origin: origin(fault.line, fault.column), key: head, message: fault.message };
+    let wrong = |(head, fault): Wrong| Problem {
+        key: head,
+        ..Problem::without_key(&origin(fault.line, fault.column), fault.message)
+    };
     let text = delimited::read(path, limits::TABLE).map_err(|error| of_file(format!("cannot read it: {error}")))?;
     let table = Named::of(&text).map_err(|fault| wrong((None, fault)))?.ok_or_else(|| {
         of_file("it is empty, expected a header such as: time [s],normal_force [N],rotational_speed [rpm]".to_owned())

@@ -50,15 +50,17 @@ pub struct Problem {
     pub key: Option<String>,
     /// What was found, what was expected, what to do.
     pub message: String,
+    /// Number of the error of the system, where that did not give the file.
+    pub system: Option<i32>,
 }
 
 impl Problem {
     pub(crate) fn new(origin: &Origin, key: &str, message: impl Into<String>) -> Self {
-        Self { origin: origin.clone(), key: Some(key.to_owned()), message: message.into() }
+        Self { key: Some(key.to_owned()), ..Self::without_key(origin, message) }
     }
 
     pub(crate) fn without_key(origin: &Origin, message: impl Into<String>) -> Self {
-        Self { origin: origin.clone(), key: None, message: message.into() }
+        Self { origin: origin.clone(), key: None, message: message.into(), system: None }
     }
 }
 

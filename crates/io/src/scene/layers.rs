@@ -102,9 +102,12 @@ fn read_chain(path: &Path, problems: &mut Vec<Problem>) -> Result<(Files, Vec<En
     let mut next = Some((path.to_path_buf(), None));
     while let Some((path, named)) = next.take() {
         let file: Arc<Path> = path.as_path().into();
-        let unreadable = |error: io::Error| match &named {
-            Some(origin) => Problem::new(origin, "extends", format!("cannot read {}: {error}", path.display())),
-            None => Problem::without_key(&Origin::File(file.clone()), format!("cannot read the scene: {error}")),
+        let unreadable = |error: io::Error| {
+            let problem = match &named {
+                Some(origin) => Problem::new(origin, "extends", format!("cannot read {}: {error}", path.display())),
+                None => Problem::without_key(&Origin::File(file.clone()), format!("cannot read the scene: {error}")),
+            };
+            Problem { system: error.raw_os_error(), ..problem }
         };
         let identity = path.canonicalize().map_err(|error| unreadable(regular::not_there(&path, error)))?;
         names.push(path.clone());
