@@ -85,6 +85,20 @@ pub fn time_to(fraction: f64, samples: &Cumulative<'_>) -> Result<f64, NotDefine
     Ok((first as f64 + 0.5) * end / windows as f64)
 }
 
+/// The same of a run with a cycle, of which `contact_time` is the series (s, since t = 0): windows are parts of the time in contact, and
+/// the time in which the pin is lifted counts for nothing. The answer is a time of the run, s.
+///
+/// # Errors
+/// Those of [`time_to`].
+pub fn time_to_in_contact(fraction: f64, samples: &Cumulative<'_>, contact_time: &[f64]) -> Result<f64, NotDefined> {
+    let [time, integral, revolutions] = samples.on_contact_time(contact_time);
+    let found = time_to(fraction, &Cumulative { time: &time, integral: &integral, revolutions: &revolutions })?;
+    let after = contact_time.partition_point(|time| *time < found);
+    let ends = |values: &[f64]| Some((after.checked_sub(1).map_or(0.0, |before| values[before]), *values.get(after)?));
+    let ((from, to), (start, end)) = ends(contact_time).zip(ends(samples.time)).ok_or(NotDefined::NoValue)?;
+    Ok(start + (end - start) * (found - from) / (to - from))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -113,6 +127,21 @@ mod tests {
         assert_eq!(of(0.9, |time| -3e-7 * saturating(0.0, 50.0)(time)), Ok(125.0));
         // It begins nearer than that.
         assert_eq!(of(0.5, saturating(0.8, 50.0)), Ok(5.0));
+    }
+
+    #[test]
+    fn the_time_in_which_the_pin_is_lifted_counts_for_nothing() {
+        // In contact for 10 s, lifted for 10 s, and so on for 1200 s: on the axis of contact it is the curve of 600 s above.
+        let time: Vec<f64> = (1..=1200).map(f64::from).collect();
+        let contact: Vec<f64> =
+            time.iter().map(|time| 10.0 * (time / 20.0).floor() + (time % 20.0).min(10.0)).collect();
+        let integral: Vec<f64> = contact.iter().map(|time| saturating(0.0, 50.0)(*time)).collect();
+        let samples = Cumulative { time: &time, integral: &integral, revolutions: &[] };
+        // 125 s in contact are 5 s of the 13th time in contact, which begins at 240 s.
+        let found = time_to_in_contact(0.9, &samples, &contact).unwrap();
+        assert!((found - 245.0).abs() < 1e-9, "{found}");
+        // With the pauses as an area of 0 it is another curve.
+        assert_ne!(time_to(0.9, &samples), Ok(found));
     }
 
     #[test]

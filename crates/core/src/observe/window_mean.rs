@@ -79,7 +79,16 @@ impl Cumulative<'_> {
         if !in_order || contact_time.len() != self.time.len() {
             return None;
         }
-        // The same on the axis of that time, without the samples at which it stands still.
+        let [time, integral, revolutions] = self.on_contact_time(contact_time);
+        let [start, end] = [from, to].map(|moment| at(self.time, contact_time, moment));
+        let samples = Cumulative { time: &time, integral: &integral, revolutions: &revolutions };
+        let mean = samples.mean(start, end)?;
+        let is_lifted = to - from > (end - start) * (1.0 + ROUNDING);
+        Some(WindowMean { from, to, contact_time: is_lifted.then_some(end - start), ..mean })
+    }
+
+    /// Time in contact, integral and revolutions on the axis of that time, without the samples at which it stands still.
+    pub(super) fn on_contact_time(&self, contact_time: &[f64]) -> [Vec<f64>; 3] {
         let mut before = 0.0;
         let moves = |(_, time): &(usize, &f64)| {
             let moves = **time > before;
@@ -87,13 +96,8 @@ impl Cumulative<'_> {
             moves
         };
         let kept: Vec<usize> = contact_time.iter().enumerate().filter(moves).map(|(sample, _)| sample).collect();
-        let at_kept = |values: &[f64]| -> Vec<f64> { kept.iter().filter_map(|at| values.get(*at).copied()).collect() };
-        let [time, integral, revolutions] = [contact_time, self.integral, self.revolutions].map(at_kept);
-        let [start, end] = [from, to].map(|moment| at(self.time, contact_time, moment));
-        let samples = Cumulative { time: &time, integral: &integral, revolutions: &revolutions };
-        let mean = samples.mean(start, end)?;
-        let is_lifted = to - from > (end - start) * (1.0 + ROUNDING);
-        Some(WindowMean { from, to, contact_time: is_lifted.then_some(end - start), ..mean })
+        let at_kept = |values: &[f64]| kept.iter().filter_map(|at| values.get(*at).copied()).collect();
+        [contact_time, self.integral, self.revolutions].map(at_kept)
     }
 
     /// Simulated revolutions in a window, if they are known.

@@ -4,7 +4,7 @@ use std::borrow::Cow;
 use std::sync::Arc;
 
 use plateau_core::observe::event::EVENT_QUANTITIES;
-use plateau_core::observe::running_in::{NotDefined, time_to};
+use plateau_core::observe::running_in::{NotDefined, time_to, time_to_in_contact};
 use plateau_core::observe::window_mean::{Cumulative, WindowMean, last_tenth};
 use plateau_core::observe::{EXTRAS, quantities};
 
@@ -129,7 +129,11 @@ impl Response {
                 let known = self.integral(run).filter(|_| self.is_of_contact_area());
                 let integral = known.map_or_else(of_samples, Cow::Borrowed);
                 let samples = Cumulative { time, integral: &integral, revolutions: revolutions(run) };
-                return Ok(time_to(fraction, &samples)?);
+                let contact_time = run.values(CONTACT_TIME).filter(|_| self.is_of_contact_area());
+                return Ok(match contact_time {
+                    Some(contact_time) => time_to_in_contact(fraction, &samples, contact_time)?,
+                    None => time_to(fraction, &samples)?,
+                });
             }
             Question::Measured(ref file) => return Ok(file.series.distance(&self.at_measured_times(run)?)),
             Question::End | Question::Event(_) | Question::Imported(_) => values.last().copied(),
