@@ -21,6 +21,8 @@ can_start() {
         die "$program may not be started: the file system is mounted noexec, or the file lost its permission;" \
             "set CARGO_TARGET_DIR to a folder elsewhere, or remove the file"
     # With less address space than the program itself takes, the system ends it by a signal before it can say anything.
+    # Shells without it have no such limit to tell.
+    # shellcheck disable=SC3045
     limit=$(ulimit -v 2>/dev/null)
     case $limit in
         '' | *[!0-9]*) ;;

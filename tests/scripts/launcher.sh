@@ -151,6 +151,8 @@ expect_message 'a program that may not be started' 'noexec'
 expect 'that does not build' "$(builds)" 1
 chmod a+x "$checkout/target/release/plateau"
 # The system would end the real program by a signal.
+# The inner shell expands the name.
+# shellcheck disable=SC2016
 launch sh -c 'ulimit -v 20000; exec "$0"' "$checkout/plateau"
 expect_message 'less address space than the program takes' 'may have 20000 KiB of address space'
 
