@@ -6,7 +6,7 @@ use std::{fmt, io};
 
 use plateau_core::simulation::SimulationError;
 use plateau_io::run_file::{ReadError, RunFileError};
-use plateau_io::scene::SceneError;
+use plateau_io::scene::{Problem, SceneError};
 use plateau_io::study::StudyError;
 use plateau_run::{Job, Progress, RunError};
 
@@ -54,7 +54,8 @@ impl Failure {
 
     /// A study that cannot be used, with the lines that are wrong.
     pub fn of_study(error: StudyError) -> Self {
-        Self::Input(excerpt::of(&error.0))
+        let message = excerpt::of(&error.0);
+        Self::because(&error, message)
     }
 
     /// How a run failed.
@@ -123,13 +124,14 @@ fn lacks(error: &(dyn Error + 'static)) -> bool {
         Some(ReadError::System { number, .. }) => *number,
         _ => error.downcast_ref::<io::Error>().and_then(io::Error::raw_os_error),
     };
+    let of_problems = |problems: &[Problem]| {
+        problems.iter().any(|problem| problem.system.is_some_and(|number| LACKS.contains(&number)))
+    };
     let is_lack = |error: &(dyn Error + 'static)| {
         number(error).is_some_and(|number| LACKS.contains(&number))
             || matches!(error.downcast_ref(), Some(ReadError::Handles { .. }))
-            || error.downcast_ref().is_some_and(|error: &SceneError| {
-                let numbers = error.problems().iter().filter_map(|problem| problem.system);
-                numbers.into_iter().any(|number| LACKS.contains(&number))
-            })
+            || error.downcast_ref().is_some_and(|error: &SceneError| of_problems(error.problems()))
+            || error.downcast_ref().is_some_and(|error: &StudyError| of_problems(&error.0))
             || matches!(error.downcast_ref(), Some(RunFileError::NoHandle { .. }))
             || matches!(error.downcast_ref(), Some(SimulationError::Threads { .. }))
     };
@@ -176,8 +178,7 @@ pub fn in_job(work: impl FnOnce(&mut Job) -> Result<(), Failure>) -> Result<(), 
 mod tests {
     use std::path::{Path, PathBuf};
 
-    use plateau_io::scene::{Origin, Problem};
-
+    use plateau_io::scene::Origin;
     use plateau_run::InputError;
 
     use super::*;
@@ -196,7 +197,8 @@ mod tests {
             let origin = Origin::File(Path::new("mine.toml").into());
             let scene = Problem { origin, key: None, message: named.into(), system: Some(number) };
             assert_eq!(Failure::input(SceneError::from(scene.clone())).status(), status, "{number}");
-            assert_eq!(Failure::of_scene(SceneError::from(scene)).status(), status, "{number}");
+            assert_eq!(Failure::of_scene(SceneError::from(scene.clone())).status(), status, "{number}");
+            assert_eq!(Failure::of_study(StudyError(vec![scene])).status(), status, "{number}");
         }
         let threads = SimulationError::Threads { workers: 2, message: "no".into() };
         assert_eq!(Failure::of(RunError::Input(InputError::Simulation(threads))).status(), 1);

@@ -2,7 +2,7 @@
 
 use plateau_core::observe::window_mean::WindowMean;
 use plateau_present::acceleration::acceleration;
-use plateau_present::running_in::{running_in, running_in_time};
+use plateau_present::running_in::{in_contact, running_in, running_in_time};
 use plateau_run::RunSummary;
 
 use crate::failure::Failure;
@@ -147,12 +147,7 @@ fn contact_area(window: &WindowMean) -> String {
         }
         _ => format!("mean of the last {width} s"),
     };
-    let contact = window.contact_time.map_or(String::new(), |time| {
-        format!(
-            ", of which {} s in contact: the time in which the pin is lifted does not count",
-            number::rounded(time, 4)
-        )
-    });
+    let contact = in_contact(window);
     let error = if window.standard_error.is_some() { ", ± standard error" } else { ", too few samples for an error" };
     format!("{mean} mm² ({over}{contact}{error})")
 }

@@ -12,7 +12,7 @@
 //! | many values as few, with their envelope | [`envelope`] |
 //! | what runs are called | [`label`] |
 //! | what the time acceleration that a run chose was like, in words | [`acceleration`] |
-//! | whether a run is still running in, in words | [`running_in`] |
+//! | whether a run is still running in, and of which time its contact area is, in words | [`running_in`] |
 
 // The tables of files are for those who read the source: they name what is private, too.
 #![allow(rustdoc::private_intra_doc_links)]

@@ -1,7 +1,8 @@
-//! Whether a run is still running in, and when it had run in, in words.
+//! Whether a run is still running in, when it had run in, and over which time its contact area is averaged, in words.
 
 use plateau_core::observe::drift::{Drift, LEAST_PULSES, Trend};
 use plateau_core::observe::running_in::{NotDefined, RUN_IN};
+use plateau_core::observe::window_mean::WindowMean;
 use plateau_io::number;
 
 /// Whether the mean contact area still changes, in words.
@@ -34,6 +35,16 @@ pub fn running_in_time(found: &Result<f64, NotDefined>) -> String {
         }
         Err(reason) => reason.to_string(),
     }
+}
+
+/// Over how much of its part a mean of the contact area is, behind that part; nothing where it is all of it.
+pub fn in_contact(window: &WindowMean) -> String {
+    window.contact_time.map_or(String::new(), |time| {
+        format!(
+            ", of which {} s in contact: the time in which the pin is lifted does not count",
+            number::rounded(time, 4)
+        )
+    })
 }
 
 #[cfg(test)]

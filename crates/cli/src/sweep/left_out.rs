@@ -12,15 +12,16 @@ use super::journal_folder;
 use super::resolved::Resolved;
 use crate::{message, number};
 
-/// Says which results are left out because the study, its files or the numbers of the program are not what they were.
-pub fn say(study: &Study, resolved: &Resolved, journal: &Journal) {
-    for line in reasons(resolved, journal) {
-        message::note(format_args!("{}: {line}", journal_folder(study).display()));
-    }
+/// Says which results are left out because the study, its files or the numbers of the program are not what they were; gives the
+/// reasons.
+pub fn say(study: &Study, resolved: &Resolved, journal: &Journal) -> Vec<String> {
+    let (reasons, folder) = (reasons(resolved, journal), journal_folder(study));
+    reasons.iter().for_each(|reason| message::note(format_args!("{}: {reason}", folder.display())));
+    reasons
 }
 
 /// Each reason with how many results it leaves out.
-pub fn reasons(resolved: &Resolved, journal: &Journal) -> Vec<String> {
+fn reasons(resolved: &Resolved, journal: &Journal) -> Vec<String> {
     let known: HashSet<&str> = resolved.runs.values().map(|run| run.identity.as_str()).collect();
     let scenes: HashMap<&str, &Identity> = resolved.runs.values().map(|run| (run.of.scene.as_str(), &run.of)).collect();
     let mut reasons: BTreeMap<String, usize> = BTreeMap::new();

@@ -50,11 +50,7 @@ use crate::machine;
 /// # Errors
 /// [`Failure::Input`] with everything that is wrong.
 pub fn plan(path: &Path) -> Result<Plan, Failure> {
-    Study::load(path).and_then(Plan::new).map_err(|error| match regular::open(path) {
-        // What the system lacks is no fault of the study.
-        Err(system) => Failure::because(&system, Failure::of_study(error)),
-        Ok(_) => Failure::of_study(error),
-    })
+    Study::load(path).and_then(Plan::new).map_err(Failure::of_study)
 }
 
 /// Refuses a study that has no scene to run.

@@ -4,6 +4,7 @@ use std::collections::{BTreeMap, BTreeSet, HashSet};
 use std::path::PathBuf;
 
 use plateau_io::brief;
+use plateau_io::scene::Scene;
 use plateau_io::study::Study;
 use plateau_io::study::identity::{Digests, Identity};
 use plateau_io::study::plan::Plan;
@@ -14,7 +15,6 @@ use rayon::prelude::*;
 
 use super::run_length::{RunLength, seconds};
 use super::scene_warnings::{Found, SceneWarnings, of_scene};
-use super::unkept::needed;
 use crate::failure::Failure;
 use crate::message;
 
@@ -200,6 +200,13 @@ impl Resolved {
         let is_lack = problems.iter().any(|(_, problem)| matches!(problem, Failure::Run(_)));
         Err(if is_lack { Failure::Run(message) } else { Failure::Input(message) })
     }
+}
+
+/// What the responses of a study need of a run of this scene; what the scene does not record is lacking in every run of it, which is said
+/// elsewhere.
+pub fn needed(study: &Study, scene: &Scene) -> BTreeSet<String> {
+    let needs = study.responses.iter().flat_map(|response| response.needs());
+    needs.filter(|series| lacking(scene, series).is_none()).map(str::to_owned).collect()
 }
 
 /// A run with its settings: `run 2 (debris = contact)`.

@@ -3,21 +3,12 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use plateau_io::brief;
-use plateau_io::scene::Scene;
 use plateau_io::study::Study;
 use plateau_io::study::journal::{Entry, Journal};
 use plateau_io::study::record::EVENT;
-use plateau_io::study::unrecorded::lacking;
 
 use super::resolved::Resolved;
 use crate::{called, message, number};
-
-/// What the responses of a study need of a run of this scene; what the scene does not record is lacking in every run of it, which is said
-/// elsewhere.
-pub fn needed(study: &Study, scene: &Scene) -> BTreeSet<String> {
-    let needs = study.responses.iter().flat_map(|response| response.needs());
-    needs.filter(|series| lacking(scene, series).is_none()).map(str::to_owned).collect()
-}
 
 /// Whether a run finished and kept what is needed.
 pub fn is_whole(entry: &Entry, needed: &BTreeSet<String>) -> bool {

@@ -140,16 +140,24 @@ pub(crate) fn text_attribute(location: &Location, name: &str) -> hdf5::Result<Op
 /// # Errors
 /// As [`text_attribute`].
 pub(crate) fn text_of(attribute: &Attribute) -> hdf5::Result<Option<String>> {
+    // A list of one, too, as netCDF writes texts.
     if attribute.space()?.size() != 1 {
         return Ok(None);
     }
-    // A list of one, too, as netCDF writes texts.
+    Ok(texts_of(attribute)?.into_iter().next())
+}
+
+/// The texts that an attribute holds, of any kind; none of other values.
+///
+/// # Errors
+/// As [`text_attribute`].
+pub(crate) fn texts_of(attribute: &Attribute) -> hdf5::Result<Vec<String>> {
     match attribute.dtype()?.to_descriptor()? {
-        TypeDescriptor::VarLenUnicode => text(attribute.read_raw::<VarLenUnicode>()),
-        TypeDescriptor::VarLenAscii => text(attribute.read_raw::<VarLenAscii>()),
-        TypeDescriptor::FixedAscii(_) => text(attribute.read_raw::<FixedAscii<64>>()),
-        TypeDescriptor::FixedUnicode(_) => text(attribute.read_raw::<FixedUnicode<64>>()),
-        _ => Ok(None),
+        TypeDescriptor::VarLenUnicode => texts(attribute.read_raw::<VarLenUnicode>()),
+        TypeDescriptor::VarLenAscii => texts(attribute.read_raw::<VarLenAscii>()),
+        TypeDescriptor::FixedAscii(_) => texts(attribute.read_raw::<FixedAscii<64>>()),
+        TypeDescriptor::FixedUnicode(_) => texts(attribute.read_raw::<FixedUnicode<64>>()),
+        _ => Ok(Vec::new()),
     }
 }
 
@@ -170,8 +178,8 @@ fn attribute_of_one(location: &Location, name: &str) -> hdf5::Result<Option<Attr
 }
 
 /// The bytes of a damaged file may be no text.
-fn text(read: hdf5::Result<Vec<impl AsRef<[u8]>>>) -> hdf5::Result<Option<String>> {
-    Ok(read?.first().map(|text| String::from_utf8_lossy(text.as_ref()).into_owned()))
+fn texts(read: hdf5::Result<Vec<impl AsRef<[u8]>>>) -> hdf5::Result<Vec<String>> {
+    Ok(read?.iter().map(|text| String::from_utf8_lossy(text.as_ref()).into_owned()).collect())
 }
 
 /// Whether the superblock says that a program has the file open for writing; if it was killed, it still does.

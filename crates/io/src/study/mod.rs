@@ -153,12 +153,12 @@ impl Study {
         let file: Arc<Path> = path.into();
         let at = |origin: Origin, message: String| StudyError(vec![Problem::without_key(&origin, message)]);
         let text = regular::read_to_string(path, limits::STUDY).map_err(|error| {
-            let what = if hdf5_file::is_hdf5(path).unwrap_or(false) {
-                "this is an HDF5 file, expected a study, which is a text in TOML".to_owned()
+            let (what, system) = if hdf5_file::is_hdf5(path).unwrap_or(false) {
+                ("this is an HDF5 file, expected a study, which is a text in TOML".to_owned(), None)
             } else {
-                format!("cannot read the study: {error}")
+                (format!("cannot read the study: {error}"), error.raw_os_error())
             };
-            at(Origin::File(file.clone()), what)
+            StudyError(vec![Problem { system, ..Problem::without_key(&Origin::File(file.clone()), what) }])
         })?;
         let place = Place { file: file.clone(), text: &text };
         let located = |error: &toml::de::Error, message: String| {

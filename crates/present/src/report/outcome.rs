@@ -10,7 +10,7 @@ use super::html::capital;
 use super::series::Recorded;
 use crate::acceleration::acceleration;
 use crate::quantity::{SeriesLook, Unit};
-use crate::running_in::{running_in, running_in_time};
+use crate::running_in::{in_contact, running_in, running_in_time};
 use plateau_io::number;
 
 /// Shown where a run file does not say.
@@ -138,12 +138,7 @@ pub fn facts(run: &RunFile, contact_area: &ContactArea) -> Vec<(&'static str, St
 fn over(window: &WindowMean) -> String {
     let short = if window.is_long() { "" } else { ", all of it: fewer than ten simulated revolutions" };
     let error = if window.standard_error.is_some() { "" } else { "; too few samples for a standard error" };
-    let contact = window.contact_time.map_or(String::new(), |time| {
-        format!(
-            ", of which {} s in contact: the time in which the pin is lifted does not count",
-            number::rounded(time, 4)
-        )
-    });
+    let contact = in_contact(window);
     format!("{} to {} s{contact}{short}{error}", number::rounded(window.from, 6), number::rounded(window.to, 6))
 }
 

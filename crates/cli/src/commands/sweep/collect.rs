@@ -17,7 +17,7 @@ use crate::csv_table::csv_table;
 use crate::failure::Failure;
 use crate::sweep::resolved::Resolved;
 use crate::sweep::scene_warnings::{SceneWarnings, of_questions};
-use crate::sweep::{self, journal, journal_folder, left_out, short_tenth, unkept};
+use crate::sweep::{self, journal, left_out, short_tenth, unkept};
 use crate::table::{list, print, table};
 use crate::{message, number, output, version};
 
@@ -93,10 +93,7 @@ pub fn collected(plan: &Plan) -> Result<Found, Failure> {
     short_tenth::say(plan.study(), &resolved.lengths());
     let (journal, identities) = (journal(plan.study())?, resolved.identities());
     let collected = Collected::new(plan, &identities, &journal).map_err(failure)?;
-    let left_out = left_out::reasons(&resolved, &journal);
-    left_out
-        .iter()
-        .for_each(|reason| message::note(format_args!("{}: {reason}", journal_folder(plan.study()).display())));
+    let left_out = left_out::say(plan.study(), &resolved, &journal);
     unkept::say(plan.study(), &resolved, &journal, false);
     let mut unanswered = SceneWarnings::default();
     for run in collected.runs.iter().filter(|run| run.state == State::Finished) {

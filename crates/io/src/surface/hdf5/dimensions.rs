@@ -3,12 +3,12 @@
 //! A dimension is named by its label or else by its scale (HDF5 Dimension Scale Specification); the scales are the coordinate
 //! variables of netCDF.
 
-use hdf5::types::{FixedAscii, FixedUnicode, Reference, TypeDescriptor, VarLenArray, VarLenAscii, VarLenUnicode};
+use hdf5::types::{Reference, TypeDescriptor, VarLenArray};
 use hdf5::{Dataset, ObjectReference1, ReferencedObject};
 
 use super::error::Hdf5Error;
 use super::packing::Packing;
-use crate::hdf5_file::{refuse_hollow, text_attribute};
+use crate::hdf5_file::{refuse_hollow, text_attribute, texts_of};
 use crate::number;
 use crate::text::short;
 use crate::units::{self, Dimension};
@@ -86,23 +86,7 @@ fn labels(dataset: &Dataset) -> hdf5::Result<Vec<String>> {
     if attribute.space()?.size() != dataset.ndim() {
         return Ok(Vec::new());
     }
-    // The bytes of a damaged file may be no text.
-    let lossy = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
-    Ok(match attribute.dtype()?.to_descriptor()? {
-        TypeDescriptor::VarLenUnicode => {
-            attribute.read_raw::<VarLenUnicode>()?.iter().map(|text| lossy(text.as_bytes())).collect()
-        }
-        TypeDescriptor::VarLenAscii => {
-            attribute.read_raw::<VarLenAscii>()?.iter().map(|text| lossy(text.as_bytes())).collect()
-        }
-        TypeDescriptor::FixedAscii(_) => {
-            attribute.read_raw::<FixedAscii<64>>()?.iter().map(|text| lossy(text.as_bytes())).collect()
-        }
-        TypeDescriptor::FixedUnicode(_) => {
-            attribute.read_raw::<FixedUnicode<64>>()?.iter().map(|text| lossy(text.as_bytes())).collect()
-        }
-        _ => Vec::new(),
-    })
+    texts_of(&attribute)
 }
 
 /// The first scale of each dimension; none where there is none.

@@ -19,46 +19,8 @@ pub(super) struct Packing {
     add_offset: f64,
     /// Stored numbers that mark missing points.
     marks: Vec<f64>,
-    /// From which number on another is to be added, of integers that are stored with a sign and have none, or the other way round.
-    wrap: Option<Wrap>,
-}
-
-/// Integers of which some stand for others, 2^bits away.
-struct Wrap {
-    is_other: fn(f64, f64) -> bool,
-    limit: f64,
-    added: f64,
-}
-
-impl Wrap {
-    /// As `_Unsigned` has it; none where it says what the type says.
-    fn of(dataset: &Dataset) -> Result<Option<Self>, Hdf5Error> {
-        let Ok(_) = dataset.attr(UNSIGNED) else { return Ok(None) };
-        let descriptor = dataset.dtype()?.to_descriptor()?;
-        let range = libm::ldexp(1.0, 8 * descriptor.size() as i32);
-        let text = text_attribute(dataset, UNSIGNED)?.map(|text| text.to_ascii_lowercase());
-        match (text.as_deref(), descriptor) {
-            (Some("true"), TypeDescriptor::Integer(_)) => {
-                Ok(Some(Self { is_other: |number, limit| number < limit, limit: 0.0, added: range }))
-            }
-            (Some("false"), TypeDescriptor::Unsigned(_)) => {
-                Ok(Some(Self { is_other: |number, limit| number >= limit, limit: 0.5 * range, added: -range }))
-            }
-            (Some("true" | "false"), _) => Ok(None),
-            (text, _) => Err(Hdf5Error::Attribute {
-                dataset: dataset.name(),
-                found: format!("{UNSIGNED} = {:?}", short(text.unwrap_or_default())),
-                expected: "\"true\" or \"false\"",
-            }),
-        }
-    }
-
-    fn apply(&self, stored: &mut [f64]) {
-        stored
-            .iter_mut()
-            .filter(|number| (self.is_other)(**number, self.limit))
-            .for_each(|number| *number += self.added);
-    }
+    /// The least of the integers that are meant and how many there are, where netCDF says of their sign another thing than their type.
+    range: Option<[f64; 2]>,
 }
 
 impl Packing {
@@ -93,10 +55,10 @@ impl Packing {
             }
             marks.extend(found);
         }
-        let wrap = Wrap::of(dataset)?;
-        wrap.iter().for_each(|wrap| wrap.apply(&mut marks));
+        let range = range(dataset)?;
+        range.iter().for_each(|range| into_range(*range, &mut marks));
         Ok(Self {
-            wrap,
+            range,
             scale_factor: one(SCALE_FACTOR, 1.0, |factor| factor != 0.0, "one finite number that is not 0")?,
             add_offset: one("add_offset", 0.0, |_| true, "one finite number")?,
             marks,
@@ -105,8 +67,8 @@ impl Packing {
 
     /// Makes what they stand for of stored numbers, in place.
     pub(super) fn unpack(&self, stored: &mut [f64]) {
-        let Self { scale_factor, add_offset, ref marks, ref wrap } = *self;
-        wrap.iter().for_each(|wrap| wrap.apply(stored));
+        let Self { scale_factor, add_offset, ref marks, range } = *self;
+        range.iter().for_each(|range| into_range(*range, stored));
         if marks.iter().any(|mark| !mark.is_nan()) {
             stored.iter_mut().filter(|number| marks.contains(number)).for_each(|number| *number = f64::NAN);
         }
@@ -122,6 +84,31 @@ impl Packing {
             format!("heights are the stored numbers times scale_factor {scale_factor:e} plus add_offset {add_offset:e}")
         })
     }
+}
+
+/// The least of the integers that `_Unsigned` means and how many there are; none where it says what the type says.
+fn range(dataset: &Dataset) -> Result<Option<[f64; 2]>, Hdf5Error> {
+    if dataset.attr(UNSIGNED).is_err() {
+        return Ok(None);
+    }
+    let descriptor = dataset.dtype()?.to_descriptor()?;
+    let count = libm::ldexp(1.0, 8 * descriptor.size() as i32);
+    let text = text_attribute(dataset, UNSIGNED)?.map(|text| text.to_ascii_lowercase());
+    match (text.as_deref(), descriptor) {
+        (Some("true"), TypeDescriptor::Integer(_)) => Ok(Some([0.0, count])),
+        (Some("false"), TypeDescriptor::Unsigned(_)) => Ok(Some([-0.5 * count, count])),
+        (Some("true" | "false"), _) => Ok(None),
+        (text, _) => Err(Hdf5Error::Attribute {
+            dataset: dataset.name(),
+            found: format!("{UNSIGNED} = {:?}", short(text.unwrap_or_default())),
+            expected: "\"true\" or \"false\"",
+        }),
+    }
+}
+
+/// Makes integers of a range those of the same bits that are in it.
+fn into_range([least, count]: [f64; 2], integers: &mut [f64]) {
+    integers.iter_mut().for_each(|integer| *integer = least + (*integer - least).rem_euclid(count));
 }
 
 /// The numbers of an attribute; none where it is not there or holds something else.
