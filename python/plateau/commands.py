@@ -12,7 +12,7 @@ import xarray
 from plateau.errors import InputError, InputTypeError, PlateauWarning
 from plateau.program import call, file_name, listen
 from plateau.run_file import open_run
-from plateau.study import Study, open_study, read_table
+from plateau.study.results import Study, open_study, read_table
 from plateau.times import seconds
 
 # A path, as usual in Python.

@@ -10,7 +10,7 @@ use std::time::SystemTime;
 
 use hdf5::file::FileBuilder;
 use hdf5::types::VarLenUnicode;
-use hdf5::{Dataset, File, H5Type};
+use hdf5::{Dataset, File, H5Type, Location};
 use thiserror::Error;
 
 use crate::hdf5_file::writing::{write_number, write_text};
@@ -71,6 +71,8 @@ pub struct Variable {
     pub unit: Name,
     /// What it is, in words.
     pub long_name: Name,
+    /// What else is said of it.
+    pub attributes: Vec<(&'static str, Attribute)>,
     /// One value for each place, the last dimension the fastest.
     pub values: Values,
 }
@@ -155,13 +157,7 @@ fn create(path: &Path, content: &Content) -> hdf5::Result<(File, Vec<Dataset>)> 
     for name in ["conventions", "Conventions"] {
         write_text(&file, name, CONVENTIONS)?;
     }
-    for (name, attribute) in &content.attributes {
-        match attribute {
-            Attribute::Text(text) => write_text(&file, name, text)?,
-            Attribute::Number(number) => write_number(&file, name, *number)?,
-            Attribute::Integer(integer) => write_number(&file, name, *integer)?,
-        }
-    }
+    write_attributes(&file, &content.attributes)?;
     let mut datasets = Vec::with_capacity(content.dimensions.len() + content.variables.len());
     let mut lengths = BTreeMap::new();
     for Coordinate { name, unit, long_name, values } in &content.dimensions {
@@ -170,7 +166,7 @@ fn create(path: &Path, content: &Content) -> hdf5::Result<(File, Vec<Dataset>)> 
         dimensions.make_scale(&scale, name)?;
         datasets.push(scale);
     }
-    for Variable { name, dimensions: along, unit, long_name, values } in &content.variables {
+    for Variable { name, dimensions: along, unit, long_name, attributes, values } in &content.variables {
         let shape: Vec<usize> = along.iter().map(|name| lengths.get(name).copied().unwrap_or(0)).collect();
         let dataset = match values {
             Values::Float(values) => dataset(&file, name, &shape, unit, long_name, values)?,
@@ -183,11 +179,20 @@ fn create(path: &Path, content: &Content) -> hdf5::Result<(File, Vec<Dataset>)> 
                 dataset(&file, name, &shape, unit, long_name, &texts)?
             }
         };
+        write_attributes(&dataset, attributes)?;
         dimensions.attach(&dataset, along)?;
         datasets.push(dataset);
     }
     dimensions.finish()?;
     Ok((file, datasets))
+}
+
+fn write_attributes(location: &Location, attributes: &[(&'static str, Attribute)]) -> hdf5::Result<()> {
+    attributes.iter().try_for_each(|(name, attribute)| match attribute {
+        Attribute::Text(text) => write_text(location, name, text),
+        Attribute::Number(number) => write_number(location, name, *number),
+        Attribute::Integer(integer) => write_number(location, name, *integer),
+    })
 }
 
 fn dataset<T: H5Type>(
@@ -249,6 +254,7 @@ mod tests {
                     dimensions: vec!["run", "time"],
                     unit: "m2".into(),
                     long_name: "area".into(),
+                    attributes: vec![("valid_min", Attribute::Number(0.0))],
                     values: Values::Float(vec![1.0, 2.0, 3.0, 4.0, 5.0, f64::NAN]),
                 },
                 Variable {
@@ -256,6 +262,7 @@ mod tests {
                     dimensions: vec!["run"],
                     unit: "".into(),
                     long_name: "name".into(),
+                    attributes: Vec::new(),
                     values: Values::Text(vec!["one".into(), "µ".into()]),
                 },
             ],
@@ -272,6 +279,7 @@ mod tests {
         assert_eq!(area[..5], [1.0, 2.0, 3.0, 4.0, 5.0]);
         assert!(area[5].is_nan());
         assert_eq!(file.dataset("area").unwrap().shape(), [2, 3]);
+        assert_eq!(file.dataset("area").unwrap().attr("valid_min").unwrap().read_scalar::<f64>().unwrap(), 0.0);
         let names: Vec<VarLenUnicode> = file.dataset("name").unwrap().read_raw().unwrap();
         assert_eq!(names.iter().map(|name| name.as_str()).collect::<Vec<_>>(), ["one", "µ"]);
         assert_eq!(file.attr("count").unwrap().read_scalar::<i64>().unwrap(), 3);

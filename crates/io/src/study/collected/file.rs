@@ -3,8 +3,13 @@
 //! ```text
 //! run                          number of the run, from 1
 //! point, replicate, state      (run)
-//! one for each factor          (run), in SI units, or a word
-//! one for each response        (run), NaN where a run gives none; of a mean contact area with its standard error
+//! order                        (run), which one it is in the order in which the runs are made
+//! same_as                      (run), the first run with the same scene: its own number unless it repeats another one
+//! one for each factor          (run), in SI units, or a word; attributes: role = "factor", name, keys, levels (their list in JSON, empty
+//!                              for a range), low, high (at the coded values −1 and 1), scale, study_units, study_unit and study_zero
+//!                              (one and 0 of these units in SI units), whole
+//! one for each response        (run), NaN where a run gives none; of a mean contact area with its standard error; attributes: role =
+//!                              "response" or "standard error", name, series, transform, valid_min, valid_max
 //! one for each series          (run, time); or (run, sample), where the times of the samples differ from run to run
 //! ```
 
@@ -13,11 +18,16 @@ use std::path::Path;
 
 use hdf5::types::VarLenUnicode;
 use plateau_core::observe::{EXTRAS, quantities};
+use plateau_study::effects::Transform;
 
+use super::super::factor::{Factor, Values as FactorValues};
+use super::super::level::Level;
 use super::super::plan::{Plan, Run};
 use super::super::record::unit_of;
+use super::super::response::Response;
 use super::results::{CollectError, Collected, CollectedRun, State, series};
 use crate::dataset_file::{Attribute, Content, Coordinate, Name, Rows, Values, Variable, write_rows};
+use crate::units;
 
 /// Where runs have samples at different times.
 const TIME_OF_SAMPLE: &str = "sample_time";
@@ -59,7 +69,7 @@ impl Collected {
         let study = plan.study();
         let numbers =
             |value: fn(&Run) -> usize| Values::Integer(self.runs.iter().map(|run| value(&run.run) as i64).collect());
-        let text = |value: fn(&CollectedRun) -> String| Values::Text(self.runs.iter().map(value).collect());
+        let texts = |value: fn(&CollectedRun) -> String| Values::Text(self.runs.iter().map(value).collect());
         let (common, along) = self.samples();
         let mut content = Content {
             attributes,
@@ -68,16 +78,28 @@ impl Collected {
                 variable("point", "1", "point of the design", numbers(|run| run.point + 1)),
                 variable("replicate", "1", "replicate of the point", numbers(|run| run.replicate + 1)),
                 variable(
+                    "order",
+                    "1",
+                    "place in the order in which the runs are made",
+                    Values::Integer(order_of(plan)),
+                ),
+                variable(
+                    "same_as",
+                    "1",
+                    "first run with the same scene",
+                    Values::Integer(self.runs.iter().map(|run| run.first as i64 + 1).collect()),
+                ),
+                variable(
                     "state",
                     "",
                     "how the run ended: finished, failed or missing",
-                    text(|run| run.state.name().into()),
+                    texts(|run| run.state.name().into()),
                 ),
                 variable(
                     "error",
                     "",
                     "why the run failed",
-                    text(|run| if let State::Failed(error) = &run.state { error.clone() } else { String::new() }),
+                    texts(|run| if let State::Failed(error) = &run.state { error.clone() } else { String::new() }),
                 ),
                 variable(
                     "wall_time",
@@ -96,23 +118,24 @@ impl Collected {
             };
             let unit = if matches!(values, Values::Float(_)) { factor.unit() } else { "" };
             let meaning = format!("{}: {}", factor.name, factor.keys_in_words());
-            content.variables.push(variable(names.free(&factor.name, "factor"), unit, meaning, values));
+            let name = names.free(&factor.name, "factor");
+            let attributes = factor_attributes(factor, levels().collect());
+            content.variables.push(Variable { attributes, ..variable(name, unit, meaning, values) });
         }
         for (at, response) in study.responses.iter().enumerate() {
             let values = self.runs.iter().map(|run| run.responses[at]).collect();
             let unit = response.unit(unit_of(&response.series));
             let origin = if response.is_imported() { "imported".to_owned() } else { format!("of {}", response.series) };
             let meaning = format!("{} ({origin})", response.name);
-            content.variables.push(variable(
-                names.free(&response.name, "response"),
-                unit,
-                meaning,
-                Values::Float(values),
-            ));
+            let name = names.free(&response.name, "response");
+            let attributes = response_attributes(response);
+            content.variables.push(Variable { attributes, ..variable(name, unit, meaning, Values::Float(values)) });
             if response.has_error() {
                 let values = Values::Float(self.runs.iter().map(|run| run.errors[at]).collect());
                 let name = names.free(&error_name(&response.name), "response");
-                content.variables.push(variable(name, unit, format!("standard error of {}", response.name), values));
+                let attributes = vec![("role", text("standard error")), ("name", text(&response.name))];
+                let meaning = format!("standard error of {}", response.name);
+                content.variables.push(Variable { attributes, ..variable(name, unit, meaning, values) });
             }
         }
         match common {
@@ -140,6 +163,77 @@ impl Collected {
     }
 }
 
+/// For each run which one it is, from 1, in the order in which they are made.
+fn order_of(plan: &Plan) -> Vec<i64> {
+    let mut places = vec![0; plan.runs()];
+    plan.order().zip(1..).for_each(|(number, place)| places[number] = place);
+    places
+}
+
+/// What an analysis has to know of a factor besides its values.
+fn factor_attributes(factor: &Factor, found: Vec<&Level>) -> Vec<(&'static str, Attribute)> {
+    let (listed, ends, logarithmic): (Vec<&Level>, _, _) = match &factor.values {
+        FactorValues::Range { low, high, logarithmic } => (Vec::new(), Some([low, high]), *logarithmic),
+        FactorValues::Levels(levels) => {
+            let ends = if let [low, high] = levels.as_slice() { Some([low, high]) } else { None };
+            (levels.iter().collect(), ends, false)
+        }
+    };
+    let mut attributes = vec![
+        ("role", text("factor")),
+        ("name", text(&factor.name)),
+        ("keys", Attribute::Text(factor.keys.join(", "))),
+        (
+            "levels",
+            Attribute::Text(serde_json::json!(listed.iter().map(|level| &level.label).collect::<Vec<_>>()).to_string()),
+        ),
+        ("scale", text(if logarithmic { "logarithmic" } else { "linear" })),
+        ("whole", Attribute::Integer(i64::from(factor.is_whole()))),
+    ];
+    if let Some([Some(low), Some(high)]) = ends.map(|ends| ends.map(|end| end.number)) {
+        attributes.extend([("low", Attribute::Number(low)), ("high", Attribute::Number(high))]);
+    }
+    // The upper end first: the lower one may be 0, which is so in any unit.
+    let stated = ends.into_iter().flatten().rev().chain(listed.iter().copied()).chain(found);
+    if let Some((unit, one, zero)) = stated.filter_map(|level| stated_unit(factor, level)).next() {
+        attributes.extend([
+            ("study_units", Attribute::Text(unit)),
+            ("study_unit", Attribute::Number(one)),
+            ("study_zero", Attribute::Number(zero)),
+        ]);
+    }
+    attributes
+}
+
+/// The unit in which a value is stated, and what one and 0 of it are in SI units.
+fn stated_unit(factor: &Factor, level: &Level) -> Option<(String, f64, f64)> {
+    if factor.keys.is_empty() {
+        return Some((factor.stated_unit.clone(), 1.0, 0.0));
+    }
+    let ((number, unit), zero) = (level.split()?, units::zero_of(level.split()?.1));
+    let one = (level.number? - zero) / number;
+    (one.is_finite() && one > 0.0).then(|| (unit.to_owned(), one, zero))
+}
+
+fn response_attributes(response: &Response) -> Vec<(&'static str, Attribute)> {
+    let mut attributes = vec![
+        ("role", text("response")),
+        ("name", text(&response.name)),
+        ("series", text(&response.series)),
+        ("transform", text(response.transform.map_or("none", Transform::name))),
+    ];
+    let bounds = response.bounds();
+    let limits = [("valid_min", bounds.least), ("valid_max", bounds.most)];
+    attributes.extend(
+        limits.into_iter().filter(|(_, limit)| limit.is_finite()).map(|(name, limit)| (name, Attribute::Number(limit))),
+    );
+    attributes
+}
+
+fn text(text: &str) -> Attribute {
+    Attribute::Text(text.to_owned())
+}
+
 /// Whether a file is one that was collected from a study.
 pub fn is_collected(path: &Path) -> bool {
     let has = |file: &hdf5::File, name: &str| file.attr(name).is_ok();
@@ -164,7 +258,14 @@ fn coordinate(
 
 fn variable(name: impl Into<Name>, unit: &str, long_name: impl Into<Name>, values: Values) -> Variable {
     let unit = unit.to_owned().into();
-    Variable { name: name.into(), dimensions: vec!["run"], unit, long_name: long_name.into(), values }
+    Variable {
+        name: name.into(),
+        dimensions: vec!["run"],
+        unit,
+        long_name: long_name.into(),
+        attributes: Vec::new(),
+        values,
+    }
 }
 
 fn rows(name: &'static str, unit: &'static str, long_name: &'static str, along: &'static str) -> Variable {

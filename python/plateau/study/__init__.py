@@ -1,0 +1,48 @@
+"""Studies: their results, and what these tell.
+
+``open_study`` opens what was collected; ``effects``, ``levels``, ``seeds_needed``, ``predict``, ``optimize``, ``sensitivity``, ``fit`` and ``compare``
+answer. They need the packages of ``pip install 'plateau-brake[all]'``, which are imported when they are called.
+"""
+
+from typing import TYPE_CHECKING, Any
+
+from plateau.study.results import Factor, Response, Study, open_study
+
+if TYPE_CHECKING:
+    from plateau.study.scene_comparison import compare
+    from plateau.study.analysis import effects
+    from plateau.study.calibration import fit
+    from plateau.study.level_differences import levels
+    from plateau.study.optimum import optimize
+    from plateau.study.prediction import predict
+    from plateau.study.seed_counts import seeds_needed
+    from plateau.study.variance_parts import sensitivity
+
+# Where each answer is found.
+ANSWERS = {
+    "effects": "analysis",
+    "levels": "level_differences",
+    "seeds_needed": "seed_counts",
+    "predict": "prediction",
+    "optimize": "optimum",
+    "sensitivity": "variance_parts",
+    "fit": "calibration",
+    "compare": "scene_comparison",
+}
+
+__all__ = ["Factor", "Response", "Study", "compare", "effects", "fit", "levels", "open_study", "optimize", "predict", "seeds_needed", "sensitivity"]
+
+
+def __getattr__(name: str) -> Any:
+    if name not in ANSWERS:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    from importlib import import_module
+
+    from plateau.errors import MissingPackageError
+
+    try:
+        answer = getattr(import_module(f"plateau.study.{ANSWERS[name]}"), name)
+    except ModuleNotFoundError as error:
+        raise MissingPackageError(f"{error.name} is not installed: pip install 'plateau-brake[all]'") from error
+    globals()[name] = answer
+    return answer
