@@ -166,7 +166,7 @@ impl Collected {
 /// For each run which one it is, from 1, in the order in which they are made.
 fn order_of(plan: &Plan) -> Vec<i64> {
     let mut places = vec![0; plan.runs()];
-    plan.order().zip(1..).for_each(|(number, place)| places[number] = place);
+    plan.order().zip(1..).for_each(|(number, place)| places[number - 1] = place);
     places
 }
 
