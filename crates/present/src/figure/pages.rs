@@ -7,8 +7,6 @@ use super::page::Page;
 
 /// Height of a page, at most, pixels: 240 mm beside a width of 180 mm.
 const HIGHEST: f64 = TWO_COLUMNS * 4.0 / 3.0;
-/// Heights of boxes that are tried.
-const TRIED: u32 = 8;
 
 /// Whether each of the pages fits into a journal.
 pub fn are_low(pages: &[Page]) -> bool {
@@ -37,14 +35,6 @@ pub fn in_pages(parts: usize, page: impl Fn(Range<usize>) -> Page) -> Vec<Page> 
         first = end;
     }
     pages
-}
-
-/// The same on one page where boxes that are lower make that possible, else on several with boxes that are not. `heights` are those of the
-/// lowest and of the highest boxes.
-pub fn with_lower_boxes(parts: usize, [low, high]: [f64; 2], page: impl Fn(Range<usize>, f64) -> Page) -> Vec<Page> {
-    let heights = (0..=TRIED).map(|step| high + (low - high) * f64::from(step) / f64::from(TRIED));
-    let whole = heights.map(|height| page(0..parts, height.floor())).find(is_low);
-    whole.map_or_else(|| in_pages(parts, |some| page(some, high)), |page| vec![page])
 }
 
 #[cfg(test)]
