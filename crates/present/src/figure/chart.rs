@@ -178,23 +178,7 @@ pub fn around<'a>(values: impl IntoIterator<Item = &'a f64>) -> RangeInclusive<f
 
 #[cfg(test)]
 mod tests {
-    use super::{MARGIN, around, note};
-    use crate::figure::font::text_width;
-    use crate::figure::page::Page;
-
-    #[test]
-    fn notes_stay_on_the_page() {
-        let mut page = Page { size: [500.0, 300.0], ..Page::default() };
-        note(&mut page, &"held: load 8 N, wear rate 5 ".repeat(4));
-        assert!(page.texts.len() > 2);
-        for words in &page.texts {
-            assert!(words.place.0 + text_width(&words.text, words.size) <= 500.0 - MARGIN, "{words:?}");
-            assert!(words.place.1 + f64::from(words.size) < page.size[1], "{words:?}");
-        }
-        let before = page.clone();
-        note(&mut page, "");
-        assert_eq!(page, before);
-    }
+    use super::around;
 
     #[test]
     fn axes_reach_a_little_beyond_the_values() {

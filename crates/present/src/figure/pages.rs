@@ -51,20 +51,4 @@ mod tests {
         assert_eq!(heights(&[1000.0, 3000.0, 1000.0, 1880.0, 1.0]), [1000.0, 3000.0, 2880.0, 1.0]);
         assert_eq!(heights(&[]), [0.0; 0]);
     }
-
-    #[test]
-    fn boxes_are_lower_before_there_are_more_pages() {
-        // By hand: rows of boxes of 300 to 600 pixels with 100 pixels round each.
-        let heights = |rows: usize| -> Vec<f64> {
-            let page = |some: Range<usize>, height: f64| Page {
-                size: [TWO_COLUMNS, some.len() as f64 * (height + 100.0)],
-                ..Page::default()
-            };
-            with_lower_boxes(rows, [300.0, 600.0], page).iter().map(|page| page.size[1]).collect()
-        };
-        assert_eq!(heights(4), [2800.0]);
-        // Heights that are 37.5 pixels from each other are tried: 450 pixels are the first with which 5 rows fit, 300 with which 7 do.
-        assert_eq!((heights(5), heights(7)), (vec![2750.0], vec![2800.0]));
-        assert_eq!(heights(9), [2800.0, 2800.0, 700.0]);
-    }
 }
