@@ -12,7 +12,7 @@ from scipy import stats
 from plateau.errors import InputError
 from plateau.study.results import Factor, Numbers, Response, Study
 
-# Factors of a term, by index, in ascending order; a square names its factor twice.
+# Factors of a term, by index, in ascending order; a square names its factor twice, and the term of centre points has none.
 Term = tuple[int, ...]
 
 MODELS = {
@@ -29,6 +29,8 @@ CONTRIBUTES = 1e-6
 ROUNDING = 16 * np.finfo(float).eps
 # A point whose own weight in its fit comes this near to 1 has a coefficient of its own.
 SOLE = 1e-9
+# Coded values that differ by less are the same.
+SAME = 1e-6
 # Most coefficients of a model.
 MOST_COLUMNS = 2000
 # Degrees of freedom that squares should leave for the error; with fewer, intervals are too wide to tell anything.
@@ -209,6 +211,10 @@ class Fitted:
     missing, repeated : int
         Runs without a response, and those that repeat another one.
     confidence : float
+    centre : dict
+        Factors of the term of centre points and where they are there, coded; empty without that term.
+    chosen : bool
+        Whether terms were chosen by AICc.
     left_out : list of tuple of int
         Terms that the choice by AICc left out.
     aicc, aicc_of_all : float
@@ -226,6 +232,7 @@ class Fitted:
     missing: int
     repeated: int
     confidence: float = 0.95
+    centre: dict[int, float] = field(default_factory=dict)
     chosen: bool = False
     left_out: list[Term] = field(default_factory=list)
     aicc: float = np.nan
@@ -233,6 +240,8 @@ class Fitted:
 
     def label(self, term: Term) -> str:
         """Label of a term, such as ``load × speed`` or ``load²``."""
+        if not term:
+            return "centre points"
         names = [named(self.study.factors[at]) for at in term]
         return f"{names[0]}²" if len(term) == 2 and term[0] == term[1] else " × ".join(names)
 
@@ -272,6 +281,8 @@ class Fitted:
         parts = [np.ones((count, 1)), np.zeros((count, self.seeds - 1))]
         for term in self.terms:
             product = np.ones((count, 1))
+            if not term:
+                product *= np.all([np.abs(numbers[at] - middle) < SAME for at, middle in self.centre.items()], axis=0)
             for at in term:
                 product = (product[:, :, None] * numbers[at][:, None, :]).reshape(count, -1)
             parts.append(product)
@@ -390,6 +401,15 @@ class Fitted:
         """Leave-one-point-out errors, observed less forecast, on the scale of the fit; NaN of a point that has a coefficient of its own."""
         return self._held_out[:, 1]
 
+    @property
+    def loo_error(self) -> float:
+        """Root of the mean square of leave-one-point-out errors, SI; NaN if fewer than three quarters of the points can be left out."""
+        known = ~np.isnan(self.loo)
+        if known.mean() < 0.75:
+            return np.nan
+        mean = pandas.Series(self.values).groupby(self.runs["point"].to_numpy()).mean().to_numpy()[known]
+        return float(np.sqrt(np.square(self.response.back(mean) - self.response.back(mean - self.loo[known])).mean()))
+
     # Error from seeds --------------------------------------------------------------------------------------------------------
 
     def combined(self, rows: Numbers) -> pandas.DataFrame:
@@ -410,33 +430,43 @@ class Fitted:
         pandas.DataFrame
             ``value``, ``standard_error`` and ``freedom``, NaN without an error.
         """
-        fit, own = self.fit, rows[:, self.fit.kept]
-        value = rows @ self.coefficients
-        weights = own @ fit.root @ fit.basis.T
-        if self.seeds < 2:
-            error = np.sqrt(self.error * (weights**2).sum(axis=1))
-            freedom = np.where(np.isnan(error), np.nan, float(self.residual_freedom))
-            return pandas.DataFrame({"value": value, "standard_error": error, "freedom": freedom})
+        fit = self.fit
+        variances, freedoms = self.errors(rows[:, fit.kept] @ fit.root @ fit.basis.T)
+        return pandas.DataFrame({"value": rows @ self.coefficients, "standard_error": np.sqrt(variances), "freedom": freedoms})
+
+    def errors(self, weights: Numbers) -> tuple[Numbers, Numbers]:
+        """Variances of weighted sums of the responses, and their degrees of freedom, as in `combined`.
+
+        Parameters
+        ----------
+        weights : numpy.ndarray
+            A row for each sum, a column for each run.
+
+        Returns
+        -------
+        tuple of numpy.ndarray
+        """
+        if self.seeds < 2 or np.isnan(self.error):
+            variances = self.error * (weights**2).sum(axis=1)
+            return variances, np.where(np.isnan(variances), np.nan, float(self.residual_freedom))
         # Deviations of runs from the mean model of all blocks.
         without = self.design.copy()
         without[:, 1 : self.seeds] = 0.0
-        leaves = np.eye(len(self.values)) - without[:, fit.kept] @ fit.root @ fit.basis.T
+        leaves = np.eye(len(self.values)) - without[:, self.fit.kept] @ self.fit.root @ self.fit.basis.T
         left = leaves @ (self.values - self.mean)
-        block = np.unique(self.runs["replicate"], return_inverse=True)[1]
-        # A column for each set.
-        member = np.eye(self.seeds)[block]
-        errors, freedoms = np.full(len(rows), np.nan), np.full(len(rows), np.nan)
+        member = np.eye(self.seeds)[np.unique(self.runs["replicate"], return_inverse=True)[1]]
+        variances, freedoms = np.full(len(weights), np.nan), np.full(len(weights), np.nan)
         for at, weight in enumerate(weights):
-            by_set = weight[:, None] * member
-            sums, spread = by_set.T @ left, by_set.T @ leaves
-            expected, found = (by_set**2).sum(axis=0), (spread**2).sum(axis=1)
-            known = found > DEPENDENT * expected.sum()
-            scale = np.sqrt(np.divide(expected, found, out=np.zeros_like(found), where=known))
+            by_set = (weight[:, None] * member).T
+            # What each set tells of the sum, scaled so that its square has the right mean if all runs scatter alike.
+            spread, expected = by_set @ leaves, (by_set**2).sum(axis=1)
+            found = (spread**2).sum(axis=1)
+            scale = np.sqrt(np.divide(expected, found, out=np.zeros_like(found), where=found > DEPENDENT * expected.sum()))
             covariance = scale[:, None] * (spread @ spread.T) * scale
-            if (freedom := np.trace(covariance) ** 2 / max((covariance**2).sum(), 1e-300)) > 0.5:
-                errors[at], freedoms[at] = np.sqrt(((scale * sums) ** 2).sum()), freedom
-        errors[errors <= self.rounding] = np.nan
-        return pandas.DataFrame({"value": value, "standard_error": errors, "freedom": np.where(np.isnan(errors), np.nan, freedoms)})
+            if np.trace(covariance) > 0:
+                variances[at] = float(((scale * (by_set @ left)) ** 2).sum())
+                freedoms[at] = np.trace(covariance) ** 2 / (covariance**2).sum()
+        return variances, freedoms
 
     # Forecasts ---------------------------------------------------------------------------------------------------------------
 
@@ -581,7 +611,9 @@ def f_test(squares: Squares, error: Squares) -> tuple[float, float]:
 # Choice of the model ---------------------------------------------------------------------------------------------------------------
 
 
-def fitted(study: Study, response: Response, model: str | None = None, terms: str = "all", confidence: float = 0.95) -> Fitted:
+def fitted(
+    study: Study, response: Response, model: str | None = None, terms: str = "all", confidence: float = 0.95, centre: bool = False
+) -> Fitted:
     """Fits a model to a response.
 
     Parameters
@@ -595,6 +627,8 @@ def fitted(study: Study, response: Response, model: str | None = None, terms: st
         ``"all"`` of the model, or ``"aicc"``: those with the least AICc.
     confidence : float
         Confidence level, between 0 and 1.
+    centre : bool
+        Whether centre points have a term of their own where their squares cannot be told apart (Minitab's Ct Pt).
 
     Returns
     -------
@@ -617,11 +651,11 @@ def fitted(study: Study, response: Response, model: str | None = None, terms: st
         model, reason = _choice(study, response)
     else:
         reason = "as asked for"
-    whole = _whole(study, response, model, reason, confidence)
+    whole = _whole(study, response, model, reason, confidence, centre)
     return _selected(whole) if terms == "aicc" else whole
 
 
-def _whole(study: Study, response: Response, model: str, reason: str, confidence: float) -> Fitted:
+def _whole(study: Study, response: Response, model: str, reason: str, confidence: float, centre: bool = False) -> Fitted:
     """The fit with all terms of a model."""
     runs = study.runs
     # What was measured elsewhere was measured for each run by itself.
@@ -650,7 +684,20 @@ def _whole(study: Study, response: Response, model: str, reason: str, confidence
     kept["point"] = np.unique(np.column_stack(keys), axis=0, return_inverse=True)[1].reshape(-1)
     widths, numbers = [coding.width for coding in codings], [factor.is_number for factor in study.factors]
     terms = terms_of(model, widths, numbers, int(kept["point"].max()) + 1)
-    return Fitted(study, response, model, reason, terms, codings, kept, values, missing, repeated, confidence)
+    fit = Fitted(study, response, model, reason, terms, codings, kept, values, missing, repeated, confidence)
+    if centre and model != "quadratic" and (middle := _centre(fit)):
+        return replace(fit, terms=[*terms, ()], centre=middle)
+    return fit
+
+
+def _centre(fit: Fitted) -> dict[int, float]:
+    """Coded middles of the numbers, if those with more than two values have them at the same points and are at their ends elsewhere."""
+    curved = [at for at in range(len(fit.codings)) if is_curved(fit, at)]
+    coded = {at: fit.codings[at].factor.coded(fit.runs[fit.codings[at].factor.name]) for at in curved}
+    middles = {at: float(values[np.abs(values).argmin()]) for at, values in coded.items()}
+    marks = [np.abs(values - middles[at]) < SAME for at, values in coded.items()]
+    at_ends = all((np.abs(np.abs(coded[at][~mark]) - 1.0) < SAME).all() for at, mark in zip(coded, marks, strict=True))
+    return middles if curved and at_ends and all((mark == marks[0]).all() for mark in marks) else {}
 
 
 def _keys(factor: Factor, values: pandas.Series) -> Numbers:
@@ -723,7 +770,7 @@ def _selected(whole: Fitted) -> Fitted:
 
     def is_part(one: int, other: int) -> bool:
         part, rest = whole.terms[one], whole.terms[other]
-        return len(part) < len(rest) and set(part) <= set(rest)
+        return 0 < len(part) < len(rest) and set(part) <= set(rest)
 
     def may_change(kept: frozenset[int], term: int) -> bool:
         others = [other for other in range(len(whole.terms)) if other != term]
@@ -801,7 +848,7 @@ def _other(fit: Fitted, model: str) -> Fitted | None:
     if model == fit.model:
         return None
     try:
-        other = _whole(fit.study, fit.response, model, "", fit.confidence)
+        other = _whole(fit.study, fit.response, model, "", fit.confidence, () in fit.terms)
     except InputError:
         return None
     if sum(other.widths) > 300 or other.residual_freedom <= 0 or model == "quadratic" and no_squares(other):
