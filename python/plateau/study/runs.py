@@ -48,7 +48,7 @@ def make_runs(
     Returns
     -------
     pandas.DataFrame
-        As ``study.runs``, with a row for each point and set of seeds: ``point`` is the row of ``points``, from 1. A run that failed has NaN.
+        As ``study.runs``, a row for each point and set of seeds: ``point`` is the row of ``points``, from 1. A run that failed has NaN.
 
     Raises
     ------
@@ -74,25 +74,32 @@ def made_study(study: Study, points: pandas.DataFrame, progress: bool | None, re
             lines = csv.writer(file)
             lines.writerow(factor.name for factor in study.factors)
             lines.writerows([written(factor, point[factor.name]) for factor in study.factors] for _, point in points.iterrows())
-        flags = [f"--{name}={value}" for name, value in options.items() if value is not None]
-        failure = ""
         try:
-            call(["sweep", "run", path, *flags, *(["--retry"] if retry else [])], progress)
-        except RunFailed as error:
-            failure = str(error)
+            made = finished(path, progress, retry, **options)
         except PlateauError as error:
             error.args = (str(error).replace(str(path), str(study.path)), *error.args[1:])
             raise
-        made = analysed(path)
+    runs = made.runs.assign(**{response.name: math.nan for response in study.responses if response.name not in made.runs})
+    return replace(made, title=study.title, runs=runs[study.runs.columns], path=study.path)
+
+
+def finished(path: Path, progress: bool | None, retry: bool = False, **options: int | None) -> Study:
+    """Makes the missing runs of a study file and opens it; warns of runs that fail, unless all of them do."""
+    flags = [f"--{name}={value}" for name, value in options.items() if value is not None]
+    failure = ""
+    try:
+        call(["sweep", "run", path, *flags, *(["--retry"] if retry else [])], progress)
+    except RunFailed as error:
+        failure = str(error)
+    made = analysed(path)
     lacking = made.runs["state"] != "finished"
     if lacking.any():
         first = made.data["error"].values[lacking.to_numpy()][0] or failure
-        message = f"{study.path}: {lacking.sum()} of {len(lacking)} runs at these points did not end well; the first of them: {first}"
+        message = f"{path}: {lacking.sum()} of {len(lacking)} runs did not end well; the first of them: {first}"
         if lacking.all():
             raise RunFailed(message)
-        warnings.warn(message, PlateauWarning, stacklevel=3)
-    runs = made.runs.assign(**{response.name: math.nan for response in study.responses if response.name not in made.runs})
-    return replace(made, title=study.title, runs=runs[study.runs.columns], path=study.path)
+        warnings.warn(message, PlateauWarning, stacklevel=4)
+    return made
 
 
 def _document(study: Study) -> dict[str, Any]:
@@ -115,7 +122,7 @@ def _document(study: Study) -> dict[str, Any]:
 
 
 def written(factor: Factor, value: Any) -> str:
-    """A value of a factor, SI or a word, as study files have it: with as few digits as give exactly this value, so that its runs are found again."""
+    """A value of a factor, SI or a word, as study files have it: with as few digits as give exactly this value, so that runs are found."""
     if isinstance(value, str):
         return value
     if factor.whole:
