@@ -88,7 +88,10 @@ def finished(path: Path, progress: bool | None, retry: bool = False, **options: 
     flags = [f"--{name}={value}" for name, value in options.items() if value is not None]
     failure = ""
     try:
-        call(["sweep", "run", path, *flags, *(["--retry"] if retry else [])], progress)
+        with warnings.catch_warnings():
+            # That a run does not give a response is said of all runs below.
+            warnings.filterwarnings("ignore", ".*has no value", PlateauWarning)
+            call(["sweep", "run", path, *flags, *(["--retry"] if retry else [])], progress)
     except RunFailed as error:
         failure = str(error)
     made = analysed(path)
