@@ -1,11 +1,15 @@
 //! What is seen of a measured patch before anything is done to it: which form it has, whether there are spikes, how rough it is.
 
-use super::level::Level;
+use super::level::{Level, level, rms_left_out};
+use super::missing::remove_outliers;
 use super::spikes::Spikes;
 
 /// Rms height that is left of a bowed patch, at most, where a form of second order is taken out in place of a plane. Of fifty
 /// independent heights the three terms more take out 6 % of the mean square, of which the root is 0.97.
 const LEFT_OF_BOWED: f64 = 0.9;
+
+/// Strips of a patch along either side, each of which is left out once where a form is looked for.
+const STRIPS: usize = 4;
 
 /// The condition of a measured patch.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -26,7 +30,9 @@ impl Condition {
     pub fn of(heights: &[f64], rows: usize) -> Option<Self> {
         let (spikes, plane) = Spikes::of(heights.to_vec(), rows, Level::Plane)?;
         let (beside_bow, quadratic) = Spikes::of(heights.to_vec(), rows, Level::Quadratic)?;
-        let is_bowed = quadratic > 0.0 && quadratic < LEFT_OF_BOWED * plane;
+        let is_bowed = quadratic > 0.0
+            && quadratic < LEFT_OF_BOWED * plane
+            && is_found_everywhere(heights, rows, beside_bow.is_some());
         let (form, spikes) = if is_bowed { (Level::Quadratic, beside_bow) } else { (Level::Plane, spikes) };
         Some(Self { form, rms_of_forms: [plane, quadratic], spikes })
     }
@@ -35,6 +41,27 @@ impl Condition {
     pub fn rms_height(&self) -> f64 {
         self.rms_of_forms[usize::from(self.form == Level::Quadratic)]
     }
+}
+
+/// Whether a form of second order tells heights of which it knows nothing better than a plane does, in strips along either side: a groove
+/// or a wave takes the place of such a form where it is seen, and none where it is not.
+fn is_found_everywhere(heights: &[f64], rows: usize, has_spikes: bool) -> bool {
+    let mut heights = heights.to_vec();
+    if has_spikes {
+        let mut beside_form = heights.clone();
+        level(&mut beside_form, rows, Level::Quadratic, false);
+        remove_outliers(&mut beside_form, Spikes::LIMIT);
+        heights
+            .iter_mut()
+            .zip(&beside_form)
+            .filter(|(_, left)| left.is_nan())
+            .for_each(|(height, _)| *height = f64::NAN);
+    }
+    let left = |form| rms_left_out(&heights, rows, form, STRIPS);
+    left(Level::Quadratic)
+        .into_iter()
+        .zip(left(Level::Plane))
+        .all(|(quadratic, plane)| quadratic < LEFT_OF_BOWED * plane)
 }
 
 #[cfg(test)]
