@@ -21,10 +21,15 @@ pub enum Level {
 ///
 /// Heights that were nothing but the form are all 0 afterwards: what the rounding of numbers leaves of them is no surface.
 pub fn level(heights: &mut [f64], rows: usize, level: Level, closed: bool) {
-    if level == Level::None {
-        return;
-    }
-    let Some(form) = Form::new(heights, rows, terms(level, closed)) else { return };
+    let terms: &[Term] = match (level, closed) {
+        (Level::None, _) => return,
+        (Level::Mean, _) => &[Term(0, 0)],
+        (Level::Plane, true) => &[Term(0, 0), Term(0, 1)],
+        (Level::Plane, false) => &[Term(0, 0), Term(1, 0), Term(0, 1)],
+        (Level::Quadratic, true) => &[Term(0, 0), Term(0, 1), Term(0, 2)],
+        (Level::Quadratic, false) => &[Term(0, 0), Term(1, 0), Term(0, 1), Term(2, 0), Term(1, 1), Term(0, 2)],
+    };
+    let Some(form) = Form::new(heights, rows, terms) else { return };
     let before = largest(heights);
     // The second pass takes out what rounding left of a large offset or tilt in the first.
     for _ in 0..2 {
@@ -34,42 +39,6 @@ pub fn level(heights: &mut [f64], rows: usize, level: Level, closed: bool) {
     if largest(heights) <= ROUNDING * before {
         heights.iter_mut().filter(|height| !height.is_nan()).for_each(|height| *height = 0.0);
     }
-}
-
-/// The terms of a form.
-fn terms(level: Level, closed: bool) -> &'static [Term] {
-    match (level, closed) {
-        (Level::None, _) => &[],
-        (Level::Mean, _) => &[Term(0, 0)],
-        (Level::Plane, true) => &[Term(0, 0), Term(0, 1)],
-        (Level::Plane, false) => &[Term(0, 0), Term(1, 0), Term(0, 1)],
-        (Level::Quadratic, true) => &[Term(0, 0), Term(0, 1), Term(0, 2)],
-        (Level::Quadratic, false) => &[Term(0, 0), Term(1, 0), Term(0, 1), Term(2, 0), Term(1, 1), Term(0, 2)],
-    }
-}
-
-/// Rms of what is left of heights where the form is taken out that the heights outside of their strip have, of so many strips of columns
-/// and of as many strips of rows.
-pub(super) fn rms_left_out(heights: &[f64], rows: usize, level: Level, strips: usize) -> [f64; 2] {
-    let counts = [heights.len() / rows.max(1), rows];
-    [0, 1].map(|axis| {
-        let (mut squares, mut points) = (0.0, 0.0);
-        for strip in 0..strips {
-            let is_in = |index: usize| place(index, rows)[axis] as usize * strips / counts[axis] == strip;
-            let part = |within: bool| -> Vec<f64> {
-                let of = |(index, height): (usize, &f64)| if is_in(index) == within { *height } else { f64::NAN };
-                heights.iter().enumerate().map(of).collect()
-            };
-            let (mut left, others) = (part(true), part(false));
-            let Some(form) = Form::new(&others, rows, terms(level, false)) else { continue };
-            form.take_out(&mut left, &form.fit(&others));
-            for height in left.iter().filter(|height| !height.is_nan()) {
-                squares += height * height;
-                points += 1.0;
-            }
-        }
-        (squares / points).sqrt()
-    })
 }
 
 /// What rounding leaves of heights that are nothing but a form, by the largest of them: a few units of the last place, of
