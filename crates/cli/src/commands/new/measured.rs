@@ -196,7 +196,9 @@ impl ClearLay {
         };
         // `plateau surface` takes a plane out unless told otherwise.
         let beside = if *form == Level::Quadratic { ", with --level quadratic" } else { "" };
-        format!("{way} (Str {aspect_ratio}, Std {} deg{beside})", number::rounded(*direction, 3))
+        // Added to 0, what is rounded to it has no sign.
+        let tenths = (10.0 * direction).round() / 10.0 + 0.0;
+        format!("{way} (Str {aspect_ratio}, Std {} deg{beside})", number::rounded(tenths, 3))
     }
 
     /// The angle that turns it along sliding; of one that runs along, across.
