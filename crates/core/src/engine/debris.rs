@@ -279,8 +279,7 @@ impl Debris {
             }
 
             let [captured, emitted] = match self.local {
-                // The sums of losses and deposits are rounded each for itself: where all is compacted, one may be the larger.
-                true => [0.0, (worn_pin + worn_resin + worn_disc - (deposited_pin + deposited_disc)).max(0.0)],
+                true => [0.0, worn_pin + worn_resin + worn_disc - (deposited_pin + deposited_disc)],
                 false => self.part(worn_pin, worn_resin, worn_disc),
             };
             let pool = &mut self.pools[index];

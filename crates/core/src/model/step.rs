@@ -236,9 +236,7 @@ pub fn deposit_locally(
         moved.deposited_pin += pair.area * on_pin;
         moved.deposited_disc += pair.area * (deposit - on_pin);
     }
-    let worn = moved.worn_pin + moved.worn_resin + moved.worn_disc;
-    // Where all is compacted, rounding may make one of the sums the larger.
-    moved.emitted = (worn - moved.deposited_pin - moved.deposited_disc).max(0.0);
+    moved.emitted = moved.worn_pin + moved.worn_resin + moved.worn_disc - moved.deposited_pin - moved.deposited_disc;
     moved
 }
 
