@@ -457,7 +457,10 @@ fn the_contact_area_of_a_cycle_is_its_mean_over_the_time_in_contact() {
     let mean = (integral[to] - integral[from]) / in_contact;
     assert!((number("mean") / mean - 1.0).abs() < 1e-12, "{window}, expected {mean}");
     let text = directory.plateau(arguments).quiet_success();
-    assert!(text.contains("in contact: the time in which the pin is lifted, and before the first step, does not count"), "{text}");
+    assert!(
+        text.contains("in contact: the time in which the pin is lifted, and before the first step, does not count"),
+        "{text}"
+    );
     assert_eq!(directory.plateau(["report", "run.h5", "-o", "run.html"]).status, Some(0));
     assert!(fs::read_to_string(directory.path("run.html")).unwrap().contains("s in contact"));
 }
@@ -474,10 +477,10 @@ fn a_pin_that_stands_before_the_first_step_counts_for_nothing_in_the_mean() {
         directory.write(&format!("{name}.toml"), quick_with_operation(&lines));
         // A sample every 0.5 s; 7.08 revolutions, so the window is the whole run.
         let arguments = ["--json", "--set", "numerics.time_acceleration=20", "--set", "output.sample_every=0.5 s"];
-        let text = directory
-            .plateau([&["run", &format!("{name}.toml"), "-o", &format!("{name}.h5")][..], &arguments].concat())
-            .quiet_success();
-        let found: serde_json::Value = serde_json::from_str(&text).unwrap();
+        let outcome = directory
+            .plateau([&["run", &format!("{name}.toml"), "-o", &format!("{name}.h5")][..], &arguments].concat());
+        assert_eq!(outcome.status, Some(0), "{outcome:?}");
+        let found: serde_json::Value = serde_json::from_str(&outcome.stdout).unwrap();
         found["contact_area_last_tenth"].clone()
     };
     let (stands, moves) = (summary("stands", 5.0), summary("moves", 0.0));

@@ -176,9 +176,9 @@ mod tests {
 
     #[test]
     fn pulses_about_a_curve_that_saturates_are_its_noise() {
-        // 0.1 cos(2π t/37 s) more: of the means over 10 s.
+        // 0.05 cos(2π t/37 s) more: of the means over 10 s.
         let rate = std::f64::consts::TAU / 37.0;
-        let found = of(0.9, |time| saturating(0.0, 60.0)(time) + 0.1 * (rate * time).sin() / rate).unwrap();
+        let found = of(0.9, |time| saturating(0.0, 60.0)(time) + 0.05 * (rate * time).sin() / rate).unwrap();
         assert!((100.0..180.0).contains(&found), "{found}");
     }
 
@@ -202,23 +202,17 @@ mod tests {
         assert_eq!(time_to(0.9, &samples, Some(50.0)), time_to(0.9, &samples, None));
         // A quarter is 150 s.
         assert_eq!(time_to(0.9, &samples, Some(75.0)), Err(NotDefined::FewPulses(2.0)));
-        // Windows of 10 s of 0.8 and 1.1 in turn, the last two of 1: those of 0.8 are short of 0.9. By hand, of 59 windows from the second on 28.
-        let height = |window: usize| {
-            if window >= 58 {
-                1.0
-            } else if window.is_multiple_of(2) {
-                0.8
-            } else {
-                1.1
-            }
+        // Windows of 10 s of 0.97 and 1.03 in turn, the last two of 1.1: those of 0.97 are short of 0.99. By hand, of 59 windows from the second
+        // on 28.
+        let height = |window: usize| match window {
+            58.. => 1.1,
+            _ if window.is_multiple_of(2) => 0.97,
+            _ => 1.03,
         };
         let sums = |time: f64| (1..=time as usize).map(|second| height((second - 1) / 10)).sum::<f64>();
-        assert!(
-            matches!(of(0.9, sums), Err(NotDefined::ShortAgain(part)) if (part - 28.0 / 59.0).abs() < 1e-12),
-            "{:?}",
-            of(0.9, sums)
-        );
-        // Chance that may hide a change of 5 %: blocks of 50 s of 0.8 and 1.2 and the like.
+        let found = of(0.9, sums);
+        assert!(matches!(found, Err(NotDefined::ShortAgain(part)) if (part - 28.0 / 59.0).abs() < 1e-12), "{found:?}");
+        // 0.4 sin(t/50 s) more: two quarters are not alike.
         let slow = |time: f64| time + 0.4 * 50.0 * (1.0 - (time / 50.0).cos());
         assert!(
             matches!(of(0.9, slow), Err(NotDefined::Unknown(..) | NotDefined::NotSteady(_))),
@@ -245,7 +239,8 @@ mod tests {
                 of(0.9, |time| saturating(0.0, 40.0)(time) + noise[time as usize]).is_ok()
             })
             .count();
-        assert!(defined > 180, "{defined} of 200");
+        // Chance alone is taken for a drift in one run of twenty, and for a way back in some.
+        assert!(defined > 160, "{defined} of 200");
     }
 
     #[test]
