@@ -408,8 +408,8 @@ mod tests {
 
     #[test]
     fn a_series_with_gaps_reaches_its_end_over_the_time_in_which_it_has_a_value() {
-        // As above, 0 for 4 s and 8 from then on, but with 10 s without a value from the 21st sample on: 20 windows of 3 s until then and 30 s and
-        // 19 s after, since the pieces beside a gap have no mean. By hand: of 69 s, windows of 1.15 s; the fifth, from 4.6 s on, is the first of 8.
+        // As above, 0 until 4 s and 8 from 5 s on, but with ten samples without a value; the pieces beside them have no mean either. So there are 69 s
+        // and windows of 1.15 s. By hand, the fifth has (0.4 · 4 + 0.75 · 8)/1.15 = 6.6, and the sixth is the first of 8.
         let values: Vec<f64> = (0..80)
             .map(|at| match at {
                 0..4 => 0.0,
@@ -418,7 +418,7 @@ mod tests {
             })
             .collect();
         let found = of_pool(Question::Reaches(0.9), &values, 80.0).unwrap();
-        assert!((found - 4.5 * 69.0 / 60.0).abs() < 1e-9, "{found}");
+        assert!((found - 5.5 * 69.0 / 60.0).abs() < 1e-9, "{found}");
         assert_eq!(of_pool(Question::Reaches(0.9), &[f64::NAN; 80], 80.0), Err(NoAnswer::NoNumber));
     }
 
