@@ -637,7 +637,7 @@ def _report(one: ResponseEffects) -> dict[str, Any]:
         report |= dict.fromkeys(REPORTED) | {"runs": 0, "missing": 0}
         return report | {"error_from": "", "equations": [], "terms": [], "cautions": []}
     terms = table[table["factors"].notna() | (table["term"] == "replicate")]
-    centre = terms[terms["factors"] == ()]
+    centre = terms[terms["term"] == "centre points"]
     missed, has_parts = misfit(fit), fit.scatter[0].freedom > 0
     judged = lenth(terms.loc[[bool(term) for term in terms["factors"]], "effect"].dropna().abs().to_numpy(), fit.confidence)
     report |= {"model": fit.model, "model_reason": fit.reason, **{key: _or_none(value) for key, value in one.summary.items()}}

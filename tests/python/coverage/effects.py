@@ -43,7 +43,7 @@ def study_of(factors: list[Factor], runs: pandas.DataFrame, design: str = "full-
     """A study of a response y, of runs with the columns of the factors, y and, if it has sets of seeds, replicate."""
     count = len(runs)
     own = {"point": range(1, count + 1), "replicate": 1, "order": range(1, count + 1), "same_as": range(1, count + 1), "state": "finished"}
-    runs = pandas.DataFrame({**own, **runs}, index=pandas.RangeIndex(1, count + 1, name="run"))
+    runs = pandas.DataFrame({**own, **{name: list(runs[name]) for name in runs}}, index=pandas.RangeIndex(1, count + 1, name="run"))
     response = Response("y", "1", "y", transform, -math.inf, math.inf, {})
     return Study("t", design, factors, [response], runs, pandas.DataFrame(), pandas.DataFrame(), xarray.Dataset(), {}, None, Path())
 
