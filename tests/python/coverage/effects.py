@@ -118,7 +118,8 @@ def of_runs(path: Path, count: int) -> pandas.DataFrame:
     random = np.random.default_rng(1)
     for response in study.responses:
         whole = fitted(study, response, "interactions")
-        wanted = {whole.label(term): 2.0 * whole.coefficients[columns.start] for term, columns in zip(whole.terms, whole.columns[2:], strict=True)}
+        places = [columns.start for columns in whole.columns[2:]]
+        wanted = {whole.label(term): 2.0 * whole.coefficients[at] for term, at in zip(whole.terms, places, strict=True)}
         for seeds in SEEDS:
             subsets = list(itertools.combinations(range(1, study.seeds + 1), 2))
             if seeds > 2 or len(subsets) > count:
