@@ -16,13 +16,13 @@ from scipy import stats
 HERE = Path(__file__).parent
 sys.path.insert(0, str(HERE / "coverage"))
 
-from effects import cube, number, simulated, study_of, word  # noqa: E402
-from plateau.errors import InputError, PlateauWarning  # noqa: E402
-from plateau.study.analysis import effects  # noqa: E402
-from plateau.study.level_differences import levels  # noqa: E402
-from plateau.study.model import fitted  # noqa: E402
-from plateau.study.results import Factor, Response, Study  # noqa: E402
-from plateau.study.seed_counts import seeds_needed, sets_for  # noqa: E402
+from effects import cube, number, simulated, study_of, word
+from plateau.errors import InputError, PlateauWarning
+from plateau.study.analysis import effects
+from plateau.study.level_differences import levels
+from plateau.study.model import fitted
+from plateau.study.results import Factor, Response, Study
+from plateau.study.seed_counts import seeds_needed, sets_for
 
 
 def recorded(said: dict) -> Study:
@@ -131,7 +131,7 @@ class Seeds(unittest.TestCase):
             self.assertAlmostEqual(row["p"], stats.ttest_1samp(each, 0.0).pvalue, places=12)
 
     def test_three_levels_are_tested_as_repeated_measures(self) -> None:
-        import statsmodels.stats.anova as anova
+        from statsmodels.stats import anova
 
         random = np.random.default_rng(2)
         runs = pandas.DataFrame([(level, seed) for level in ("a", "b", "c") for seed in range(1, 6)], columns=["pad", "replicate"])

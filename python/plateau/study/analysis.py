@@ -477,15 +477,7 @@ def effects(study: Study | str | os.PathLike[str], model: str | None = None, ter
 
 
 def usable(study: Study) -> Study:
-    """The study, if it has results; runs without are said.
-
-    Raises
-    ------
-    InputError
-        If it asks for no response.
-    RunFailed
-        If no run has a value yet.
-    """
+    """The study, if it has results; runs without are said."""
     path = study.path or study.directory
     if not study.responses:
         advice = 'name one, such as dataset = "/series/contact_area_mean", at = "end"'

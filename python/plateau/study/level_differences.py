@@ -87,20 +87,20 @@ def levels(
             continue
         for at in range(len(fit.codings)):
             if fit.codings[at].classes is not None and len(fit.codings[at].classes or ()) > 2:
-                rows += _of_factor(fit, at, control)
-    if not rows:
+                rows.append(_of_factor(fit, at, control))
+    if not any(len(part) for part in rows):
         named = f" has a level {control!r} and" if control is not None else ""
         raise InputError(f"no factor{named} has three levels or more in the model: effects says the difference between two")
-    return LevelDifferences(opened, pandas.DataFrame(rows), "Tukey" if control is None else "Dunnett", confidence)
+    return LevelDifferences(opened, pandas.concat(rows, ignore_index=True), "Tukey" if control is None else "Dunnett", confidence)
 
 
-def _of_factor(fit: Fitted, at: int, control: str | None) -> list[dict[str, Any]]:
+def _of_factor(fit: Fitted, at: int, control: str | None) -> pandas.DataFrame:
     """Differences of one factor."""
     coding = fit.codings[at]
     classes = list(coding.classes or ())
     names = [coding.factor.text(level) for level in classes]
     if control is not None and control not in names:
-        return []
+        return pandas.DataFrame()
     # The others are averaged: their contrasts are 0.
     zeros = [np.zeros((len(classes), other.width)) for other in fit.codings]
     means = fit.products([*zeros[:at], coding.numbers(pandas.Series(classes)), *zeros[at + 1 :]])
@@ -116,7 +116,7 @@ def _of_factor(fit: Fitted, at: int, control: str | None) -> list[dict[str, Any]
     differences = rows @ fit.coefficients
     differences[~(fit.fit.tells(means)[pairs].all(axis=1)) | np.isnan(errors)] = np.nan
     if np.isnan(freedom):
-        return []
+        return pandas.DataFrame()
     if control is None:
         reach = float(stats.studentized_range.ppf(fit.confidence, len(classes), freedom)) / np.sqrt(2.0)
         chances = stats.studentized_range.sf(np.sqrt(2.0) * np.abs(differences) / errors, len(classes), freedom)
@@ -147,4 +147,4 @@ def _of_factor(fit: Fitted, at: int, control: str | None) -> list[dict[str, Any]
             "unit": fit.response.unit if fit.response.transform == "none" else "1",
         }
     )
-    return table[table["difference"].notna()].to_dict("records")
+    return table[table["difference"].notna()]

@@ -339,17 +339,7 @@ class Fitted:
         return float(np.sqrt(np.square(self.response.back(mean) - self.response.back(mean - self.loo[known])).mean()))
 
     def combined(self, rows: Numbers) -> pandas.DataFrame:
-        """Linear combinations of the coefficients: ``value``, ``standard_error`` and ``freedom``, with errors as in `errors`.
-
-        Parameters
-        ----------
-        rows : numpy.ndarray
-            A row for each combination, as those of `matrix`.
-
-        Returns
-        -------
-        pandas.DataFrame
-        """
+        """``value``, ``standard_error`` and ``freedom`` of linear combinations of the coefficients, with rows as those of `matrix`."""
         variances, freedoms = self.errors(rows[:, self.fit.kept] @ self.fit.root @ self.fit.basis.T)
         return pandas.DataFrame({"value": rows @ self.coefficients, "standard_error": np.sqrt(variances), "freedom": freedoms})
 
@@ -359,16 +349,8 @@ class Fitted:
         With several sets of seeds it is what the sum differs by between them. If all sets have the same points, this is the variance
         of the mean of one estimate for each set, with a degree of freedom less than there are sets. Else the part of each set is scaled so
         that it has the right mean if runs scatter alike, and degrees of freedom are those of the same case, after R. M. Bell and D. F.
-        McCaffrey, Survey Methodology 28, 169-181 (2002). With one set of seeds the error is the residual.
-
-        Parameters
-        ----------
-        weights : numpy.ndarray
-            A row for each sum, a column for each run.
-
-        Returns
-        -------
-        tuple of numpy.ndarray
+        McCaffrey, Survey Methodology 28, 169-181 (2002). With one set of seeds the error is the residual. ``weights`` have a row for each
+        sum and a column for each run.
         """
         if self.seeds < 2 or np.isnan(self.error):
             variances = self.error * np.square(weights).sum(axis=1)
@@ -433,18 +415,10 @@ class Fitted:
         return float(self.leverage(self.runs).max())
 
     def variances(self, points: pandas.DataFrame) -> pandas.DataFrame:
-        """Means of the model at points and their variances, on the scale of the fit.
+        """Means of the model at points (a column for each factor, SI units or words) and their variances, on the scale of the fit.
 
-        Parameters
-        ----------
-        points : pandas.DataFrame
-            A column for each factor, SI units or words.
-
-        Returns
-        -------
-        pandas.DataFrame
-            ``value``; ``mean`` and ``mean_freedom``, variance of the mean over all seeds and its degrees of freedom; ``run`` and
-            ``run_freedom``, those of one more run; ``leverage``. NaN where the runs do not tell the response.
+        ``value``; ``mean`` and ``mean_freedom``, variance of the mean over all seeds and its degrees of freedom; ``run`` and ``run_freedom``,
+        those of one more run; ``leverage``. NaN where the runs do not tell the response.
         """
         rows, leverage, pure = self.matrix(points), self.leverage(points), self.scatter[0]
         if self.seeds > 1:
@@ -670,8 +644,7 @@ def _selected(whole: Fitted) -> Fitted:
 
 
 def misfit(fit: Fitted) -> dict[str, object] | None:
-    """Finds what a model misses, if that is significant at the confidence level: ``f``, ``p``, ``by_replicates``, ``model_to_try``,
-    ``r_squared`` of that.
+    """Finds what a model misses, if that is significant at the confidence level, and the model to try, with its share.
 
     Replicates tell it, or a model that has all terms of this one and more: with several such models the level is divided by their
     number, after Bonferroni.
