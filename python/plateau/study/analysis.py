@@ -168,7 +168,10 @@ def error_from(fit: Fitted) -> str:
     if np.isnan(fit.error):
         return "none: the model reproduces all responses"
     if fit.seeds > 1:
-        return f"what each effect differs by between {fit.seeds} sets of seeds"
+        cells = fit.runs.groupby(["point", "replicate"]).size()
+        is_complete = len(cells) == fit.seeds * fit.point_count and cells.nunique() == 1
+        how = "" if is_complete else ", not all at the same points: degrees of freedom after Bell and McCaffrey"
+        return f"what each effect differs by between {fit.seeds} sets of seeds{how}"
     left_out = {"main": "interactions", "interactions": "interactions of third and higher order"}
     said = left_out.get(fit.model if fit.left_out is None and not any(fit.is_curved) else "", "what the model leaves out")
     if not fit.scatter[0].freedom:

@@ -3,6 +3,7 @@
 import itertools
 import os
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -94,6 +95,12 @@ def levels(
     return LevelDifferences(opened, pandas.concat(rows, ignore_index=True), "Tukey" if control is None else "Dunnett", confidence)
 
 
+@lru_cache
+def _tukey(confidence: float, levels: int, freedom: float) -> float:
+    """How many standard errors the intervals of all differences reach; a sum over two variables, the same for many responses."""
+    return float(stats.studentized_range.ppf(confidence, levels, freedom) / np.sqrt(2.0))
+
+
 def _of_factor(fit: Fitted, at: int, control: str | None) -> pandas.DataFrame:
     """Differences of one factor."""
     coding = fit.codings[at]
@@ -118,7 +125,7 @@ def _of_factor(fit: Fitted, at: int, control: str | None) -> pandas.DataFrame:
     if np.isnan(freedom):
         return pandas.DataFrame()
     if control is None:
-        reach = float(stats.studentized_range.ppf(fit.confidence, len(classes), freedom)) / np.sqrt(2.0)
+        reach = _tukey(fit.confidence, len(classes), round(freedom, 6))
         chances = stats.studentized_range.sf(np.sqrt(2.0) * np.abs(differences) / errors, len(classes), freedom)
     else:
         lengths = np.linalg.norm(weights, axis=1)
