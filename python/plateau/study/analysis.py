@@ -11,7 +11,7 @@ import numpy as np
 import pandas
 from scipy import optimize, stats
 
-from plateau.errors import InputError, PlateauWarning, RunFailed
+from plateau.errors import InputError, PlateauWarning, RunFailed, UnknownNameError
 from plateau.study.model import (
     MODELS,
     ROUNDING,
@@ -403,7 +403,10 @@ class Effects:
     confidence: float
 
     def __getitem__(self, name: str) -> ResponseEffects:
-        return next(response for response in self.responses if response.response.name == name)
+        names = [one.response.name for one in self.responses]
+        if name not in names:
+            raise UnknownNameError(f"{name!r}: no response of {self.study.title!r}; there are {', '.join(names)}")
+        return self.responses[names.index(name)]
 
     @property
     def table(self) -> pandas.DataFrame:
