@@ -225,9 +225,10 @@ def _table(fit: Fitted) -> pandas.DataFrame:
             # The error over all seeds is what the term differs by between them, not what the model leaves.
             variances, freedoms = fit.errors(directions)
             error, freedom = float(variances.mean()), float(freedoms.sum())
-            rest = Squares(round(fit.residual_freedom - freedom), max(fit.residual.sum - error * freedom, 0.0))
-            ratio, _ = f_test(Squares(1, error), rest)
-            row |= {"seed_ratio": ratio, "seed_p": float(stats.f.sf(ratio, freedom, rest.freedom))}
+            if error > 0:
+                rest = Squares(round(fit.residual_freedom - freedom), max(fit.residual.sum - error * freedom, 0.0))
+                ratio, _ = f_test(Squares(1, error), rest)
+                row |= {"seed_ratio": ratio, "seed_p": float(stats.f.sf(ratio, freedom, rest.freedom))}
         if is_told and error > 0:
             f = own.mean / error
             row |= {"error_freedom": freedom, "f": f, "p": float(stats.f.sf(f, own.freedom, freedom))}
