@@ -360,7 +360,8 @@ def _factor(values: xarray.DataArray) -> Factor:
     if is_range:
         levels: tuple[Any, ...] = ends
     elif not is_number:
-        levels = tuple(labels or found)
+        # Words of a table in the order in which they appear.
+        levels = tuple(labels or dict.fromkeys(values.values.tolist()))
     else:
         levels = ends if "low" in said else tuple(found)
         if len(levels) == 2 and len(found) > 2 or not labels and len(found) > 2 or len(levels) > MOST_LEVELS:
