@@ -1,0 +1,203 @@
+"""Gaussian process: a smooth response of noisy runs, with lengths and noise that are not taken for certain.
+
+A constant plus a process with the product of Matérn's correlations (ν = 5/2) along the axes. Constant and variance are integrated out
+exactly (prior 1/σ²), lengths and noise by weighted draws, half of them about the likeliest places and half from what is known beforehand
+(M. S. Handcock, M. L. Stein, Technometrics 35, 403-410 (1993), doi:10.1080/00401706.1993.10485354). Points that are missed when they
+are left out (O. Dubrule, Math. Geol. 15, 687-699 (1983), doi:10.1007/BF01033232) by more than is expected widen all intervals.
+"""
+
+import numpy as np
+import numpy.typing as npt
+from scipy import optimize, special, stats
+
+Numbers = npt.NDArray[np.float64]
+
+# Logarithms of lengths (a range is 2 long) and of the noise of a run over the variance: median and deviation of what is known
+# beforehand, and ends; the least noise keeps the equations solvable.
+LENGTH, NOISE = np.log([2.0, np.e, 0.05, 40.0]), np.log([1e-3, np.exp(3.0), 1e-8, 1e2])
+# Points that lengths and noise are found from at most, and sets of these that are kept.
+MOST, KEPT = 300, 48
+
+
+class Equations:
+    """Equations of kriging, solved for many sets (rows) of logarithms of lengths and noise at once."""
+
+    def __init__(self, x: Numbers, y: Numbers, share: Numbers, replicates: tuple[float, int], logs: Numbers, axes: Numbers) -> None:
+        self.x, self.share, self.axes, self.replicates = x, share, axes, replicates
+        self.lengths, self.noise = np.exp(logs[:, axes]), np.exp(logs[:, -1])
+        self.known = self.correlation(x)
+        root = np.linalg.inv(np.linalg.cholesky(self.known + self.noise[:, None, None] * np.diag(share)))
+        ones, values = root.sum(-1), root @ y
+        self.information = (ones**2).sum(-1)
+        left = values - ones * ((ones * values).sum(-1) / self.information)[:, None]
+        # Weights of the residuals, of the constant, and the inverse without what the constant takes.
+        self.weights, of_one = ((root.transpose(0, 2, 1) @ each[..., None])[..., 0] for each in (left, ones))
+        self.of_constant = of_one / self.information[:, None]
+        self.inverse = root.transpose(0, 2, 1) @ root - of_one[:, :, None] * self.of_constant[:, None]
+        self.square, self.freedom = (left**2).sum(-1) + replicates[0] / self.noise, len(y) - 1 + replicates[1]
+        self.log_determinant = replicates[1] * np.log(self.noise) - 2.0 * np.log(np.diagonal(root, axis1=1, axis2=2)).sum(-1)
+        self.log_density = -0.5 * (self.freedom * np.log(self.square) + self.log_determinant + np.log(self.information))
+
+    def apart(self, x: Numbers) -> list[Numbers]:
+        """Distances of places and points over the lengths, times √5, by axis."""
+        return [np.abs(x[:, at, None] - self.x[:, at]) * (5.0**0.5 / self.lengths[:, at, None, None]) for at in range(x.shape[1])]
+
+    def correlation(self, x: Numbers) -> Numbers:
+        """Correlations of the process at places with those at the points (set, place, point)."""
+        apart = self.apart(x)
+        return np.asarray(np.prod([1.0 + a + a * a / 3.0 for a in apart], axis=0) * np.exp(-np.sum(apart, axis=0)))
+
+    def gradient(self) -> Numbers:
+        """Derivatives of `log_density` by the logarithms."""
+        result, (within, freedom) = np.zeros((len(self.noise), self.axes.max() + 2)), self.replicates
+        pull = self.freedom / self.square[:, None, None] * self.weights[:, :, None] * self.weights[:, None] - self.inverse
+        for at, a in zip(self.axes, self.apart(self.x), strict=True):
+            result[:, at] += 0.5 * (pull * self.known * (a * a * (1.0 + a) / (3.0 + 3.0 * a + a * a))).sum((1, 2))
+        of_means = self.noise * (np.diagonal(pull, axis1=1, axis2=2) @ self.share)
+        result[:, -1] = 0.5 * (of_means - freedom + self.freedom * within / (self.noise * self.square))
+        return result
+
+    def forecast(self, x: Numbers) -> tuple[Numbers, Numbers]:
+        """Weights of the points' values in means at places (set, place, point), and variances over σ² (set, place)."""
+        known = self.correlation(x)
+        weights, of_constant = known @ self.inverse + self.of_constant[:, None], (known @ self.of_constant[..., None])[..., 0]
+        return weights, np.maximum(1.0 - (known * weights).sum(-1) - of_constant + 1.0 / self.information[:, None], 0.0)
+
+    def left_out(self) -> tuple[Numbers, Numbers, Numbers]:
+        """Errors of points that are left out, their squared scale, and log density (Student's t): arrays of set and point."""
+        diagonal, freedom = np.diagonal(self.inverse, axis1=1, axis2=2), max(self.freedom - 1, 1)
+        square = np.maximum(self.square[:, None] - self.weights**2 / diagonal, 1e-12 * self.square[:, None]) / freedom / diagonal
+        error = self.weights / diagonal
+        return error, square, stats.t.logpdf(error / np.sqrt(square), freedom) - 0.5 * np.log(square)
+
+
+class Process:
+    """Gaussian process of a response; it raises ValueError where points are too few or responses all the same.
+
+    Parameters
+    ----------
+    x : array_like, shape (runs, columns)
+        Coded numbers (-1 to 1), and words as indicators (0 or 1). Equal rows are replicates, whose scatter tells the noise.
+    y : array_like, shape (runs,)
+        Responses; runs with NaN are left out.
+    noise_groups : array_like, optional
+        The set of seeds of each run: what a set adds to its runs is part of the errors.
+    axes : array_like of int, optional
+        Number of the length of each column: one of its own each, unless given. Indicators of one factor share one.
+    """
+
+    def __init__(
+        self, x: npt.ArrayLike, y: npt.ArrayLike, noise_groups: npt.ArrayLike | None = None, axes: npt.ArrayLike | None = None
+    ) -> None:
+        told = np.isfinite(np.asarray(y, float))
+        places, values = np.asarray(x, float)[told], np.asarray(y, float)[told]
+        _, first, inverse = np.unique(np.round(places, 9), axis=0, return_index=True, return_inverse=True)
+        order = np.argsort(first)
+        point, self.points, runs = np.argsort(order)[inverse.ravel()], places[first[order]], np.bincount(inverse.ravel())[order]
+        if len(runs) < 3 or np.ptp(values) <= 16.0 * np.finfo(float).eps * np.abs(values).max():
+            raise ValueError(f"{len(runs)} points have a response: a Gaussian process needs 3 of which not all are equal")
+        # A run is the mean of its point, what its seeds add everywhere, and noise.
+        groups = np.zeros(len(values)) if noise_groups is None else np.asarray(noise_groups)[told]
+        seeds, of_point = np.equal.outer(groups, np.unique(groups)) * 1.0, np.equal.outer(np.arange(len(runs)), point) / runs[:, None]
+        self.offset, self.seeds = values.mean(), seeds.shape[1]
+        added = np.linalg.lstsq(seeds - (of_point @ seeds)[point], values - (of_point @ values)[point], rcond=None)[0]
+        added -= added.mean()
+        means = of_point @ (values - seeds @ added) - self.offset
+        rest, freedom = values - self.offset - means[point] - seeds @ added, max(len(values) + 1 - len(runs) - self.seeds, 0)
+        # What each set of seeds adds at each point; where it has no run, what it adds everywhere.
+        self._added = added + of_point @ (seeds * rest[:, None]) / np.maximum(of_point @ seeds, 1e-300)
+        self.means, self._axes = means + self.offset, np.asarray(range(places.shape[1]) if axes is None else axes, int)
+        self._given = self.points, means, 1.0 / runs, (float(rest @ rest) if freedom else 0.0, freedom)
+        self._draw()
+
+    def solved(self, logs: Numbers, some: slice | npt.NDArray[np.int64] = slice(None)) -> Equations:
+        """The equations with such logarithms, of all points or some."""
+        x, y, share, replicates = self._given
+        return Equations(x[some], y[some], share[some], replicates, np.atleast_2d(logs), self._axes)
+
+    def _draw(self) -> None:
+        """Draws sets of lengths and noise, and weighs them."""
+        size, some = int(self._axes.max()) + 2, np.sort(np.random.default_rng(0).permutation(len(self.points))[:MOST])
+        middle, spread, low, high = np.array([LENGTH] * (size - 1) + [NOISE]).T
+
+        def density(logs: Numbers) -> tuple[Numbers, Numbers]:
+            solved, away = self.solved(logs, some), (logs - middle) / spread
+            return 0.5 * (away**2).sum(-1) - solved.log_density, away / spread - solved.gradient()
+
+        def one(logs: Numbers) -> tuple[float, Numbers]:
+            value, slope = density(logs)
+            return value[0], slope[0]
+
+        def evenly(count: int) -> Numbers:
+            return np.asarray(special.ndtri(stats.qmc.Sobol(size, scramble=False).random(count) + 0.5 / count))
+
+        # A smooth response with noise and a rough one without may both be likely.
+        begin = np.clip(middle + 1.2 * spread * evenly(64), low, high)
+        begin, box = begin[np.argsort(density(begin)[0])], list(zip(low, high, strict=True))
+        is_noisy, step = begin[:, -1] > np.log(1e-2), 1e-3 * np.eye(size)
+        tops = [optimize.minimize(one, start, jac=True, bounds=box) for start in [*begin[is_noisy][:2], *begin[~is_noisy][:2]]]
+        sources = [(middle, np.diag(spread), 4)]
+        for top in [top.x for top in tops if top.fun < min(other.fun for other in tops) + 5.0]:
+            curved = spread[:, None] * (density(top + step)[1] - density(top - step)[1]) * spread / 2e-3
+            value, vector = np.linalg.eigh((curved + curved.T) / 2.0)
+            # Nothing is known less well than beforehand; draws are 1.25 times as wide as the curvature says.
+            sources.append((top, 1.25 * spread[:, None] * vector / np.sqrt(np.maximum(value, 1.25**2)), 1))
+        eighth = 1 << int(np.clip(np.log2(2e8 / len(some) ** 3), 6, 9) - 3)
+        drawn = np.vstack([at + evenly(part * eighth) @ root.T for at, root, part in sources])
+        drawn = drawn[((drawn >= low) & (drawn <= high)).all(-1)]
+        by = [np.log(part) + stats.multivariate_normal(at, root @ root.T).logpdf(drawn) for at, root, part in sources]
+        solved = self.solved(drawn, some)
+        log = solved.log_density - 0.5 * (((drawn - middle) / spread) ** 2).sum(-1) - special.logsumexp(by, axis=0)
+        if len(self.points) > MOST:
+            drawn, log = drawn[np.argsort(-log)[:8]], np.sort(log)[::-1][:8]
+            solved = self.solved(drawn)
+        weights, (error, square, density_left_out) = special.softmax(log), solved.left_out()
+        # Weights that know nothing of the point that is left out.
+        without = special.softmax(log[:, None] - density_left_out, axis=0)
+        missed = (without * error).sum(0)
+        self._left_out = missed, np.sqrt((without * (square + (error - missed) ** 2)).sum(0))
+        # The mean square of Student's t is more than 1 by its degrees of freedom.
+        too_much = ((missed / self._left_out[1]) ** 2).mean() * (1.0 - 2.0 / max(solved.freedom - 1, 3))
+        chosen = np.searchsorted(np.cumsum(weights), (np.arange(KEPT) + 0.5) / KEPT).clip(max=len(weights) - 1)
+        chosen, times = np.unique(chosen, return_counts=True)
+        self.logs, self.probabilities, self.sets = drawn[chosen], times / KEPT, self.solved(drawn[chosen])
+        self.calibration, self.freedom, self.variances = max(1.0, float(too_much)), solved.freedom, self.sets.square / solved.freedom
+        self.run_variance = float(self.probabilities @ (self.sets.noise * self.variances))
+
+    def moments(self, x: npt.ArrayLike) -> Numbers:
+        """Means, variances of their own, and of what another set of seeds adds, at places: three rows."""
+        places, found = np.atleast_2d(np.asarray(x, float)), []
+        for part in np.array_split(places, 1 + len(places) * len(self.points) * len(self.logs) // 10**6):
+            each, shares = self.sets.forecast(part)
+            means, weights = each @ self._given[1], np.tensordot(self.probabilities, each, 1)
+            own = self.probabilities @ (self.variances[:, None] * shares + (means - self.probabilities @ means) ** 2)
+            seeds = ((weights @ self._added) ** 2).sum(-1) / max(self.seeds - 1, 1) - self.run_variance * (weights**2).sum(-1)
+            found.append([self.offset + self.probabilities @ means, self.calibration * own, np.maximum(seeds, 0.0)])
+        return np.concatenate(found, axis=1)
+
+    def mean(self, x: npt.ArrayLike) -> Numbers:
+        """Expected responses at places, each a row of coded numbers."""
+        return np.asarray(self.moments(x)[0])
+
+    def deviation(self, x: npt.ArrayLike) -> Numbers:
+        """Standard deviations of the mean of many runs, with what few sets of seeds leave open."""
+        return np.asarray(np.sqrt(self.moments(x)[1] + self.moments(x)[2] / self.seeds))
+
+    def run_deviation(self, x: npt.ArrayLike) -> Numbers:
+        """Standard deviations of the response of one more run."""
+        _, own, seeds = self.moments(x)
+        return np.asarray(np.sqrt(own + self.run_variance + seeds * (1.0 + 1.0 / self.seeds)))
+
+    def intervals(self, x: npt.ArrayLike, confidence: float) -> Numbers:
+        """Means, ends of their intervals, and ends of those of runs: five columns."""
+        columns, (mean, own, seeds) = [], self.moments(x)
+        for one, other in ((own, seeds / self.seeds), (own + self.run_variance, seeds * (1.0 + 1.0 / self.seeds))):
+            # Sets of seeds are few: the degrees of freedom of the sum are Satterthwaite's.
+            freedom = (one + other) ** 2 / (one**2 / self.freedom + other**2 / max(self.seeds - 1, 1))
+            reach = stats.t.ppf(0.5 + confidence / 2.0, freedom) * np.sqrt(one + other)
+            columns += [mean - reach, mean + reach]
+        return np.column_stack([mean, *columns])
+
+    def loo(self) -> tuple[Numbers, Numbers]:
+        """Errors of `means` at `points` (observed less expected of the others), and their expected standard deviations."""
+        return self._left_out
