@@ -12,14 +12,16 @@ import pandas
 from scipy import optimize as search
 from scipy import stats
 
-from plateau.errors import InputError, PlateauWarning
-from plateau.study.process import Process
-from plateau.study.results import Factor, Numbers, Response, Study, analysed
+from plateau.errors import InputError
+from plateau.study.results import Numbers, Response, Study, analysed
 from plateau.study.runs import make_runs
+from plateau.study.surrogate import Surrogate, surrogates
 from plateau.study.units import Unit, parsed, unit_for
 
+# Typed more strictly than it can be called.
+minimize: Any = search.minimize
 # Points looked at in all and at least at each combination of levels, combinations at most, and points from which the search goes on.
-POINTS, LEAST_POINTS, MOST_COMBINATIONS, STARTS = 4096, 16, 100_000, 8
+POINTS, LEAST_POINTS, MOST_COMBINATIONS, STARTS = 4096, 16, 100_000, 4
 # Parts of the difference that counts: on a limit, kept but for rounding; parts of a range: at its end.
 ON_LIMIT, ROUNDING, AT_END = 2e-3, 1e-9, 1e-3
 # Draws of responses for the expected improvement, and the improvement, as part of the way to the goal, that is worth no run.
@@ -39,7 +41,9 @@ class Goal:
         """The part of the way from worth nothing to worth everything, beyond 0 and 1, too."""
         low, best = self.values[:2]
         up = (np.asarray(response, float) - low) / (best - low)
-        return np.asarray(up if len(self.values) == 2 else np.minimum(up, (self.values[2] - np.asarray(response)) / (self.values[2] - best)))
+        return np.asarray(
+            up if len(self.values) == 2 else np.minimum(up, (self.values[2] - np.asarray(response)) / (self.values[2] - best))
+        )
 
     def desirability(self, response: Any) -> Numbers:
         """Desirability, 0 to 1 (G. Derringer and R. Suich, Journal of Quality Technology 12, 214-219 (1980)); 0 of NaN."""
@@ -75,7 +79,7 @@ class Problem:
     """What is searched for, and where: ``axes`` has the levels of each factor; None if it may be anywhere in its range."""
 
     study: Study
-    surrogates: dict[str, Any]
+    surrogates: dict[str, Surrogate]
     goals: list[Goal]
     limits: list[Limit]
     axes: list[list[Any] | None]
@@ -85,7 +89,7 @@ class Problem:
         """Points of the factors at levels, and at coded places of the others."""
         columns, place = {}, iter(coded.T)
         for factor, axis, level in zip(self.study.factors, self.axes, levels, strict=True):
-            columns[factor.name] = np.clip(factor.value(next(place)), *factor.ends) if axis is None else [level] * len(coded)
+            columns[factor.name] = factor.value(next(place)) if axis is None else [level] * len(coded)
         return pandas.DataFrame(columns)
 
     def forecasts(self, points: pandas.DataFrame, *, with_intervals: bool = False) -> dict[str, pandas.DataFrame]:
@@ -135,34 +139,32 @@ class Problem:
         return self.points(best[1], best[2][None])
 
     def _climbed(self, start: tuple[float, tuple[Any, ...], Numbers]) -> tuple[float, tuple[Any, ...], Numbers]:
-        """Goes on from a start: simplices while that helps, then along the limits."""
+        """Goes on from a start: along slopes and limits, and by simplices where these have corners."""
         merit, levels, place = start
-        bounds = [(-1.0, 1.0)] * len(place)
+        bounds, step = [(-1.0, 1.0)] * len(place), 1e-5 * np.eye(len(place))
 
         def fall(x: Numbers) -> float:
-            return -float(self.merit(self.points(levels, np.clip(x, -1.0, 1.0)[None]))[0])
+            return -float(self.merit(self.points(levels, x[None]))[0])
 
-        for _ in range(4):
-            options = {"xatol": 1e-9, "fatol": 1e-12, "maxfev": 300 * len(place)}
-            found = search.minimize(fall, place, method="Nelder-Mead", bounds=bounds, options=options)
-            gained, merit, place = -found.fun - merit, max(merit, -found.fun), found.x if -found.fun >= merit else place
-            if gained <= 1e-9:
-                break
-        if merit > -1.0:
+        def smooth(places: Numbers) -> Numbers:
+            found = self.forecasts(self.points(levels, places))
+            logs = sum(goal.importance * np.log(np.maximum(goal.way(found[goal.response]["value"]), 1e-9)) for goal in self.goals)
+            return np.column_stack([-logs, *(limit.margin(found[limit.response]) for limit in self.limits)])
 
-            def forecasts(x: Numbers) -> dict[str, pandas.DataFrame]:
-                return self.forecasts(self.points(levels, np.clip(x, -1.0, 1.0)[None]))
+        def slopes(x: Numbers) -> Numbers:
+            both = smooth(np.vstack([x + step, x - step]))
+            return np.asarray((both[: len(x)] - both[len(x) :]) / 2e-5)
 
-            def log_merit(x: Numbers) -> float:
-                found = forecasts(x)
-                ways = [goal.importance * np.log(max(float(goal.way(found[goal.response]["value"])[0]), 1e-9)) for goal in self.goals]
-                return -float(sum(ways))
-
-            kept = [{"type": "ineq", "fun": lambda x, limit=limit: limit.margin(forecasts(x)[limit.response])[0]} for limit in self.limits]
+        kept = [
+            {"type": "ineq", "fun": lambda x, at=at: smooth(x[None])[0, at], "jac": lambda x, at=at: slopes(x)[:, at]}
+            for at in range(1, 1 + len(self.limits))
+        ]
+        of_slopes = {"fun": lambda x: smooth(x[None])[0, 0], "jac": lambda x: slopes(x)[:, 0], "constraints": kept, "options": {"ftol": 1e-14}}
+        coarse = {"fun": fall, "options": {"xatol": 1e-5, "fatol": 1e-9, "maxfev": 60 * len(place)}}
+        for method, options in [("SLSQP", of_slopes), ("Nelder-Mead", coarse), ("SLSQP", of_slopes)]:
             with warnings.catch_warnings():
                 warnings.simplefilter("ignore", RuntimeWarning)
-                found = search.minimize(log_merit, place, method="SLSQP", bounds=bounds, constraints=kept, options={"ftol": 1e-13})
-            x = np.clip(found.x, -1.0, 1.0)
+                x = np.clip(minimize(x0=place, method=method, bounds=bounds, **options).x, -1.0, 1.0)
             if np.isfinite(x).all() and -fall(x) > merit:
                 merit, place = -fall(x), x
         return merit, levels, place
@@ -299,7 +301,9 @@ class Optimum:
         level, cells, confirmed = f"{100 * self.confidence:g} %", [], []
         for row in self.table.to_dict("records"):
             unit = _unit(self.study, responses[row["response"]])
-            goals = [f"{_aim(goal)}, {' … '.join(f'{unit.value(value):.4g}' for value in goal.values)}" for goal in self._of(row, self.goals)]
+            goals = [
+                f"{AIMS[goal.aim]} {' … '.join(f'{unit.value(value):.4g}' for value in goal.values)}" for goal in self._of(row, self.goals)
+            ]
             wanted = "; ".join([*goals, *(_limit_words(limit, unit) for limit in self._of(row, self.limits))])
             cell = {"response": ", ".join(filter(None, [row["response"], unit.symbol])), "predicted": f"{unit.value(row['value']):.4g}"}
             for name, of in (("mean", "means"), ("run", "runs")):
@@ -328,7 +332,9 @@ class Optimum:
         if confirmed:
             lines += ["Confirmed by runs at this place, mean ± standard error", *confirmed]
         if len(self.rounds):
-            lines.append(f"{len(self.rounds)} points were run on the way, the last one expected to gain {self.rounds['expected_improvement'].iloc[-1]:.2g}")
+            lines.append(
+                f"{len(self.rounds)} points were run on the way, the last one expected to gain {self.rounds['expected_improvement'].iloc[-1]:.2g}"
+            )
         return "\n".join([*lines, *(f"  caution: {caution}" for caution in self.cautions), ""])
 
     @staticmethod
@@ -432,17 +438,27 @@ def optimize(
     def made(points: pandas.DataFrame) -> pandas.DataFrame:
         return make_runs(study, points, jobs=jobs, workers=workers, retry=confirm, progress=progress)
 
-    found = {surrogate.response.name: surrogate for surrogate in _surrogates(study, model, terms)}
-    for name in [*(goal.response for goal in goals), *(each.response for each in limits)]:
-        if name not in found:
-            raise InputError(f'{study.path or study.title}: response "{name}" has no model; `plateau sweep effects` tells why')
-    problem = Problem(study, found, goals, limits, _axes(study, hold, found), confidence)
-    rounds = pandas.DataFrame()
+    found = {one.response.name: one for one in surrogates(study, model, terms, confidence)}
+    for one in [*goals, *limits]:
+        if found[one.response].error:
+            raise InputError(f'{study.path or study.title}: response "{one.response}": {found[one.response].error}')
+    known = {name: one for name, one in found.items() if not one.error}
+    is_curved = all(one.fit is not None and one.fit.model == "quadratic" for one in known.values())
+    problem, rounds, confirming = (
+        Problem(study, known, goals, limits, _axes(study, hold, is_curved or runs > 0), confidence),
+        pandas.DataFrame(),
+        None,
+    )
     if runs:
         problem, rounds = improved(problem, runs, made, max(1, (jobs or os.cpu_count() or 1) // study.seeds))
     problem = replace(problem, goals=[_beyond_runs(problem, goal) for goal in goals])
-    best = _best_run(problem) if runs else problem.best()
-    confirming = made(best).drop_duplicates("same_as") if confirm or runs else None
+    best = problem.best()
+    if runs:
+        # The best of the places that were run, so that its own runs confirm it.
+        points = problem.study.runs.drop_duplicates("point").reset_index(drop=True)[list(best.columns)]
+        best = points.iloc[[int(problem.merit(points).argmax())]].reset_index(drop=True)
+    if confirm or runs:
+        confirming = made(best).drop_duplicates("same_as")
     return _told(problem, best, confirming, rounds)
 
 
@@ -484,7 +500,9 @@ def improved(
                 break
             if len(chosen) < min(at_a_time, left):
                 guess = {name: surrogate.response.back(surrogate.mean(point))[0] for name, surrogate in believed.surrogates.items()}
-                believed = _with_processes(believed, _with_runs(believed.study, [point.assign(**guess, replicate=1 + at) for at in range(problem.study.seeds)]))
+                believed = _with_processes(
+                    believed, _with_runs(believed.study, [point.assign(**guess, replicate=1 + at) for at in range(problem.study.seeds)])
+                )
         if not chosen:
             break
         left -= len(chosen)
@@ -499,52 +517,18 @@ def _with_runs(study: Study, new: Sequence[pandas.DataFrame]) -> Study:
     runs = pandas.concat([study.runs, *(each.assign(state="finished") for each in new)], ignore_index=True)[study.runs.columns]
     # Equal points have one number.
     points = runs.groupby([factor.name for factor in study.factors], sort=False).ngroup() + 1
-    return replace(study, runs=runs.assign(point=points, order=range(1, len(runs) + 1), same_as=range(1, len(runs) + 1)).set_axis(range(1, len(runs) + 1)))
+    return replace(
+        study,
+        runs=runs.assign(point=points, order=range(1, len(runs) + 1), same_as=range(1, len(runs) + 1)).set_axis(range(1, len(runs) + 1)),
+    )
 
 
 def _with_processes(problem: Problem, study: Study) -> Problem:
-    """The problem with processes of all that is wanted, fitted to the runs of a study."""
-    wanted = {one.response for one in [*problem.goals, *problem.limits]}
-    found = {response.name: Expected.of(study, response) for response in study.responses if response.name in wanted}
+    """The problem with processes that are fitted to the runs of a study."""
+    wanted = dict.fromkeys(one.response for one in [*problem.goals, *problem.limits])
+    own = replace(study, responses=[response for response in study.responses if response.name in wanted])
+    found = {one.response.name: replace(one, takes_process=one.process is not None) for one in surrogates(own, of_any_design=True)}
     return replace(problem, study=study, surrogates={**problem.surrogates, **found})
-
-
-@dataclass(frozen=True)
-class Expected:
-    """What a Gaussian process of the runs expects of a response."""
-
-    response: Response
-    factors: list[Factor]
-    process: Process
-
-    @classmethod
-    def of(cls, study: Study, response: Response) -> "Expected":
-        """Fits it."""
-        columns, axes = _coded(study.factors, study.runs)
-        return cls(response, study.factors, Process(columns, response.scaled(study.runs[response.name]), study.runs["replicate"], axes))
-
-    def mean(self, points: pandas.DataFrame) -> Numbers:
-        """Expected values on the scale of the fit."""
-        return self.process.mean(_coded(self.factors, points)[0])
-
-    def deviation(self, points: pandas.DataFrame) -> Numbers:
-        """Their standard deviations."""
-        return self.process.deviation(_coded(self.factors, points)[0])
-
-    def forecast(self, points: pandas.DataFrame, confidence: float) -> pandas.DataFrame:
-        """Expected values with intervals, SI."""
-        names = ["value", "mean_low", "mean_high", "run_low", "run_high"]
-        return pandas.DataFrame(self.response.back(self.process.intervals(_coded(self.factors, points)[0], confidence)), columns=names)
-
-
-def _coded(factors: Sequence[Factor], points: pandas.DataFrame) -> tuple[Numbers, list[int]]:
-    """Coded numbers, and words as indicators; and the number of the factor of each column."""
-    columns, axes = [], []
-    for at, factor in enumerate(factors):
-        own = points[factor.name]
-        each = [factor.coded(own)] if factor.is_number else [np.asarray(own == level, float) for level in factor.levels]
-        columns, axes = [*columns, *each], [*axes, *[at] * len(each)]
-    return np.column_stack(columns), axes
 
 
 def expected_improvement(problem: Problem, points: pandas.DataFrame) -> Numbers:
@@ -599,8 +583,11 @@ def _promising(problem: Problem) -> tuple[pandas.DataFrame, float]:
             at = problem.points(levels, np.clip(x, -1.0, 1.0)[None])
             return 0.0 if _is_run(problem, at)[0] else -float(expected_improvement(problem, at)[0])
 
-        options = {"maxfev": 40 * len(place), "initial_simplex": np.clip(place + 0.1 * np.vstack([0.0 * place, np.eye(len(place))]) * np.where(place > 0, -1, 1), -1, 1)}
-        found = search.minimize(fall, place, method="Nelder-Mead", bounds=[(-1.0, 1.0)] * len(place), options=options)
+        options = {
+            "maxfev": 40 * len(place),
+            "initial_simplex": np.clip(place + 0.1 * np.vstack([0.0 * place, np.eye(len(place))]) * np.where(place > 0, -1, 1), -1, 1),
+        }
+        found = minimize(fall, place, method="Nelder-Mead", bounds=[(-1.0, 1.0)] * len(place), options=options)
         if -found.fun > gain:
             gain, point = -float(found.fun), problem.points(levels, np.clip(found.x, -1.0, 1.0)[None])
     return point.reset_index(drop=True), gain
@@ -612,12 +599,19 @@ NEAR = 0.02
 
 def _is_run(problem: Problem, points: pandas.DataFrame) -> Numbers:
     """Whether points are at one that was run."""
-    known = _coded(problem.study.factors, problem.study.runs.drop_duplicates("point"))[0]
-    return np.asarray((np.abs(_coded(problem.study.factors, points)[0][:, None] - known).max(axis=2) < NEAR).any(axis=1))
+    known = problem.study.runs.drop_duplicates("point")
+    is_near = np.ones((len(points), len(known)), bool)
+    for factor in problem.study.factors:
+        own, others = points[factor.name].to_numpy()[:, None], known[factor.name].to_numpy()
+        is_near &= np.abs(factor.coded(own) - factor.coded(others)) < NEAR if factor.is_number else own == others
+    return np.asarray(is_near.any(axis=1))
 
 
 def _unit(study: Study, response: Response) -> Unit:
     return unit_for(response.unit, float(np.nanmax(np.abs(study.runs[response.name].to_numpy(float)), initial=0.0)))
+
+
+AIMS = {"maximize": "large,", "minimize": "small,", "target": "near the middle of"}
 
 
 def _limit_words(limit: Limit, unit: Unit) -> str:
@@ -658,11 +652,17 @@ def _wanted(
             values = [low, high]
         elif len(values) == 1 and aim == "target":
             if not low <= values[0] <= high:
-                raise InputError(f'--target "{text}": the runs have {low:.6g} to {high:.6g} {responses[name].unit}; to aim beyond give LOW..VALUE..HIGH')
+                raise InputError(
+                    f'--target "{text}": the runs have {low:.6g} to {high:.6g} {responses[name].unit}; to aim beyond give LOW..VALUE..HIGH'
+                )
             reach = max(high - values[0], values[0] - low)
             values = [values[0] - reach, values[0], values[0] + reach]
         if len(values) != (3 if aim == "target" else 2) or not all(a < b for a, b in itertools.pairwise(values)):
-            expected = "NAME=VALUE or NAME=LOW..VALUE..HIGH" if aim == "target" else "NAME, of which not all runs have the same value, or NAME=LOW..HIGH"
+            expected = (
+                "NAME=VALUE or NAME=LOW..VALUE..HIGH"
+                if aim == "target"
+                else "NAME, of which not all runs have the same value, or NAME=LOW..HIGH"
+            )
             raise InputError(f'--{aim} "{text}": expected {expected}, with values that ascend')
         goals[name] = Goal(name, aim, tuple(values[::-1] if aim == "minimize" else values))
     if not goals:
@@ -699,7 +699,9 @@ def _axes(study: Study, hold: Sequence[str], is_curved: bool) -> list[list[Any] 
     axes: list[list[Any] | None] = []
     for factor in study.factors:
         is_between = factor.is_number and not factor.whole and (factor.is_range or len(factor.levels) == 2 or is_curved)
-        whole = list(range(int(np.ceil(factor.ends[0])), int(factor.ends[1]) + 1)) if factor.whole and factor.is_range else list(factor.levels)
+        whole = (
+            list(range(int(np.ceil(factor.ends[0])), int(factor.ends[1]) + 1)) if factor.whole and factor.is_range else list(factor.levels)
+        )
         axes.append([held[factor.name]] if factor.name in held else None if is_between else whole)
     return axes
 
@@ -721,7 +723,15 @@ def _told(problem: Problem, best: pandas.DataFrame, confirming: pandas.DataFrame
     for response in study.responses:
         surrogate = problem.surrogates.get(response.name)
         forecast = surrogate.forecast(best, problem.confidence).iloc[0].to_dict() if surrogate else {"value": np.nan}
-        row = {"response": response.name, "unit": response.unit, **forecast, "desirability": np.nan, "runs": 0, "mean": np.nan, "standard_error": np.nan}
+        row = {
+            "response": response.name,
+            "unit": response.unit,
+            **forecast,
+            "desirability": np.nan,
+            "runs": 0,
+            "mean": np.nan,
+            "standard_error": np.nan,
+        }
         row["is_within"] = None
         for goal in problem.goals:
             if goal.response == response.name:
@@ -729,7 +739,7 @@ def _told(problem: Problem, best: pandas.DataFrame, confirming: pandas.DataFrame
         if confirming is not None and len(values := confirming[response.name].dropna()):
             is_within = bool(row["run_low"] <= values.mean() <= row["run_high"]) if np.isfinite(row.get("run_low", np.nan)) else None
             row |= {"runs": len(values), "mean": values.mean(), "standard_error": values.sem(), "is_within": is_within}
-        cautions += [f"{response.name}: {caution}" for caution in getattr(surrogate, "cautions", [])]
+        cautions += [f"{response.name}: {caution}" for caution in (surrogate.cautions if surrogate else [])]
         rows.append(row)
     table = pandas.DataFrame(rows)
     keeps = all(limit.margin(table[table["response"] == limit.response])[0] >= -ROUNDING for limit in problem.limits)
@@ -755,13 +765,26 @@ def _canonical(problem: Problem, best: pandas.DataFrame) -> list[dict[str, Any]]
     levels = [best[factor.name].iloc[0] for factor in problem.study.factors]
     found = []
     for name, surrogate in problem.surrogates.items():
-        if getattr(surrogate, "model", "") != "quadratic" or not ranges:
+        if surrogate.takes_process or surrogate.fit is None or surrogate.fit.model != "quadratic" or not ranges:
             continue
-        said = canonical(lambda coded, one=surrogate: one.mean(_unbounded(problem, levels, coded)), len(ranges))
+
+        def value_at(coded: Numbers, of: Surrogate = surrogate) -> Numbers:
+            return of.mean(problem.points(levels, coded))
+
+        said = canonical(value_at, len(ranges))
         places = []
         for factor, coded in zip(ranges, said["stationary"], strict=True) if said["nature"] != "ridge" else []:
             value = float(factor.value(coded))
-            places.append({"factor": factor.name, "unit": factor.unit, "value": value, "coded": float(coded), "text": factor.text(value), "is_within": bool(abs(coded) <= 1.0)})
+            places.append(
+                {
+                    "factor": factor.name,
+                    "unit": factor.unit,
+                    "value": value,
+                    "coded": float(coded),
+                    "text": factor.text(value),
+                    "is_within": bool(abs(coded) <= 1.0),
+                }
+            )
         value = float(surrogate.response.back(said["value"])) if places else None
         numbers = {"eigenvalues": said["eigenvalues"].tolist(), "directions": said["directions"].tolist()}
         found.append({"response": name, "nature": said["nature"], "value": value, "stationary": places, **numbers})
