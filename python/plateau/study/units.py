@@ -3,6 +3,7 @@
 import math
 import re
 from dataclasses import dataclass
+from typing import Any
 
 from plateau.errors import InputError
 
@@ -35,7 +36,7 @@ class Unit:
     per_si: float
     offset: float = 0.0
 
-    def value(self, value: float) -> float:
+    def value(self, value: Any) -> Any:
         """A value, SI, in this unit."""
         return value * self.per_si + self.offset
 

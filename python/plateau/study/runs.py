@@ -1,0 +1,136 @@
+"""Runs at any points of a study: made by the program, kept in the journal of the study, none of them twice."""
+
+import csv
+import json
+import math
+import os
+import tempfile
+import warnings
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import pandas
+
+from plateau.commands import _toml
+from plateau.errors import InputError, PlateauError, PlateauWarning, RunFailed
+from plateau.program import call
+from plateau.study.results import Factor, Study, analysed
+
+# Keys of a study file that say where its points are, and the settings of a fit.
+OF_DESIGNS = {"resolution", "generators", "points", "trajectories", "levels", "alpha", "centre_points", "seed", "fit"}
+
+
+def make_runs(
+    study: Study,
+    points: pandas.DataFrame,
+    *,
+    jobs: int | None = None,
+    workers: int | None = None,
+    retry: bool = False,
+    progress: bool | None = None,
+) -> pandas.DataFrame:
+    """Makes runs at points of a study, each with all its seeds.
+
+    Parameters
+    ----------
+    study : Study
+        A study that was opened by its file.
+    points : pandas.DataFrame
+        A column for each factor, by its name, and a row for each point: numbers in SI units, or words. Other columns are left aside.
+    jobs, workers : int, optional
+        Number of runs at the same time, and threads of each.
+    retry : bool
+        Make runs again that failed before, or that did not keep a series which is asked for.
+    progress : bool, optional
+        Whether progress is shown; by default in notebooks and terminals.
+
+    Returns
+    -------
+    pandas.DataFrame
+        As ``study.runs``, a row for each point and set of seeds: ``point`` is the row of ``points``, from 1. A run that failed has NaN.
+
+    Raises
+    ------
+    InputError, RunFailed
+        If the points cannot be run, or none of the runs ends well.
+    """
+    return made_study(study, points, progress, retry, jobs=jobs, workers=workers).runs
+
+
+def made_study(study: Study, points: pandas.DataFrame, progress: bool | None, retry: bool, **options: int | None) -> Study:
+    """Makes runs as `make_runs` does, and opens them as a study of their own, with their series."""
+    if study.path is None or "base" not in study.document:
+        why = "it was opened without its study file" if study.path is None else "it has no base scene"
+        raise InputError(f"{study.title}: no runs can be made, because {why}; give the study file of a study with a base scene")
+    missing = [factor.name for factor in study.factors if factor.name not in points]
+    if missing or points.empty:
+        raise InputError(f"points to run: expected at least one, and a column for each factor; missing: {', '.join(missing) or 'points'}")
+    # The program knows results by their scenes, so a study of the same folder finds them in its journal.
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "points.toml"
+        path.write_text("".join(f"{json.dumps(key)} = {_toml(value)}\n" for key, value in _document(study).items()), encoding="utf-8")
+        with path.with_suffix(".csv").open("w", newline="", encoding="utf-8") as file:
+            lines = csv.writer(file)
+            lines.writerow(factor.name for factor in study.factors)
+            lines.writerows([written(factor, point[factor.name]) for factor in study.factors] for _, point in points.iterrows())
+        try:
+            made = finished(path, progress, retry, **options)
+        except PlateauError as error:
+            error.args = (str(error).replace(str(path), str(study.path)), *error.args[1:])
+            raise
+    runs = made.runs.assign(**{response.name: math.nan for response in study.responses if response.name not in made.runs})
+    return replace(made, title=study.title, runs=runs[study.runs.columns], path=study.path)
+
+
+def finished(path: Path, progress: bool | None, retry: bool = False, **options: int | None) -> Study:
+    """Makes the missing runs of a study file and opens it; warns of runs that fail, unless all of them do."""
+    flags = [f"--{name}={value}" for name, value in options.items() if value is not None]
+    failure = ""
+    try:
+        with warnings.catch_warnings():
+            # That a run does not give a response is said of all runs below.
+            warnings.filterwarnings("ignore", ".*has no value", PlateauWarning)
+            call(["sweep", "run", path, *flags, *(["--retry"] if retry else [])], progress)
+    except RunFailed as error:
+        failure = str(error)
+    made = analysed(path)
+    lacking = made.runs["state"] != "finished"
+    if lacking.any():
+        first = made.data["error"].values[lacking.to_numpy()][0] or failure
+        message = f"{path}: {lacking.sum()} of {len(lacking)} runs did not end well; the first of them: {first}"
+        if lacking.all():
+            raise RunFailed(message)
+        warnings.warn(message, PlateauWarning, stacklevel=4)
+    return made
+
+
+def _document(study: Study) -> dict[str, Any]:
+    """The study file for other points of a study."""
+    here = Path(study.path or "").parent
+    document = {key: value for key, value in study.document.items() if key not in OF_DESIGNS}
+    responses = [
+        {key: os.path.abspath(here / value) if key == "measured_file" else value for key, value in response.items()}
+        for response in document.get("response", [])
+        if not response.get("imported")
+    ]
+    is_number = {factor.name: factor.is_number for factor in study.factors}
+    factors = [
+        # Between levels of numbers there are other values; of words there are no others, and they say what is a word.
+        {key: value for key, value in given.items() if key in ("name", "key") or key == "levels" and not is_number[factor.name]}
+        for given, factor in zip(document["factor"], study.factors, strict=True)
+    ]
+    places = {"base": os.path.abspath(here / document["base"]), "directory": os.path.abspath(study.directory), "file": "points.csv"}
+    return {**document, **places, "design": "csv", "order": "standard", "factor": factors, "response": responses}
+
+
+def written(factor: Factor, value: Any) -> str:
+    """A value of a factor, SI or a word, as study files have it: with as few digits as give exactly this value, so that runs are found."""
+    if isinstance(value, str):
+        return value
+    if factor.whole:
+        return str(round(value))
+    number = float(factor.in_study_unit(value))
+    texts = (f"{number:.{digits}g}" for digits in (15, 16, 17))
+    text = next((text for text in texts if float(text) * factor.one + factor.zero == value), f"{number:.17g}")
+    return f"{text} {factor.study_unit}".strip()

@@ -1,0 +1,398 @@
+"""Comparison of scenes: the same seeds in all, differences of each response with intervals."""
+
+import io
+import json
+import os
+import re
+import tomllib
+import warnings
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from html import escape
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas
+from scipy import stats
+
+from plateau.commands import _toml
+from plateau.errors import InputError, PlateauWarning
+from plateau.program import call, file_name
+from plateau.study.results import Numbers, Study
+from plateau.study.runs import finished
+from plateau.study.units import unit_for
+
+# What is compared unless asked otherwise: name, dataset with question, table of the scene without which there is no such series.
+USUAL = [
+    ("contact area", "contact_area:mean", ""),
+    ("running-in time", "contact_area:reaches 0.9", ""),
+    ("filled fraction", "filled_fraction:end", ""),
+    ("secondary on the pin", "pin_secondary:mean", ""),
+    ("worn off the pin", "worn_whole_pin:end", ""),
+    ("worn off the disc", "worn_disc:end", ""),
+    ("emitted", "emitted:end", ""),
+    ("friction coefficient", "friction_coefficient:mean", "friction"),
+    ("temperature of the contact", "contact_temperature:mean", "thermal"),
+    ("PM10", "pm10_mass:end", "emission"),
+]
+STYLE = "body{font-family:sans-serif;max-width:64em;margin:2em auto}table{border-collapse:collapse}td,th{padding:.2em .6em;text-align:left}"
+NOTE = (
+    "Differences are means over pairs of runs with the same seed, with t intervals ({level}); with more than two scenes, intervals and sureness hold for "
+    "all differences of a response together (Bonferroni). Sure at: 1 − p/2, how sure the sign is. Bands of curves: one standard deviation of runs; of "
+    "differences: the interval at each time alone."
+)
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """Scenes side by side, numbers in SI units.
+
+    Attributes
+    ----------
+    table : pandas.DataFrame
+        A row for each response and each scene but the first, the reference: ``runs`` (pairs), ``difference`` to the reference, its interval ``low``,
+        ``high``, ``p``, ``sureness`` of the sign (1 - p/2); ``ratio`` of geometric means, ``ratio_low``, ``ratio_high``; ``words``.
+    means : pandas.DataFrame
+        A row for each response and scene: ``runs``, ``mean``, ``deviation`` (standard deviation of a run).
+    runs : pandas.DataFrame
+        A row for each run: ``scene``, ``seed`` (0 of a scene without seeds), responses.
+    curves : pandas.DataFrame
+        Series against ``time``: ``mean`` and ``deviation`` over the seeds, and ``difference``, ``low``, ``high`` at each time alone.
+    scenes : dict
+        Names and files; the first is the reference.
+    confidence : float
+        Of the intervals.
+    cautions : list of str
+    directory : Path
+        Where runs are kept.
+    """
+
+    table: pandas.DataFrame
+    means: pandas.DataFrame
+    runs: pandas.DataFrame
+    curves: pandas.DataFrame
+    scenes: dict[str, str]
+    confidence: float
+    cautions: list[str]
+    directory: Path
+
+    @property
+    def title(self) -> str:
+        """Which scenes."""
+        first, *others = self.scenes
+        return f"{', '.join(others)} against {first}"
+
+    def shown(self) -> pandas.DataFrame:
+        """The table for people."""
+        both = self.means.merge(self.table.drop(columns=["runs", "unit"]), "left", on=["response", "scene"], sort=False)
+        lines = []
+        for _, row in both.iterrows():
+            of = unit_for(row["unit"], float(self.means.loc[self.means["response"] == row["response"], "mean"].abs().max()))
+            line = {
+                "response": row["response"],
+                "scene": row["scene"],
+                "runs": row["runs"],
+                "mean ± of a run": of.text(row["mean"], row["deviation"]),
+            }
+            if np.isfinite(row["difference"]):
+                line["difference"] = of.text(row["difference"], 0.5 * (row["high"] - row["low"]), is_difference=True)
+                line |= {"ratio": _ratio(row), "sure at": _sure(row["sureness"])}
+            lines.append(line)
+        return pandas.DataFrame(lines).fillna("")
+
+    def said(self) -> list[str]:
+        """The differences in words, and what to know before they are used."""
+        return [*self.table["words"], *(f"caution: {caution}" for caution in self.cautions)]
+
+    def text(self) -> str:
+        """What ``plateau compare`` prints."""
+        return "\n".join([self.title, self.shown().to_string(index=False), *(f"  {words}" for words in self.said()), ""])
+
+    def document(self) -> dict[str, Any]:
+        """The JSON of ``plateau compare --json``; None where there is no number."""
+        tables = {"differences": self.table, "means": self.means, "runs": self.runs}
+        rows = {name: json.loads(table.to_json(orient="records", double_precision=15)) for name, table in tables.items()}
+        scenes = [{"name": name, "file": file} for name, file in self.scenes.items()]
+        return {"scenes": scenes, "reference": scenes[0]["name"], "confidence": self.confidence, **rows, "cautions": self.cautions}
+
+    def figures(self) -> dict[str, Any]:
+        """Each series against time, mean with the standard deviation of runs, and below it the differences with their intervals."""
+        from matplotlib.figure import Figure
+
+        figures = {}
+        for series, curves in self.curves.groupby("series", sort=False):
+            figure = Figure(figsize=(8, 5), layout="constrained")
+            top, below = figure.subplots(2, sharex=True, height_ratios=[2, 1])
+            of = unit_for(curves["unit"].iloc[0], float(curves["mean"].abs().max()))
+            for number, (scene, curve) in enumerate(curves.groupby("scene", sort=False)):
+                time, band = curve["time"], {"color": f"C{number}", "alpha": 0.2, "linewidth": 0}
+                middle, half, (change, low, high) = (
+                    of.value(curve["mean"].values),
+                    of.per_si * curve["deviation"].fillna(0.0),
+                    of.per_si * curve[ENDS].values.T,
+                )
+                top.plot(time, middle, color=f"C{number}", label=scene)
+                top.fill_between(time, middle - half, middle + half, **band)
+                below.plot(time, change, color=f"C{number}")
+                below.fill_between(time, low, high, **band)
+            top.set(ylabel=", ".join(filter(None, [str(series).replace("_", " "), of.symbol])))
+            below.set(xlabel="time, s", ylabel=f"less {next(iter(self.scenes))}")
+            below.axhline(0.0, color="0.5", linewidth=0.8)
+            top.legend()
+            figures[str(series)] = figure
+        return figures
+
+    def page(self) -> str:
+        """One page for the browser, with the figures inside."""
+        import matplotlib
+
+        head = f'<!doctype html><html lang="en"><meta charset="utf-8"><title>{escape(self.title)}</title><style>{STYLE}</style><h1>{escape(self.title)}</h1>'
+        items = [*(f"{name}: {file}" for name, file in self.scenes.items()), *self.said()]
+        parts = [head, "<ul>", *(f"<li>{escape(item)}</li>" for item in items), "</ul>", self.shown().to_html(index=False)]
+        parts.append(f"<p>{NOTE.format(level=f'{100 * self.confidence:g} %')}</p>")
+        for series, figure in self.figures().items():
+            text = io.StringIO()
+            with matplotlib.rc_context({"svg.hashsalt": series}):
+                figure.savefig(text, format="svg", metadata={"Date": None})
+            parts.append(text.getvalue()[text.getvalue().index("<svg") :])
+        return "\n".join([*parts, "</html>\n"])
+
+    def write(self) -> list[str]:
+        """Writes the page and the tables into the folder of the runs, and gives their names."""
+        files = {
+            "comparison.html": self.page(),
+            "comparison.csv": self.table.to_csv(index=False),
+            "runs.csv": self.runs.to_csv(index=False),
+        }
+        for name, content in files.items():
+            (self.directory / name).write_text(content, encoding="utf-8")
+        return [str(self.directory / name) for name in files]
+
+
+def compare(
+    scenes: Sequence[str | os.PathLike[str]],
+    seeds: int = 5,
+    *,
+    responses: Sequence[str] = (),
+    set: Mapping[str, Any] | Sequence[str] = (),
+    output: str | os.PathLike[str] = "comparison",
+    confidence: float = 0.95,
+    jobs: int | None = None,
+    workers: int | None = None,
+    progress: bool | None = None,
+) -> Comparison:
+    """Runs scenes with the same seeds and compares their responses; runs that exist are not made again.
+
+    Parameters
+    ----------
+    scenes : sequence of path
+        Two or more; the first one is the reference.
+    seeds : int
+        Number of sets of surfaces, 1, 2, ...; all synthetic surfaces of a scene have the same seed.
+    responses : sequence of str
+        Each ``DATASET`` or ``DATASET:QUESTION``, such as ``"worn_pin:end"``, ``"contact_area:mean 10 s..20 s"``, ``"contact_area:reaches 0.8"``,
+        ``"pin_primary:100 s"``, ``"/event/temperature:last"``; by default what usually matters.
+    set : mapping or sequence of str
+        Changes of all scenes, as for ``plateau.run``.
+    output : path
+        Folder in which the runs are kept.
+    confidence : float
+        Confidence of intervals.
+    jobs, workers, progress : optional
+        As for ``plateau.sweep``.
+
+    Returns
+    -------
+    Comparison
+    """
+    files = [Path(file_name(scene, "a scene")) for scene in scenes]
+    if len(files) < 2 or seeds < 1 or not 0.0 < confidence < 1.0:
+        raise InputError("compare: expected two scenes or more, one seed or more, and a confidence between 0 and 1")
+    stems = [file.stem for file in files]
+    names = [stem if stems.count(stem) == 1 else f"{stem}-{number}" for number, stem in enumerate(stems, 1)]
+    changes = [f"{key}={_toml(value)}" for key, value in set.items()] if isinstance(set, Mapping) else list(set)
+    flags = [text for change in changes for text in ("--set", change)]
+    with warnings.catch_warnings():
+        # They are given when the scenes are run.
+        warnings.simplefilter("ignore", PlateauWarning)
+        resolved = [tomllib.loads(call(["check", file, *flags], progress=False)["scene"]) for file in files]
+    usual = [(name, asked) for name, asked, table in USUAL if not table or all(table in scene for scene in resolved)]
+    tables = [_response(name, asked) for name, asked in ([("", asked) for asked in responses] or usual)]
+    directory, made, cautions = Path(output), {}, []
+    for name, file, scene in zip(names, files, resolved, strict=True):
+        keys = _seed_keys(scene)
+        if not keys:
+            cautions.append(
+                f"{name} has no synthetic surface and so no seeds: it is one run, and no interval says how other specimens scatter"
+            )
+        folder = directory / name
+        folder.mkdir(parents=True, exist_ok=True)
+        (folder / "seeds.csv").write_text("\n".join(["seed", *map(str, range(1, seeds + 1) if keys else ["none"]), ""]))
+        # A title is no part of what a run is known by.
+        study = {
+            "version": 1,
+            "title": name,
+            "base": os.path.abspath(file),
+            "set": changes,
+            "design": "csv",
+            "file": "seeds.csv",
+            "order": "standard",
+        }
+        study |= {"directory": ".", "factor": [{"name": "seed", "key": keys or "title"}], "response": tables}
+        (folder / "study.toml").write_text("".join(f"{key} = {_toml(value)}\n" for key, value in study.items()), encoding="utf-8")
+        made[name] = finished(folder / "study.toml", progress, jobs=jobs, workers=workers)
+    if len({scene["operation"].get("duration") for scene in resolved}) > 1:
+        cautions.append("the scenes have different durations, so values at the end are at different times")
+    return _compared(made, dict(zip(names, map(str, files), strict=True)), confidence, cautions, directory, not responses)
+
+
+def _compared(
+    made: dict[str, Study], scenes: dict[str, str], confidence: float, cautions: list[str], directory: Path, are_usual: bool
+) -> Comparison:
+    seeds = {scene: study.runs["seed"] if study.factors[0].is_number else [0] for scene, study in made.items()}
+    runs = {scene: study.runs.set_index(pandas.Index(seeds[scene], name="seed", dtype=int)) for scene, study in made.items()}
+    most = max(runs.values(), key=len).index
+    # The one run of a scene without seeds stands beside all of the others.
+    pairs = {scene: own if len(own) == len(most) else pandas.concat([own] * len(most)).set_axis(most) for scene, own in runs.items()}
+    first, *others = made
+    asked = [one for one in made[first].responses if not are_usual or any((own[one.name] != 0.0).any() for own in runs.values())]
+    rows, means = [], []
+    for response in asked:
+        name, common = response.name, {"response": response.name, "unit": response.unit}
+        for scene, own in runs.items():
+            values = own[name].dropna()
+            means.append({**common, "scene": scene, "runs": len(values), "mean": values.mean(), "deviation": values.std()})
+        for scene in others:
+            pair = pandas.DataFrame({0: pairs[first][name], 1: pairs[scene][name]}).dropna()
+            if len(pair) < len(most):
+                late = (
+                    "; runs that have not run in lack it, so the difference is biased: make the runs longer"
+                    if name == "running-in time"
+                    else ""
+                )
+                cautions.append(f"{scene}: {name} has a value in {len(pair)} of {len(most)} pairs of runs{late}")
+            found = difference(pair[0], pair[1], confidence, len(others))
+            rows.append({**common, "scene": scene, **found, "words": _words(f"{scene}: {name}", response.unit, found, confidence)})
+    table = pandas.concat(runs, names=["scene"])[[one.name for one in asked]].reset_index()
+    return Comparison(
+        pandas.DataFrame(rows), pandas.DataFrame(means), table, _curves(made, confidence), scenes, confidence, cautions, directory
+    )
+
+
+def difference(reference: Any, other: Any, confidence: float = 0.95, comparisons: int = 1) -> dict[str, float]:
+    """The mean difference of paired values and their ratio, with t intervals; of several comparisons together by Bonferroni.
+
+    Parameters
+    ----------
+    reference, other : array_like of float
+        Values of the same seeds.
+    confidence : float
+    comparisons : int
+        Number of differences with the same reference.
+
+    Returns
+    -------
+    dict
+        ``runs``, ``difference``, ``low``, ``high``, ``p``, ``sureness``, ``ratio``, ``ratio_low``, ``ratio_high``.
+    """
+    one, two = np.asarray(reference, float), np.asarray(other, float)
+    mean, low, high, p = _mean(two - one, confidence, comparisons)
+    has_ratio = bool((one > 0.0).all() and (two > 0.0).all())
+    ratios = np.exp(_mean(np.log(two / one), confidence, comparisons)[:3]) if has_ratio else [np.nan] * 3
+    found = {"runs": len(one), "difference": mean, "low": low, "high": high, "p": p, "sureness": 1.0 - p / 2.0}
+    return found | dict(zip(("ratio", "ratio_low", "ratio_high"), map(float, ratios), strict=True))
+
+
+def _mean(values: Numbers, confidence: float, comparisons: int) -> tuple[float, float, float, float]:
+    """Mean, ends of its interval, p."""
+    if len(values) < 2:
+        return (float(values[0]) if len(values) else np.nan), np.nan, np.nan, np.nan
+    mean, error, freedom = float(values.mean()), float(stats.sem(values)), len(values) - 1
+    if error == 0.0:
+        return mean, mean, mean, float(mean == 0.0)
+    half = error * float(stats.t.isf((1.0 - confidence) / comparisons / 2.0, freedom))
+    return mean, mean - half, mean + half, min(1.0, comparisons * 2.0 * float(stats.t.sf(abs(mean) / error, freedom)))
+
+
+def _words(of: str, si: str, found: dict[str, float], confidence: float) -> str:
+    """A difference in a sentence."""
+    change, half = found["difference"], 0.5 * (found["high"] - found["low"])
+    unit = unit_for(si, max(abs(change), half))
+    if not np.isfinite(change):
+        return f"{of} has no value in any pair of runs"
+    if not np.isfinite(half):
+        return f"{of} differs by {unit.text(change, is_difference=True)}; a single pair of runs does not say how sure that is"
+    if found["low"] <= 0.0 <= found["high"]:
+        return f"{of}: no sure difference, {unit.text(change, half, is_difference=True)} ({100 * confidence:g} %), sign sure at {_sure(found['sureness'])}"
+    more = "larger" if change > 0.0 else "smaller"
+    if of.endswith(": running-in time"):
+        of, more = of.removesuffix(": running-in time") + " runs in", "more slowly" if change > 0.0 else "faster"
+    ratio = f", {_ratio(found)} times" if np.isfinite(found["ratio"]) else ""
+    is_ = "" if of.endswith(" runs in") else " is"
+    return f"{of}{is_} {more} by {unit.text(abs(change), half, is_difference=True)} ({100 * confidence:g} %){ratio}, sure at {_sure(found['sureness'])}"
+
+
+def _sure(sureness: float) -> str:
+    return "–" if not np.isfinite(sureness) else "more than 99.9 %" if sureness > 0.999 else f"{100 * sureness:.1f} %"
+
+
+def _ratio(row: Any) -> str:
+    ends = f" ({row['ratio_low']:.3g} … {row['ratio_high']:.3g})" if np.isfinite(row["ratio_low"]) else ""
+    return f"{row['ratio']:.3g}{ends}" if np.isfinite(row["ratio"]) else "–"
+
+
+# Columns of the curves.
+ENDS = ["difference", "low", "high"]
+
+
+def _curves(made: dict[str, Study], confidence: float) -> pandas.DataFrame:
+    first, parts = next(iter(made.values())), []
+    for name in dict.fromkeys(
+        one.series.replace("contact_area", "contact_area_mean") if one.series == "contact_area" else one.series for one in first.responses
+    ):
+        data = {scene: study.data[name] for scene, study in made.items() if name in study.data and "time" in study.data[name].dims}
+        for scene, values in data.items():
+            y, reference = values.transpose("run", "time"), next(iter(data.values())).transpose("run", "time")
+            part = {
+                "series": name,
+                "unit": values.attrs.get("units", "1"),
+                "scene": scene,
+                "time": y["time"].values,
+                "mean": y.values.mean(0),
+            }
+            part |= {"deviation": y.values.std(0, ddof=1) if len(y) > 1 else np.nan, **dict.fromkeys(ENDS, np.nan)}
+            if scene != next(iter(made)) and np.array_equal(reference["time"], y["time"]):
+                d = y.values - reference.values
+                half = stats.t.ppf(0.5 + confidence / 2.0, len(d) - 1) * stats.sem(d) if len(d) > 1 else np.nan
+                part |= dict(zip(ENDS, (d.mean(0), d.mean(0) - half, d.mean(0) + half), strict=True))
+            parts.append(pandas.DataFrame(part))
+    return pandas.concat(parts, ignore_index=True) if parts else pandas.DataFrame(columns=["series", "scene"])
+
+
+def _seed_keys(table: Mapping[str, Any], path: str = "") -> list[str]:
+    """The keys of a resolved scene that are seeds of synthetic surfaces."""
+    deeper = [key for name, value in table.items() if isinstance(value, Mapping) for key in _seed_keys(value, f"{path}{name}.")]
+    return deeper + ([f"{path}seed"] if path.endswith("synthetic.") and "seed" in table else [])
+
+
+def _response(name: str, asked: str) -> dict[str, Any]:
+    """The table of a response in a study file."""
+    dataset, _, question = (part.strip() for part in asked.partition(":"))
+    dataset = dataset if dataset.startswith("/") else f"/series/{dataset}"
+    word, _, rest = question.partition(" ")
+    table: dict[str, Any] = {
+        "name": name or re.sub(r"^/series/|^/", "", asked).replace("_", " ").replace(":", ", ").replace("/", " "),
+        "dataset": dataset,
+    }
+    if question == "mean" or not question and dataset == "/series/contact_area":
+        return table | {"mean": "last tenth"}
+    if word == "mean":
+        return table | {"mean": [part.strip() for part in rest.split("..")]}
+    if word == "reaches":
+        if re.fullmatch(r"|0?\.\d+", rest) is None:
+            raise InputError(f'--response "{asked}": expected a fraction, such as reaches 0.9')
+        return table | {"reaches": float(rest or 0.9)}
+    if dataset.startswith("/event"):
+        return table | {"event": int(question) if question.isdigit() else question or "mean"}
+    return table | {"at": question or "end"}
