@@ -1,17 +1,14 @@
 //! Responses: one number that a run gives for each question of a study.
 
 use std::borrow::Cow;
-use std::sync::Arc;
 
 use plateau_core::observe::event::EVENT_QUANTITIES;
 use plateau_core::observe::running_in::{NotDefined, time_to, time_to_in_contact};
 use plateau_core::observe::window_mean::{Cumulative, WindowMean, last_tenth};
 use plateau_core::observe::{EXTRAS, quantities};
 
-use plateau_study::effects::Transform;
 use thiserror::Error;
 
-use super::measured_series::SeriesFile;
 use super::record::{CONTACT_TIME, EVENT, REVOLUTIONS, Series};
 use crate::number;
 
@@ -27,11 +24,14 @@ pub struct Response {
     pub series: String,
     /// What of it.
     pub question: Question,
-    /// What is done to the answers before a model is fitted to them, if anything.
-    pub transform: Option<Transform>,
+    /// On which scale an analysis fits the answers: one of [`TRANSFORMS`].
+    pub transform: &'static str,
     /// The unit that the study gives an answer from elsewhere, which people fill in; it measures the same as the SI unit.
     pub stated_unit: Option<String>,
 }
+
+/// Scales on which an analysis fits answers.
+pub const TRANSFORMS: [&str; 4] = ["none", "log", "square root", "logit"];
 
 /// What is asked of a series.
 #[derive(Debug, Clone, PartialEq)]
@@ -50,8 +50,8 @@ pub enum Question {
     Imported(&'static str),
     /// The time, s, after which the series has come to this fraction of its value at the end: see [`time_to`].
     Reaches(f64),
-    /// How far it is from a series that was measured: [`plateau_study::fit::MeasuredSeries::distance`].
-    Measured(Arc<SeriesFile>),
+    /// Nothing of a single run: `plateau fit` compares the whole series with one that was measured.
+    Measured,
 }
 
 /// Which of the events of a run.
@@ -104,7 +104,7 @@ impl Response {
     }
 
     fn answer(&self, run: &Series) -> Result<f64, NoAnswer> {
-        if self.is_imported() {
+        if !self.is_of_one_run() {
             return Err(NoAnswer::Elsewhere);
         }
         if let Question::Event(which) = self.question {
@@ -135,26 +135,9 @@ impl Response {
                     None => time_to(fraction, &samples)?,
                 });
             }
-            Question::Measured(ref file) => return Ok(file.series.distance(&self.at_measured_times(run)?)),
-            Question::End | Question::Event(_) | Question::Imported(_) => values.last().copied(),
+            Question::End | Question::Event(_) | Question::Imported(_) | Question::Measured => values.last().copied(),
         }
         .ok_or(NoAnswer::NoNumber)
-    }
-
-    /// What a run has at the times of a measured series, linear between samples.
-    ///
-    /// # Errors
-    /// [`NoAnswer`] where it ends before the last of them, or nothing was measured at times.
-    pub fn at_measured_times(&self, run: &Series) -> Result<Vec<f64>, NoAnswer> {
-        let Question::Measured(file) = &self.question else { return Err(NoAnswer::Elsewhere) };
-        let values = run.values(&self.series).ok_or(NoAnswer::NotKept)?;
-        let value = |at: &f64| value_at(run.time(), values, reached(run, *at)?).ok_or(NoAnswer::NoNumber);
-        file.series.times().iter().map(value).collect()
-    }
-
-    /// The series that was measured, if one was.
-    pub fn measured_series(&self) -> Option<&SeriesFile> {
-        if let Question::Measured(file) = &self.question { Some(file) } else { None }
     }
 
     /// The series, or the quantity of events, that a run must have kept for an answer; none where it comes from elsewhere.
@@ -213,9 +196,13 @@ impl Response {
         match self.question {
             Question::Reaches(_) => "s",
             Question::Imported(unit) => unit,
-            Question::Measured(_) => "1",
             _ => of_series,
         }
+    }
+
+    /// Whether a run answers it by itself.
+    pub fn is_of_one_run(&self) -> bool {
+        !matches!(self.question, Question::Imported(_) | Question::Measured)
     }
 
     /// Whether its answers come from elsewhere, not from the series of runs.
@@ -306,12 +293,11 @@ fn integral(time: &[f64], values: &[f64]) -> Vec<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use plateau_study::fit::MeasuredSeries;
 
     fn of_pool(question: Question, values: &[f64], until: f64) -> Result<f64, NoAnswer> {
         let time: Vec<f64> = (1..=values.len()).map(|at| at as f64).collect();
         let run = Series::new(vec!["time".into(), "pool".into()], vec![time, values.to_vec()]).that_ended(until);
-        Response { name: "r".into(), series: "pool".into(), question, transform: None, stated_unit: None }.of(&run)
+        Response { name: "r".into(), series: "pool".into(), question, transform: "none", stated_unit: None }.of(&run)
     }
 
     fn ask(question: Question, values: &[f64]) -> Option<f64> {
@@ -334,18 +320,6 @@ mod tests {
             [Some(5.0), Some(7.0)]
         );
         assert_eq!([ask(Question::Mean(2.2, 3.8), &lifted), ask(Question::At(4.0), &lifted)], [None, Some(6.0)]);
-        let series = |times: [f64; 2]| {
-            let series = MeasuredSeries::new(times.to_vec(), vec![2.0, 4.5], vec![0.5, 1.0], 0.0).unwrap();
-            Question::Measured(Arc::new(SeriesFile {
-                path: "t.csv".into(),
-                series,
-                time_unit: "s".into(),
-                last_line: 3,
-            }))
-        };
-        // At 1.5 and 3 s the run has 1 and 4: (−1/0.5)² and (−0.5/1)², of two points.
-        assert_eq!(ask(series([1.5, 3.0]), &ramp), Some((4.25_f64 / 2.0).sqrt()));
-        assert_eq!(ask(series([1.5, 5.0]), &ramp), None);
     }
 
     #[test]
@@ -393,8 +367,13 @@ mod tests {
         let values = [[1.0, 2.0, 3.0, 4.0], [3.0, 3.0, 0.0, 0.0], [3.0, 6.0, 6.0, 6.0], [1.0, 2.0, 2.0, 2.0]];
         let run = Series::new(columns, values.map(Vec::from).to_vec());
         let question = Question::Mean(0.0, 4.0);
-        let response =
-            Response { name: "a".into(), series: "contact_area".into(), question, transform: None, stated_unit: None };
+        let response = Response {
+            name: "a".into(),
+            series: "contact_area".into(),
+            question,
+            transform: "none",
+            stated_unit: None,
+        };
         assert_eq!(response.of(&run), Ok(3.0));
     }
 
@@ -404,7 +383,7 @@ mod tests {
         let run = Series::default().with_events(Series::new(vec!["worn".into()], columns));
         let ask = |which| {
             let question = Question::Event(which);
-            Response { name: "w".into(), series: "event/worn".into(), question, transform: None, stated_unit: None }
+            Response { name: "w".into(), series: "event/worn".into(), question, transform: "none", stated_unit: None }
                 .of(&run)
                 .ok()
         };
@@ -419,7 +398,7 @@ mod tests {
         let run = Series::new(columns, vec![vec![1.0, 2.0], vec![7.0, 7.0], vec![3.0, 8.0]]);
         let mean = |from, to| {
             let question = Question::Mean(from, to);
-            Response { name: "a".into(), series: "contact_area".into(), question, transform: None, stated_unit: None }
+            Response { name: "a".into(), series: "contact_area".into(), question, transform: "none", stated_unit: None }
                 .of(&run)
                 .ok()
         };
@@ -441,7 +420,7 @@ mod tests {
             let (names, columns) = known.unzip();
             let question = Question::MeanOfLastTenth;
             let response =
-                Response { name: "r".into(), series: series.into(), question, transform: None, stated_unit: None };
+                Response { name: "r".into(), series: series.into(), question, transform: "none", stated_unit: None };
             let run = Series::new(names, columns);
             (response.of(&run).ok(), response.error_of(&run).is_some())
         };
