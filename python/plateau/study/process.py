@@ -107,7 +107,7 @@ class Process:
         # What each set of seeds adds at each point; where it has no run, what it adds everywhere.
         self._added = added + of_point @ (seeds * rest[:, None]) / np.maximum(of_point @ seeds, 1e-300)
         self.means, self._axes = means + self.offset, np.asarray(range(places.shape[1]) if axes is None else axes, int)
-        self._given = self.points, means, 1.0 / runs, (float(rest @ rest) if freedom else 0.0, freedom)
+        self.runs, self._given = runs, (self.points, means, 1.0 / runs, (float(rest @ rest) if freedom else 0.0, freedom))
         self._draw()
 
     def solved(self, logs: Numbers, some: slice | npt.NDArray[np.int64] = slice(None)) -> Equations:
@@ -181,7 +181,8 @@ class Process:
 
     def deviation(self, x: npt.ArrayLike) -> Numbers:
         """Standard deviations of the mean of many runs, with what few sets of seeds leave open."""
-        return np.asarray(np.sqrt(self.moments(x)[1] + self.moments(x)[2] / self.seeds))
+        _, own, seeds = self.moments(x)
+        return np.asarray(np.sqrt(own + seeds / self.seeds))
 
     def run_deviation(self, x: npt.ArrayLike) -> Numbers:
         """Standard deviations of the response of one more run."""
