@@ -30,12 +30,16 @@ DRAWS, WORTH = 256, 1e-3
 
 @dataclass(frozen=True)
 class Goal:
-    """What a response should be: `values` from worth nothing to worth everything, of a target to worth nothing again, SI."""
+    """What a response should be: `values` from worth nothing to worth everything, of a target to worth nothing again, SI.
+
+    `is_of_runs` says that the values are those of the runs, beyond which there may be better ones.
+    """
 
     response: str
     aim: str
     values: tuple[float, ...]
     importance: float = 1.0
+    is_of_runs: bool = False
 
     def way(self, response: Any) -> Numbers:
         """The part of the way from worth nothing to worth everything, beyond 0 and 1, too."""
@@ -72,6 +76,10 @@ def overall(goals: Sequence[Goal], desirabilities: Sequence[Any]) -> Numbers:
     with np.errstate(divide="ignore"):
         logs = sum(goal.importance * np.log(np.asarray(each)) for goal, each in zip(goals, desirabilities, strict=True))
     return np.exp(logs / sum(goal.importance for goal in goals))
+
+
+# A merit, the levels of a point, and its coded place in the ranges.
+Start = tuple[float, tuple[Any, ...], Numbers]
 
 
 @dataclass(frozen=True)
@@ -122,23 +130,22 @@ class Problem:
         ranges = self.axes.count(None)
         bits = int(np.ceil(np.log2(max(count // combinations, LEAST_POINTS))))
         places = 2.0 * stats.qmc.Sobol(ranges, rng=0).random_base2(bits) - 1.0 if ranges else np.zeros((1, 0))
-        # The best place is often in a corner.
-        corners = np.array(list(itertools.product([-1.0, 1.0], repeat=ranges))) if 0 < ranges < 9 else np.zeros((0, ranges))
-        return [(levels, np.vstack([places, corners])) for levels in itertools.product(*choices)]
+        return [(levels, places) for levels in itertools.product(*choices)]
 
     def best(self) -> pandas.DataFrame:
         """The point of the largest merit, one row."""
-        starts: list[tuple[float, tuple[Any, ...], Numbers]] = []
+        starts: list[Start] = []
         for levels, places in self.spread():
             merits = self.merit(self.points(levels, places))
             starts += [(merits[at], levels, places[at]) for at in np.argsort(-merits, kind="stable")[:STARTS]]
             starts = sorted(starts, key=lambda start: -start[0])[:STARTS]
         best = starts[0]
-        for start in starts if self.axes.count(None) else []:
-            best = max(best, self._climbed(start), key=lambda found: found[0])
+        if self.axes.count(None):
+            best = max((self._climbed(start, ["SLSQP"]) for start in starts), key=lambda found: found[0])
+            best = self._climbed(best, ["Nelder-Mead", "SLSQP"])
         return self.points(best[1], best[2][None])
 
-    def _climbed(self, start: tuple[float, tuple[Any, ...], Numbers]) -> tuple[float, tuple[Any, ...], Numbers]:
+    def _climbed(self, start: Start, methods: Sequence[str]) -> Start:
         """Goes on from a start: along slopes and limits, and by simplices where these have corners."""
         merit, levels, place = start
         bounds, step = [(-1.0, 1.0)] * len(place), 1e-5 * np.eye(len(place))
@@ -159,12 +166,12 @@ class Problem:
             {"type": "ineq", "fun": lambda x, at=at: smooth(x[None])[0, at], "jac": lambda x, at=at: slopes(x)[:, at]}
             for at in range(1, 1 + len(self.limits))
         ]
-        of_slopes = {"fun": lambda x: smooth(x[None])[0, 0], "jac": lambda x: slopes(x)[:, 0], "constraints": kept, "options": {"ftol": 1e-14}}
-        coarse = {"fun": fall, "options": {"xatol": 1e-5, "fatol": 1e-9, "maxfev": 60 * len(place)}}
-        for method, options in [("SLSQP", of_slopes), ("Nelder-Mead", coarse), ("SLSQP", of_slopes)]:
+        options: dict[str, Any] = {"SLSQP": {"fun": lambda x: smooth(x[None])[0, 0], "jac": lambda x: slopes(x)[:, 0], "constraints": kept, "options": {"ftol": 1e-14}}}
+        options["Nelder-Mead"] = {"fun": fall, "options": {"xatol": 1e-5, "fatol": 1e-9, "maxfev": 60 * len(place)}}
+        for method in methods:
             with warnings.catch_warnings():
                 warnings.simplefilter("ignore", RuntimeWarning)
-                x = np.clip(minimize(x0=place, method=method, bounds=bounds, **options).x, -1.0, 1.0)
+                x = np.clip(minimize(x0=place, method=method, bounds=bounds, **options[method]).x, -1.0, 1.0)
             if np.isfinite(x).all() and -fall(x) > merit:
                 merit, place = -fall(x), x
         return merit, levels, place
@@ -275,7 +282,10 @@ class Optimum:
                 for row in self.settings.to_dict("records")
             ],
             "responses": responses,
-            "goals": [{**vars(goal), "values": list(goal.values), "desirability": of_goal[goal.response]} for goal in self.goals],
+            "goals": [
+                {"response": goal.response, "aim": goal.aim, "values": list(goal.values), "importance": goal.importance, "desirability": of_goal[goal.response]}
+                for goal in self.goals
+            ],
             "desirability": self.desirability,
             "keeps_limits": self.keeps_limits,
             "limits": [
@@ -451,7 +461,7 @@ def optimize(
     )
     if runs:
         problem, rounds = improved(problem, runs, made, max(1, (jobs or os.cpu_count() or 1) // study.seeds))
-    problem = replace(problem, goals=[_beyond_runs(problem, goal) for goal in goals])
+    problem = _beyond_runs(problem)
     best = problem.best()
     if runs:
         # The best of the places that were run, so that its own runs confirm it.
@@ -492,7 +502,7 @@ def improved(
         while len(chosen) < min(at_a_time, left):
             point, gain = _promising(believed)
             if is_last := gain < WORTH or len(chosen) + 1 == left:
-                point, left = believed.best(), len(chosen) + 1
+                point, left = _beyond_runs(believed).best(), len(chosen) + 1
                 gain = float(expected_improvement(believed, point)[0])
             if not _is_run(believed, point).any():
                 chosen.append({**point.iloc[0].to_dict(), "expected_improvement": gain})
@@ -569,14 +579,13 @@ def expected_improvement(problem: Problem, points: pandas.DataFrame) -> Numbers:
 
 def _promising(problem: Problem) -> tuple[pandas.DataFrame, float]:
     """The point of the largest expected improvement that was not run, and how large that is."""
-    best: tuple[float, pandas.DataFrame | None, tuple[Any, ...], Numbers] = (-1.0, None, (), np.zeros(0))
+    best: Start = (-1.0, (), np.zeros(0))
     for levels, places in problem.spread(POINTS // 4):
         points = problem.points(levels, places)
         gains = np.where(_is_run(problem, points), 0.0, expected_improvement(problem, points))
         if gains.max() > best[0]:
-            best = (float(gains.max()), points.iloc[[gains.argmax()]], levels, places[gains.argmax()])
-    gain, point, levels, place = best
-    assert point is not None
+            best = (float(gains.max()), levels, places[gains.argmax()])
+    gain, levels, place = best
     if len(place) and gain > 0.0:
 
         def fall(x: Numbers) -> float:
@@ -589,8 +598,8 @@ def _promising(problem: Problem) -> tuple[pandas.DataFrame, float]:
         }
         found = minimize(fall, place, method="Nelder-Mead", bounds=[(-1.0, 1.0)] * len(place), options=options)
         if -found.fun > gain:
-            gain, point = -float(found.fun), problem.points(levels, np.clip(found.x, -1.0, 1.0)[None])
-    return point.reset_index(drop=True), gain
+            gain, place = -float(found.fun), np.clip(found.x, -1.0, 1.0)
+    return problem.points(levels, place[None]), gain
 
 
 # Coded places nearer than this are one point: its runs, with the same seeds, would tell nothing new.
@@ -664,7 +673,7 @@ def _wanted(
                 else "NAME, of which not all runs have the same value, or NAME=LOW..HIGH"
             )
             raise InputError(f'--{aim} "{text}": expected {expected}, with values that ascend')
-        goals[name] = Goal(name, aim, tuple(values[::-1] if aim == "minimize" else values))
+        goals[name] = Goal(name, aim, tuple(values[::-1] if aim == "minimize" else values), is_of_runs=not said)
     if not goals:
         raise InputError("no goal: give --maximize, --minimize or --target with a response")
     for text in importance:
@@ -706,16 +715,19 @@ def _axes(study: Study, hold: Sequence[str], is_curved: bool) -> list[list[Any] 
     return axes
 
 
-def _beyond_runs(problem: Problem, goal: Goal) -> Goal:
-    """The goal with the best that is expected within the ranges, if that is better than its best run: else all that is better were worth the same."""
-    low, high = problem.study.runs[goal.response].min(), problem.study.runs[goal.response].max()
-    if set(goal.values) != {low, high}:
-        return goal
-    worst, best = goal.values
-    far = replace(goal, values=(worst - 100.0 * (best - worst), best + 100.0 * (best - worst)))
-    alone = replace(problem, goals=[far], limits=[])
-    found = float(alone.forecasts(alone.best())[goal.response]["value"].iloc[0])
-    return replace(goal, values=(worst, max(best, found) if best > worst else min(best, found)))
+def _beyond_runs(problem: Problem) -> Problem:
+    """The problem whose goals end at the best that is expected within the ranges, if that is better than all runs: else all that is better
+    were worth the same."""
+    goals = []
+    for goal in problem.goals:
+        if goal.is_of_runs:
+            worst, best = goal.values
+            far = replace(goal, values=(worst - 100.0 * (best - worst), best + 100.0 * (best - worst)))
+            alone = replace(problem, goals=[far], limits=[])
+            found = float(alone.forecasts(alone.best())[goal.response]["value"].iloc[0])
+            goal = replace(goal, values=(worst, max(best, found) if best > worst else min(best, found)))
+        goals.append(goal)
+    return replace(problem, goals=goals)
 
 
 def _told(problem: Problem, best: pandas.DataFrame, confirming: pandas.DataFrame | None, rounds: pandas.DataFrame) -> Optimum:
