@@ -4,12 +4,12 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-import numpy.typing as npt
 import pandas
+from scipy import stats
 
 from plateau.errors import InputError
 from plateau.study.analysis import _digits
-from plateau.study.model import LEAST_FREEDOM, Fitted, NothingToFit, fitted, misfit
+from plateau.study.model import Fitted, NothingToFit, fitted
 from plateau.study.process import Process
 from plateau.study.results import Numbers, Response, Study
 from plateau.study.units import unit_for
@@ -20,8 +20,6 @@ SPARSE = ("full-factorial", "fractional-factorial", "plackett-burman", "central-
 MOST_FACTORIAL_LEVELS = 5
 # Points for each factor that a process should have, and most that it takes.
 POINTS_FOR_EACH, MOST_POINTS = 10, 1000
-# Cosines of a drawn function.
-COSINES = 400
 
 
 @dataclass(frozen=True, repr=False)
@@ -82,7 +80,9 @@ class Surrogate:
         def shown(error: float) -> str:
             if np.isnan(error):
                 return "not known"
-            return f"{_digits(error * unit.per_si, error * unit.per_si)} {unit.symbol}".strip() + f" (Q² {1 - (error / deviation) ** 2:.3f})"
+            return (
+                f"{_digits(error * unit.per_si, error * unit.per_si)} {unit.symbol}".strip() + f" (Q² {1 - (error / deviation) ** 2:.3f})"
+            )
 
         errors = self._loo_errors if self.process is not None else self._loo_errors[:1]
         said = "leave-one-out error: " + ", ".join(f"{self._words(bool(at))} {shown(error)}" for at, error in enumerate(errors))
@@ -118,13 +118,19 @@ class Surrogate:
         """Standard deviations of the mean of many runs, on the scale of the fit; NaN where the runs do not tell it."""
         if self.takes_process and self.process is not None:
             return self.process.deviation(self.rows(points))
-        return np.sqrt(self._fit.variances(points)["mean"].to_numpy())
+        return np.asarray(np.hypot(np.sqrt(self._fit.variances(points)["mean"].to_numpy()), self._apart(points)))
 
     def run_deviation(self, points: pandas.DataFrame) -> Numbers:
         """Standard deviations of one more run, on the scale of the fit."""
         if self.takes_process and self.process is not None:
             return self.process.run_deviation(self.rows(points))
-        return np.sqrt(self._fit.variances(points)["run"].to_numpy())
+        return np.asarray(np.hypot(np.sqrt(self._fit.variances(points)["run"].to_numpy()), self._apart(points)))
+
+    def _apart(self, points: pandas.DataFrame) -> Numbers:
+        """Differences of process and polynomial: what of the two is taken by its errors at few points may be wrong by as much."""
+        if self.process is None:
+            return np.zeros(len(points))
+        return np.abs(self.process.mean(self.rows(points)) - self._fit.matrix(points) @ self._fit.coefficients)
 
     @property
     def _fit(self) -> Fitted:
@@ -134,12 +140,16 @@ class Surrogate:
 
     def forecast(self, points: pandas.DataFrame, confidence: float = 0.95) -> pandas.DataFrame:
         """Forecasts with intervals: ``value``, ``mean_low``, ``mean_high``, ``run_low``, ``run_high``, in SI units, and ``leverage``."""
-        if not (self.takes_process and self.process is not None):
-            return self._fit.forecast(points, confidence)
-        found = self.process.intervals(self.rows(points), confidence)
-        found[:, 3], found[:, 4] = np.minimum(found[:, 3], found[:, 1]), np.maximum(found[:, 4], found[:, 2])
-        names = ["value", "mean_low", "mean_high", "run_low", "run_high"]
-        leverage = self._fit.leverage(points)
+        leverage, names = self._fit.leverage(points), ["value", "mean_low", "mean_high", "run_low", "run_high"]
+        if self.takes_process and self.process is not None:
+            found = self.process.intervals(self.rows(points), confidence)
+            found[:, 3], found[:, 4] = np.minimum(found[:, 3], found[:, 1]), np.maximum(found[:, 4], found[:, 2])
+        else:
+            told, tail = self._fit.variances(points), 0.5 + 0.5 * confidence
+            reach = [stats.t.ppf(tail, told[f"{of}_freedom"]) * np.sqrt(told[of]) for of in ("mean", "run")]
+            apart = stats.norm.ppf(tail) * self._apart(points)
+            mean, run = (np.hypot(each, apart) for each in (reach[0], np.maximum(*reach)))
+            found = told["value"].to_numpy()[:, None] + np.column_stack([np.zeros(len(told)), -mean, mean, -run, run])
         return pandas.DataFrame(self.response.back(found), columns=names, index=points.index).assign(leverage=leverage)
 
 
