@@ -1,6 +1,5 @@
 """Comparison of scenes: the same seeds in all, differences of each response with intervals."""
 
-import io
 import json
 import os
 import re
@@ -8,7 +7,6 @@ import tomllib
 import warnings
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from html import escape
 from pathlib import Path
 from typing import Any
 
@@ -37,12 +35,6 @@ USUAL = [
     ("PM10", "pm10_mass:end", "emission"),
 ]
 SURFACES = [("disc", "surface"), ("pin", "base"), ("pin", "surface")]
-STYLE = "body{font-family:sans-serif;max-width:64em;margin:2em auto}table{border-collapse:collapse}td,th{padding:.2em .6em;text-align:left}"
-NOTE = (
-    "Differences are means over pairs of runs with the same seed, with t intervals ({level}); with more than two scenes, intervals and sureness hold for "
-    "all differences of a response together (Bonferroni). Sure at: 1 − p/2, how sure the sign is. Bands of curves: one standard deviation of runs; of "
-    "differences: the interval at each time alone."
-)
 
 
 @dataclass(frozen=True)
@@ -144,32 +136,6 @@ class Comparison:
             figures[str(series)] = figure
         return figures
 
-    def page(self) -> str:
-        """One page for the browser, with the figures inside."""
-        import matplotlib
-
-        head = f'<!doctype html><html lang="en"><meta charset="utf-8"><title>{escape(self.title)}</title><style>{STYLE}</style><h1>{escape(self.title)}</h1>'
-        items = [*(f"{name}: {file}" for name, file in self.scenes.items()), *self.said()]
-        parts = [head, "<ul>", *(f"<li>{escape(item)}</li>" for item in items), "</ul>", self.shown().to_html(index=False)]
-        parts.append(f"<p>{NOTE.format(level=f'{100 * self.confidence:g} %')}</p>")
-        for series, figure in self.figures().items():
-            text = io.StringIO()
-            with matplotlib.rc_context({"svg.hashsalt": series}):
-                figure.savefig(text, format="svg", metadata={"Date": None})
-            parts.append(text.getvalue()[text.getvalue().index("<svg") :])
-        return "\n".join([*parts, "</html>\n"])
-
-    def write(self) -> list[str]:
-        """Writes the page and the tables into the folder of the runs, and gives their names."""
-        files = {
-            "comparison.html": self.page(),
-            "comparison.csv": self.table.to_csv(index=False),
-            "runs.csv": self.runs.to_csv(index=False),
-        }
-        for name, content in files.items():
-            (self.directory / name).write_text(content, encoding="utf-8")
-        return [str(self.directory / name) for name in files]
-
 
 def compare(
     scenes: Sequence[str | os.PathLike[str]],
@@ -225,7 +191,9 @@ def compare(
         keys = _seed_keys(scene)
         fixed = [f"{body}.{part}" for body, part in SURFACES if part in scene.get(body, {}) and "synthetic" not in scene[body][part]]
         if not keys:
-            cautions.append(f"{name} has no synthetic surface and so no seeds: it is one run, and no interval says how other specimens scatter")
+            cautions.append(
+                f"{name} has no synthetic surface and so no seeds: it is one run, and no interval says how other specimens scatter"
+            )
         elif fixed:
             cautions.append(f"{name}: {', '.join(fixed)} is the same in all runs, so intervals say nothing of other specimens of it")
         folder = directory / name
