@@ -120,7 +120,7 @@ class Optimum:
             "study": self.problem.study.title,
             "confidence": self.problem.confidence,
             "settings": [
-                {"factor": row.factor, "value": row.text, "number": None if isinstance(row.value, str) else row.value, "given": True}
+                {"factor": row.factor, "value": row.text, "number": None if isinstance(row.value, str) else float(row.value), "given": True}
                 for row in self.settings.itertuples()
             ],
             "responses": responses,
