@@ -1,14 +1,11 @@
 """Comparison of scenes: the same seeds in all, differences of each response with intervals."""
 
-import io
-import json
 import os
 import re
 import tomllib
 import warnings
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from html import escape
 from pathlib import Path
 from typing import Any
 
@@ -36,12 +33,7 @@ USUAL = [
     ("temperature of the contact", "contact_temperature:mean", "thermal"),
     ("PM10", "pm10_mass:end", "emission"),
 ]
-STYLE = "body{font-family:sans-serif;max-width:64em;margin:2em auto}table{border-collapse:collapse}td,th{padding:.2em .6em;text-align:left}"
-NOTE = (
-    "Differences are means over pairs of runs with the same seed, with t intervals ({level}); with more than two scenes, intervals and sureness hold for "
-    "all differences of a response together (Bonferroni). Sure at: 1 − p/2, how sure the sign is. Bands of curves: one standard deviation of runs; of "
-    "differences: the interval at each time alone."
-)
+SURFACES = [("disc", "surface"), ("pin", "base"), ("pin", "surface")]
 
 
 @dataclass(frozen=True)
@@ -89,12 +81,8 @@ class Comparison:
         lines = []
         for _, row in both.iterrows():
             of = unit_for(row["unit"], float(self.means.loc[self.means["response"] == row["response"], "mean"].abs().max()))
-            line = {
-                "response": row["response"],
-                "scene": row["scene"],
-                "runs": row["runs"],
-                "mean ± of a run": of.text(row["mean"], row["deviation"]),
-            }
+            line = {name: row[name] for name in ("response", "scene", "runs")}
+            line["mean ± of a run"] = of.text(row["mean"], row["deviation"])
             if np.isfinite(row["difference"]):
                 line["difference"] = of.text(row["difference"], 0.5 * (row["high"] - row["low"]), is_difference=True)
                 line |= {"ratio": _ratio(row), "sure at": _sure(row["sureness"])}
@@ -112,7 +100,7 @@ class Comparison:
     def document(self) -> dict[str, Any]:
         """The JSON of ``plateau compare --json``; None where there is no number."""
         tables = {"differences": self.table, "means": self.means, "runs": self.runs}
-        rows = {name: json.loads(table.to_json(orient="records", double_precision=15)) for name, table in tables.items()}
+        rows = {name: table.astype(object).where(table.notna(), None).to_dict("records") for name, table in tables.items()}
         scenes = [{"name": name, "file": file} for name, file in self.scenes.items()]
         return {"scenes": scenes, "reference": scenes[0]["name"], "confidence": self.confidence, **rows, "cautions": self.cautions}
 
@@ -127,11 +115,8 @@ class Comparison:
             of = unit_for(curves["unit"].iloc[0], float(curves["mean"].abs().max()))
             for number, (scene, curve) in enumerate(curves.groupby("scene", sort=False)):
                 time, band = curve["time"], {"color": f"C{number}", "alpha": 0.2, "linewidth": 0}
-                middle, half, (change, low, high) = (
-                    of.value(curve["mean"].values),
-                    of.per_si * curve["deviation"].fillna(0.0),
-                    of.per_si * curve[ENDS].values.T,
-                )
+                middle, half = of.value(curve["mean"].to_numpy()), of.per_si * curve["deviation"].fillna(0.0).to_numpy()
+                change, low, high = of.per_si * curve[ENDS].to_numpy().T
                 top.plot(time, middle, color=f"C{number}", label=scene)
                 top.fill_between(time, middle - half, middle + half, **band)
                 below.plot(time, change, color=f"C{number}")
@@ -140,34 +125,11 @@ class Comparison:
             below.set(xlabel="time, s", ylabel=f"less {next(iter(self.scenes))}")
             below.axhline(0.0, color="0.5", linewidth=0.8)
             top.legend()
+            figure.set_label(
+                f"{str(series).replace('_', ' ')}: means, bands of one standard deviation of runs; differences with the interval at each time alone"
+            )
             figures[str(series)] = figure
         return figures
-
-    def page(self) -> str:
-        """One page for the browser, with the figures inside."""
-        import matplotlib
-
-        head = f'<!doctype html><html lang="en"><meta charset="utf-8"><title>{escape(self.title)}</title><style>{STYLE}</style><h1>{escape(self.title)}</h1>'
-        items = [*(f"{name}: {file}" for name, file in self.scenes.items()), *self.said()]
-        parts = [head, "<ul>", *(f"<li>{escape(item)}</li>" for item in items), "</ul>", self.shown().to_html(index=False)]
-        parts.append(f"<p>{NOTE.format(level=f'{100 * self.confidence:g} %')}</p>")
-        for series, figure in self.figures().items():
-            text = io.StringIO()
-            with matplotlib.rc_context({"svg.hashsalt": series}):
-                figure.savefig(text, format="svg", metadata={"Date": None})
-            parts.append(text.getvalue()[text.getvalue().index("<svg") :])
-        return "\n".join([*parts, "</html>\n"])
-
-    def write(self) -> list[str]:
-        """Writes the page and the tables into the folder of the runs, and gives their names."""
-        files = {
-            "comparison.html": self.page(),
-            "comparison.csv": self.table.to_csv(index=False),
-            "runs.csv": self.runs.to_csv(index=False),
-        }
-        for name, content in files.items():
-            (self.directory / name).write_text(content, encoding="utf-8")
-        return [str(self.directory / name) for name in files]
 
 
 def compare(
@@ -222,24 +184,19 @@ def compare(
     directory, made, cautions = Path(output), {}, []
     for name, file, scene in zip(names, files, resolved, strict=True):
         keys = _seed_keys(scene)
+        fixed = [f"{body}.{part}" for body, part in SURFACES if part in scene.get(body, {}) and "synthetic" not in scene[body][part]]
         if not keys:
             cautions.append(
                 f"{name} has no synthetic surface and so no seeds: it is one run, and no interval says how other specimens scatter"
             )
+        elif fixed:
+            cautions.append(f"{name}: {', '.join(fixed)} is the same in all runs, so intervals say nothing of other specimens of it")
         folder = directory / name
         folder.mkdir(parents=True, exist_ok=True)
         (folder / "seeds.csv").write_text("\n".join(["seed", *map(str, range(1, seeds + 1) if keys else ["none"]), ""]))
         # A title is no part of what a run is known by.
-        study = {
-            "version": 1,
-            "title": name,
-            "base": os.path.abspath(file),
-            "set": changes,
-            "design": "csv",
-            "file": "seeds.csv",
-            "order": "standard",
-        }
-        study |= {"directory": ".", "factor": [{"name": "seed", "key": keys or "title"}], "response": tables}
+        study = {"version": 1, "title": name, "base": os.path.abspath(file), "set": changes, "directory": ".", "order": "standard"}
+        study |= {"design": "csv", "file": "seeds.csv", "factor": [{"name": "seed", "key": keys or "title"}], "response": tables}
         (folder / "study.toml").write_text("".join(f"{key} = {_toml(value)}\n" for key, value in study.items()), encoding="utf-8")
         made[name] = finished(folder / "study.toml", progress, jobs=jobs, workers=workers)
     if len({scene["operation"].get("duration") for scene in resolved}) > 1:
@@ -266,11 +223,7 @@ def _compared(
         for scene in others:
             pair = pandas.DataFrame({0: pairs[first][name], 1: pairs[scene][name]}).dropna()
             if len(pair) < len(most):
-                late = (
-                    "; runs that have not run in lack it, so the difference is biased: make the runs longer"
-                    if name == "running-in time"
-                    else ""
-                )
+                late = "; runs that have not run in lack it, so that it is biased: make them longer" if name == "running-in time" else ""
                 cautions.append(f"{scene}: {name} has a value in {len(pair)} of {len(most)} pairs of runs{late}")
             found = difference(pair[0], pair[1], confidence, len(others))
             rows.append({**common, "scene": scene, **found, "words": _words(f"{scene}: {name}", response.unit, found, confidence)})
@@ -348,25 +301,19 @@ ENDS = ["difference", "low", "high"]
 
 def _curves(made: dict[str, Study], confidence: float) -> pandas.DataFrame:
     first, parts = next(iter(made.values())), []
-    for name in dict.fromkeys(
-        one.series.replace("contact_area", "contact_area_mean") if one.series == "contact_area" else one.series for one in first.responses
-    ):
+    # Its single steps pulse.
+    names = ["contact_area_mean" if one.series == "contact_area" else one.series for one in first.responses]
+    for name in dict.fromkeys(names):
         data = {scene: study.data[name] for scene, study in made.items() if name in study.data and "time" in study.data[name].dims}
+        reference = next(iter(data.values()), None)
         for scene, values in data.items():
-            y, reference = values.transpose("run", "time"), next(iter(data.values())).transpose("run", "time")
-            part = {
-                "series": name,
-                "unit": values.attrs.get("units", "1"),
-                "scene": scene,
-                "time": y["time"].values,
-                "mean": y.values.mean(0),
-            }
-            part |= {"deviation": y.values.std(0, ddof=1) if len(y) > 1 else np.nan, **dict.fromkeys(ENDS, np.nan)}
-            if scene != next(iter(made)) and np.array_equal(reference["time"], y["time"]):
-                d = y.values - reference.values
-                half = stats.t.ppf(0.5 + confidence / 2.0, len(d) - 1) * stats.sem(d) if len(d) > 1 else np.nan
-                part |= dict(zip(ENDS, (d.mean(0), d.mean(0) - half, d.mean(0) + half), strict=True))
-            parts.append(pandas.DataFrame(part))
+            time, y = values["time"].values, pandas.DataFrame(values.transpose("run", "time").values)
+            part = pandas.DataFrame({"time": time, "mean": y.mean(), "deviation": y.std(), **dict.fromkeys(ENDS, np.nan)})
+            if scene != next(iter(made)) and reference is not None and np.array_equal(reference["time"], time):
+                change = pandas.DataFrame(y.to_numpy() - reference.transpose("run", "time").values)
+                half = stats.t.ppf(0.5 + confidence / 2.0, change.count() - 1) * change.sem()
+                part[ENDS] = np.transpose([change.mean(), change.mean() - half, change.mean() + half])
+            parts.append(part.assign(series=name, unit=values.attrs.get("units", "1"), scene=scene))
     return pandas.concat(parts, ignore_index=True) if parts else pandas.DataFrame(columns=["series", "scene"])
 
 
@@ -381,10 +328,8 @@ def _response(name: str, asked: str) -> dict[str, Any]:
     dataset, _, question = (part.strip() for part in asked.partition(":"))
     dataset = dataset if dataset.startswith("/") else f"/series/{dataset}"
     word, _, rest = question.partition(" ")
-    table: dict[str, Any] = {
-        "name": name or re.sub(r"^/series/|^/", "", asked).replace("_", " ").replace(":", ", ").replace("/", " "),
-        "dataset": dataset,
-    }
+    name = name or re.sub(r"^/series/|^/", "", asked).replace("_", " ").replace(":", ", ").replace("/", " ")
+    table: dict[str, Any] = {"name": name, "dataset": dataset}
     if question == "mean" or not question and dataset == "/series/contact_area":
         return table | {"mean": "last tenth"}
     if word == "mean":
