@@ -107,13 +107,15 @@ class ResponseEffects:
             "error_from": error_from(fit),
         }
 
-    def means(self, *factors: str) -> pandas.DataFrame:
+    def means(self, *factors: str, steps: int = 0) -> pandas.DataFrame:
         """Means of the model at the levels of one factor or two, over all levels of the others and their middles.
 
         Parameters
         ----------
         *factors : str
             Names.
+        steps : int
+            Number of values of the first factor, if it has a range; those of the runs unless given.
 
         Returns
         -------
@@ -126,7 +128,7 @@ class ResponseEffects:
             return pandas.DataFrame(columns=[*factors, "mean", "low", "high", "observed", "runs", "unit"])
         names = [factor.name for factor in fit.study.factors]
         places = [names.index(name) for name in factors]
-        cells = pandas.DataFrame(list(itertools.product(*(_places(fit, at) for at in places))), columns=list(factors))
+        cells = pandas.DataFrame(list(itertools.product(*(_places(fit, at, steps * (at == places[0])) for at in places))), columns=list(factors))
         numbers = [
             coding.numbers(cells[coding.factor.name]) if at in places else np.zeros((len(cells), coding.width))
             for at, coding in enumerate(fit.codings)
@@ -172,11 +174,13 @@ def _same(values: pandas.Series, value: Any) -> Numbers:
     return np.asarray(values == value) if isinstance(value, str) else np.isclose(values.to_numpy(float), value, rtol=1e-9, atol=0.0)
 
 
-def _places(fit: Fitted, at: int) -> list[Any]:
+def _places(fit: Fitted, at: int, steps: int = 0) -> list[Any]:
     """Where the means of a factor are given: levels, the values of few, and steps of ranges."""
     coding = fit.codings[at]
     if coding.classes is not None:
         return list(coding.classes)
+    if steps:
+        return coding.factor.value(np.linspace(-1.0, 1.0, steps)).tolist()
     coded = np.unique(np.round(coding.factor.coded(fit.runs[coding.factor.name]), 9))
     return coding.factor.value(coded if len(coded) <= MOST_VALUES else np.linspace(-1.0, 1.0, 5)).tolist()
 
