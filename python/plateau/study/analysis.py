@@ -22,6 +22,7 @@ from plateau.study.model import (
     Term,
     f_test,
     fitted,
+    is_curved,
     misfit,
     named,
     owner,
@@ -182,7 +183,7 @@ def _places(fit: Fitted, at: int, steps: int = 0) -> list[Any]:
     if steps:
         return coding.factor.value(np.linspace(-1.0, 1.0, steps)).tolist()
     coded = np.unique(np.round(coding.factor.coded(fit.runs[coding.factor.name]), 9))
-    return coding.factor.value(coded if len(coded) <= MOST_VALUES else np.linspace(-1.0, 1.0, 5)).tolist()
+    return list(coding.factor.value(coded if len(coded) <= MOST_VALUES else np.linspace(-1.0, 1.0, 5)))
 
 
 def error_from(fit: Fitted) -> str:
@@ -193,7 +194,7 @@ def error_from(fit: Fitted) -> str:
         return "none: the model reproduces all responses"
     if fit.seeds > 1:
         return f"what each effect differs by between {fit.seeds} sets of seeds"
-    interactions = not fit.chosen and all(coding.classes is not None for coding in fit.codings)
+    interactions = not fit.chosen and not any(is_curved(fit, at) for at in range(len(fit.codings)))
     left_out = {"main": "interactions", "interactions": "interactions of third and higher order"} if interactions else {}
     said = left_out.get(fit.model, "what the model leaves out")
     if not fit.scatter[0].freedom:
@@ -301,7 +302,8 @@ def lenth(sizes: Numbers, confidence: float) -> tuple[float, float, float] | Non
         return None
     error, freedom = 1.5 * float(np.median(sizes[sizes < 2.5 * first])), len(sizes) / 3.0
     tails = 0.5 + 0.5 * confidence, 0.5 + 0.5 * confidence ** (1.0 / len(sizes))
-    return error, *(float(stats.t.ppf(tail, freedom)) * error for tail in tails)
+    margin, simultaneous = (float(stats.t.ppf(tail, freedom)) * error for tail in tails)
+    return error, margin, simultaneous
 
 
 # Powers ----------------------------------------------------------------------------------------------------------------------------
@@ -625,15 +627,21 @@ def _squares(squares: Squares, f: float = np.nan, p: float = np.nan) -> dict[str
     return {"degrees_of_freedom": squares.freedom, "sum_of_squares": squares.sum, "f": _or_none(f), "p": _or_none(p)}
 
 
+# Members of the document of a response that are null where nothing could be fitted.
+REPORTED = "model model_reason mean middle r_squared adjusted_r_squared predicted_r_squared residual_standard_deviation residual".split()
+REPORTED += "lack_of_fit pure_error misfit curvature box_cox terms_left_out aicc lenth".split()
+
+
 def _report(one: ResponseEffects) -> dict[str, Any]:
     """A response in the document."""
     fit, response, table = one.fit, one.response, one.table
     report: dict[str, Any] = {"name": response.name, "unit": response.unit}
     report |= {"transform": None if response.transform == "none" else response.transform, "fitted": one.title, "error": one.error or None}
     if fit is None:
-        return report | {"runs": 0, "missing": 0, "equations": [], "terms": [], "cautions": []}
+        report |= dict.fromkeys(REPORTED) | {"runs": 0, "missing": 0}
+        return report | {"error_from": "", "equations": [], "terms": [], "cautions": []}
     terms = table[table["factors"].notna() | (table["term"] == "replicate")]
-    centre = terms[terms["factors"] == ()]
+    centre = terms[terms["term"] == "centre points"]
     missed, has_parts = misfit(fit), fit.scatter[0].freedom > 0
     judged = lenth(terms.loc[[bool(term) for term in terms["factors"]], "effect"].dropna().abs().to_numpy(), fit.confidence)
     report |= {"model": fit.model, "model_reason": fit.reason, **{key: _or_none(value) for key, value in one.summary.items()}}

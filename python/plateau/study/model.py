@@ -677,7 +677,7 @@ def _whole(study: Study, response: Response, model: str, reason: str, confidence
     if np.abs(values).max() > 1e150:
         raise NothingToFit(f"the response {np.abs(values).max():e} is beyond ±1e150")
     if np.ptp(values) <= max(ROUNDING * np.abs(values).max(), 1e-150):
-        raise NothingToFit(f"the response is {values[0]!r} in all {len(values)} observations: no factor has an effect on it")
+        raise NothingToFit(f"the response is {float(values[0])!r} in all {len(values)} observations: no factor has an effect on it")
     kept = runs.loc[has, ["replicate", *(factor.name for factor in study.factors)]].copy()
     codings = [Coding.of(factor, kept[factor.name], model) for factor in study.factors]
     keys = [_keys(factor, kept[factor.name]) for factor in study.factors]
@@ -722,7 +722,7 @@ def _choice(study: Study, response: Response) -> tuple[str, str]:
     if study.design in ("full-factorial", "fractional-factorial"):
         if any(factor.is_number and not factor.is_range and len(factor.levels) > 2 for factor in study.factors):
             return "interactions", "no squares: levels are compared one by one, which shows curves, too"
-        if any(factor.is_number and factor.is_range for factor in study.factors):
+        if any(factor.is_range and study.runs[factor.name].nunique() > 2 for factor in study.factors):
             return "interactions", "no squares: centre points tell of a curve, and not in which factor"
         return "interactions", "no squares: no factor that is a number has more than two values"
     problem = no_squares(_whole(study, response, "quadratic", "", 0.95))

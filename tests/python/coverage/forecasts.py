@@ -1,15 +1,22 @@
 """Coverage of the forecasts' 95 % intervals, by simulation: ``python tests/python/coverage/forecasts.py [functions]``.
 
 Responses are smooth by lot: sums of cosines with random frequencies (A. Rahimi, B. Recht, NIPS 20, 2007), products of powers, sums that
-come to an end. Each run has noise besides (a standard deviation of 0.04 of the response's), and its seeds add something everywhere (0.02).
+come to an end. Each run has noise besides (a standard deviation of 0.04 of the response's), and its seeds add something everywhere (0.02; nothing
+where there is one set alone, which cannot tell it).
 """
 
+import math
 import sys
+from pathlib import Path
 
 import numpy as np
+import pandas
+import xarray
 from scipy.stats import qmc
 
 from plateau.study.process import Process
+from plateau.study.results import Factor, Response, Study
+from plateau.study.surrogate import surrogates
 
 NOISE, OF_SEEDS, PLACES = 0.04, 0.02, 25
 # Kind of response, factors, points, sets of seeds.
@@ -45,7 +52,7 @@ def process_coverage(kind, factors, points, seeds, functions, number=20261124):
         response = function(kind, factors, random)
         place = 2.0 * qmc.LatinHypercube(factors, seed=random).random(points) - 1.0
         x, group = np.repeat(place, seeds, axis=0), np.tile(np.arange(seeds), points)
-        y = response(x) + OF_SEEDS * random.standard_normal(seeds)[group] + NOISE * random.standard_normal(len(x))
+        y = response(x) + (seeds > 1) * OF_SEEDS * random.standard_normal(seeds)[group] + NOISE * random.standard_normal(len(x))
         asked = random.uniform(-1.0, 1.0, (PLACES, factors))
         truth = response(asked)
         run = truth + OF_SEEDS * random.standard_normal(PLACES) + NOISE * random.standard_normal(PLACES)
@@ -54,12 +61,54 @@ def process_coverage(kind, factors, points, seeds, functions, number=20261124):
     return np.mean(covered, axis=0)
 
 
+def study_of(place, response, replicate=None, design="latin-hypercube", words=None):
+    """A study whose factors x1, x2, ... are coded, with a response y; `words` are the levels of a further factor w, by run."""
+    names, count = [f"x{at + 1}" for at in range(place.shape[1])], len(place)
+    factors = [Factor(name, "", "1", (-1.0, 1.0), True, False, False, "", 1.0, 0.0) for name in names]
+    columns = dict(zip(names, place.T, strict=True))
+    if words is not None:
+        factors.append(Factor("w", "", "", tuple(sorted(set(words))), False, False, False, "", 1.0, 0.0))
+        columns["w"] = words
+    index = pandas.Index(np.arange(1, count + 1), name="run")
+    points = np.unique(place, axis=0, return_inverse=True)[1].ravel() + 1
+    replicate = np.ones(count, int) if replicate is None else replicate
+    own = {"point": points, "replicate": replicate, "order": index, "same_as": index, "state": "finished"}
+    runs = pandas.DataFrame({**own, **columns, "y": response}, index=index)
+    responses = [Response("y", "1", "", "none", -math.inf, math.inf, {})]
+    return Study("Simulated", design, factors, responses, runs, runs[[]], runs, xarray.Dataset(), {}, None, Path())
+
+
+def surrogate_coverage(kind, factors, points, seeds, functions, number=20261124):
+    """By what was taken (0 the polynomial, 1 the process): shares of intervals that have the truth in them, and how often."""
+    random, covered = np.random.default_rng(number), ([], [])
+    for _ in range(functions):
+        response = function(kind, factors, random)
+        place = 2.0 * qmc.LatinHypercube(factors, seed=random).random(points) - 1.0
+        x, group = np.repeat(place, seeds, axis=0), np.tile(np.arange(seeds), points)
+        y = response(x) + (seeds > 1) * OF_SEEDS * random.standard_normal(seeds)[group] + NOISE * random.standard_normal(len(x))
+        asked = random.uniform(-1.0, 1.0, (PLACES, factors))
+        truth = response(asked)
+        run = truth + OF_SEEDS * random.standard_normal(PLACES) + NOISE * random.standard_normal(PLACES)
+        (found,) = surrogates(study_of(x, y, group))
+        told = found.forecast(pandas.DataFrame(asked, columns=[f"x{at + 1}" for at in range(factors)]))
+        is_mean, is_run = told["mean_low"].le(truth) & told["mean_high"].ge(truth), told["run_low"].le(run) & told["run_high"].ge(run)
+        covered[found.takes_process].append([is_mean.mean(), is_run.mean()])
+    return [np.mean(own, axis=0) if own else np.full(2, np.nan) for own in covered], [len(own) for own in covered]
+
+
 def main():
     functions = int(sys.argv[1]) if len(sys.argv) > 1 else 200
-    print("| response | factors | points | seeds | of means | of runs |\n|---|---|---|---|---|---|", flush=True)
+    print("Gaussian process\n\n| response | factors | points | seeds | of means | of runs |\n|---|---|---|---|---|---|", flush=True)
     for kind, factors, points, seeds in STUDIES:
         means, runs = 100.0 * process_coverage(kind, factors, points, seeds, functions)
         print(f"| {kind} | {factors} | {points} | {seeds} | {means:.1f} % | {runs:.1f} % |", flush=True)
+    print("\nWhichever forecasts better\n")
+    print("| response | factors | points | seeds | polynomial | its means | its runs | process | its means | its runs |")
+    print("|---|---|---|---|---|---|---|---|---|---|", flush=True)
+    for kind, factors, points, seeds in STUDIES:
+        shares, counts = surrogate_coverage(kind, factors, points, seeds, functions)
+        cells = [f"{count} | {100 * own[0]:.1f} % | {100 * own[1]:.1f} %" for own, count in zip(shares, counts, strict=True)]
+        print(f"| {kind} | {factors} | {points} | {seeds} | {' | '.join(cells)} |", flush=True)
 
 
 if __name__ == "__main__":

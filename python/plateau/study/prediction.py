@@ -1,0 +1,374 @@
+"""Predictions: what responses are expected to be where no run was made, and what runs there give."""
+
+import itertools
+import os
+import re
+import warnings
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import pandas
+
+from plateau.errors import InputError, PlateauWarning
+from plateau.study.analysis import _digits, together, usable
+from plateau.study.results import Factor, Study, analysed
+from plateau.study.surrogate import Surrogate, surrogates
+from plateau.study.units import parsed, unit_for
+
+# Most places of a grid; coded values that differ by less are the same.
+MOST_PLACES, SAME = 1_000_000, 1e-9
+INTERVALS = ["mean_low", "mean_high", "run_low", "run_high"]
+
+
+@dataclass(frozen=True, repr=False)
+class Prediction:
+    """What is expected of the responses of a study at places.
+
+    Attributes
+    ----------
+    study : Study
+    places : pandas.DataFrame
+        A column for each factor, SI units or words.
+    given : list of str
+        Factors that were set; others are in the middle of their range, or at their first level.
+    table : pandas.DataFrame
+        A row for each place and response: ``place`` (from 1), factors, ``response``, ``unit``, ``value``, ``mean_low``, ``mean_high`` (of the mean
+        over all seeds), ``run_low``, ``run_high`` (of one more run), ``leverage``, ``beyond`` (factors outside the runs), ``cautions``, and of
+        runs there ``confirmed``, ``confirmed_error``, ``confirmed_runs``, ``is_within`` the interval of runs. SI units.
+    surrogates : list of Surrogate
+    confidence : float
+    cautions : list of str
+    """
+
+    study: Study
+    places: pandas.DataFrame
+    given: list[str]
+    table: pandas.DataFrame
+    surrogates: list[Surrogate]
+    confidence: float
+    cautions: list[str]
+
+    @property
+    def wide(self) -> pandas.DataFrame:
+        """A row for each place: what ``--output`` writes."""
+        units = {factor.name: factor.unit for factor in self.study.factors}
+        wide = self.places.rename(columns={name: _head(name, unit) for name, unit in units.items()})
+        names = ["value", *INTERVALS] + ["confirmed", "confirmed_error", "confirmed_runs"] * bool(self.table["confirmed_runs"].any())
+        for response in self.study.responses:
+            rows = self.table[self.table["response"] == response.name]
+            for name in names:
+                words = {"value": "", "confirmed_error": "confirmed standard error"}.get(name, name.replace("_", " "))
+                head = _head(f"{response.name} {words}".strip(), "" if name == "confirmed_runs" else response.unit)
+                wide[head] = rows[name].to_numpy()
+        at_place = self.table.groupby("place", sort=False)
+        return wide.assign(beyond=at_place["beyond"].first().to_numpy(), cautions=[_joined(own["cautions"]) for _, own in at_place])
+
+    def document(self) -> dict[str, Any]:
+        """What ``plateau sweep predict --json`` prints, SI units."""
+        places = []
+        for (_, rows), (_, place) in zip(self.table.groupby("place", sort=False), self.places.iterrows(), strict=True):
+            settings = [
+                {
+                    "factor": factor.name,
+                    "value": factor.text(value),
+                    "number": value if factor.is_number else None,
+                    "given": factor.name in self.given,
+                }
+                for factor, value in zip(self.study.factors, place[[factor.name for factor in self.study.factors]], strict=True)
+            ]
+            responses, confirmed = [], []
+            for (_, row), surrogate in zip(rows.iterrows(), self.surrogates, strict=True):
+                value, *ends, leverage, mean, error = (
+                    _plain(row[name]) for name in ["value", *INTERVALS, "leverage", "confirmed", "confirmed_error"]
+                )
+                intervals = [None if None in pair else pair for pair in (ends[:2], ends[2:])]
+                own = {
+                    "name": row["response"],
+                    "unit": row["unit"],
+                    "value": value,
+                    "mean_interval": intervals[0],
+                    "run_interval": intervals[1],
+                }
+                cautions = [caution for caution in row["cautions"].split("; ") if caution]
+                responses.append({**own, "error": surrogate.error or None, "leverage": leverage, "cautions": cautions})
+                count, is_within = int(row["confirmed_runs"]), row["is_within"]
+                made = {"runs": count, "mean": mean, "standard_error": error, "within_run_interval": is_within}
+                confirmed.append(made if count else None)
+            beyond = [one for one in rows["beyond"].iloc[0].split("; ") if one]
+            places.append(
+                {"settings": settings, "beyond": beyond, "responses": responses, "confirmed": confirmed if any(confirmed) else None}
+            )
+        models = [surrogate.words or None for surrogate in self.surrogates]
+        return {"study": self.study.title, "confidence": self.confidence, "models": models, "places": places, "cautions": self.cautions}
+
+    def text(self) -> str:
+        """What ``plateau sweep predict`` prints."""
+        level, lines = f"{100 * self.confidence:g} %", []
+        for (number, rows), (_, place) in zip(self.table.groupby("place", sort=False), self.places.iterrows(), strict=True):
+            where = [
+                f"{one.name} = {one.text(place[one.name])}{'' if one.name in self.given else ' (not given)'}" for one in self.study.factors
+            ]
+            lines += [self.study.title if number == 1 else "", f"  at {', '.join(where)}"]
+            cells = []
+            for _, row in rows.iterrows():
+                unit = unit_for(row["unit"], float(np.nanmax(np.abs(self.study.runs[row["response"]].to_numpy(float)), initial=0.0)))
+                ends = [unit.value(row[name]) for name in INTERVALS]
+                # Digits follow the interval.
+                width = (ends[1] - ends[0]) / 2 if np.isfinite(ends[0]) else np.nan
+                shown = [_digits(value, width) for value in (unit.value(row["value"]), *ends, unit.value(row["confirmed"]))]
+                pairs = [f"{shown[at]} … {shown[at + 1]}" if shown[at] else "–" for at in (1, 3)]
+                cell = {"response": ", ".join(filter(None, [row["response"], unit.symbol])), "predicted": shown[0] or "–"}
+                cell |= {f"{level} of means": pairs[0], f"{level} of runs": pairs[1], "": row["beyond"]}
+                if rows["confirmed_runs"].any():
+                    error = _digits(row["confirmed_error"] * unit.per_si, row["confirmed_error"] * unit.per_si)
+                    cell["confirmed by runs"] = f"{shown[5]} ± {error or '–'} ({row['confirmed_runs']} runs)"
+                cells.append(cell)
+            lines += ["  " + line.rstrip() for line in pandas.DataFrame(cells).to_string(index=False).splitlines()]
+        made = self.table[self.table["confirmed_runs"] > 0]
+        if len(self.places) > 1 and len(made):
+            for name, rows in made.groupby("response", sort=False):
+                apart = float(np.sqrt(np.square(rows["confirmed"] - rows["value"]).mean()))
+                within = f"{int(rows['is_within'].sum())} of {len(rows)} places within the interval of runs"
+                lines.append(
+                    f"  {name}: means of runs are {unit_for(rows['unit'].iloc[0], apart).text(apart, is_difference=True)} apart, {within}"
+                )
+        lines += [f"  {one.response.name}: {one.error or one.reason}" for one in self.surrogates if one.process is not None or one.error]
+        return "\n".join([*lines, *(f"  caution: {caution}" for caution in self.cautions), ""])
+
+
+def predict(
+    study: Study | str | os.PathLike[str],
+    at: Mapping[str, Any] | Sequence[str] = (),
+    grid: int | None = None,
+    points: pandas.DataFrame | str | os.PathLike[str] | None = None,
+    *,
+    extrapolate: bool = False,
+    confirm: bool = False,
+    model: str | None = None,
+    terms: str = "all",
+    confidence: float = 0.95,
+    jobs: int | None = None,
+    workers: int | None = None,
+) -> Prediction:
+    """Predicts the responses of a study.
+
+    Parameters
+    ----------
+    study : path or Study
+    at : dict or list of str
+        Values of factors, such as ``{"load": "7 N"}``, ``{"load": 7.0}`` (SI) or ``["load=7 N"]``. Others are in the middle of their range, or
+        at their first level.
+    grid : int, optional
+        Predict at so many values of each range and at all levels, but for factors of `at`.
+    points : path or DataFrame, optional
+        Predict at the rows of a table (CSV): a column for each factor, such as ``load [N]``, or ``load`` with quantities or SI units.
+    extrapolate : bool
+        Predict beyond the runs, too.
+    confirm : bool
+        Make runs there, with all seeds of the study; `jobs` at a time with `workers` threads each.
+    model, terms : str, optional
+        As for `effects`.
+    confidence : float
+        Level of the intervals.
+
+    Returns
+    -------
+    Prediction
+
+    Examples
+    --------
+    >>> predict("loads.toml", {"load": "7 N"}).table[["response", "value", "mean_low", "mean_high", "unit"]]
+    """
+    opened = usable(analysed(study))
+    known = surrogates(opened, model, terms, confidence)
+    is_curved = all(one.fit.model == "quadratic" for one in known if one.fit)
+    pairs = at.items() if isinstance(at, Mapping) else [_assignment(opened, text) for text in at]
+    held: dict[str, Any] = {}
+    for name, said in pairs:
+        factor = _factor(opened, name, "--at")
+        if factor.name in held:
+            raise InputError(f"--at: {factor.name} is given twice")
+        held[factor.name] = _value(factor, said, "--at", is_curved)
+    if points is not None:
+        places, given = _rows(opened, points, held, is_curved)
+    else:
+        axes = {one.name: [held[one.name]] if one.name in held else _axis(one, grid, is_curved) for one in opened.factors}
+        if np.prod([float(len(axis)) for axis in axes.values()]) > MOST_PLACES:
+            raise InputError(f"--grid {grid}: more than {MOST_PLACES} places; hold factors with --at")
+        places = pandas.DataFrame(list(itertools.product(*axes.values())), columns=list(axes))
+        given = list(axes) if grid else list(held)
+    beyond = _beyond(opened, places)
+    if not extrapolate and (first := next((at for at, said in enumerate(beyond) if said), None)) is not None:
+        which = f"place {first + 1}: " if len(places) > 1 else ""
+        raise InputError(f"{which}{beyond[first]}; the model knows nothing there, give --extrapolate to see what it says nevertheless")
+    made = None
+    if confirm:
+        from plateau.study.runs import make_runs
+
+        made = make_runs(opened, places, jobs=jobs, workers=workers)
+    general = [*together(opened), *_no_curve(opened, places)]
+    for said in general:
+        warnings.warn(said, PlateauWarning, stacklevel=2)
+    tables = [_forecast(one, places, beyond, confidence, made) for one in known]
+    cautions = general + [
+        f"{one.response.name}: {said}" for one, table in zip(known, tables, strict=True) for said in table.attrs["cautions"]
+    ]
+    table = pandas.concat([table.assign(own=own) for own, table in enumerate(tables)]).sort_values(["place", "own"], ignore_index=True)
+    return Prediction(opened, places, given, table.drop(columns="own"), known, confidence, cautions)
+
+
+def _forecast(
+    one: Surrogate, places: pandas.DataFrame, beyond: list[str], confidence: float, made: pandas.DataFrame | None
+) -> pandas.DataFrame:
+    """Forecasts of a response, with what is to be known of each."""
+    names, response = ["value", *INTERVALS, "leverage"], one.response
+    untold = pandas.DataFrame(np.nan, index=places.index, columns=names)
+    found = one.forecast(places, confidence)[names] if one.fit else untold
+    said: list[list[str]] = [[] for _ in range(len(places))]
+    notes = list(one.cautions)
+    most = one.fit.most_leverage if one.fit else np.inf
+    bounds = [bound for bound in (response.low, response.high) if np.isfinite(bound)]
+    is_cut = found[["value", *INTERVALS]].isin(bounds).any(axis=1)
+    advice = "" if response.transform != "none" else f'; transform = "{"logit" if response.high == 1.0 else "log"}" keeps to what can be'
+    for marks, short, long in (
+        (found["leverage"] > most * (1.0 + SAME), "extrapolation", f"leverage is above {most:.3g}, the largest of the runs"),
+        (
+            found["mean_low"].isna() & (one.fit is not None),
+            "no interval",
+            "the runs do not tell it there, or leave no error; terms that cannot be told from others count as nothing",
+        ),
+        (is_cut, "cut", f"intervals are cut at {' and '.join(f'{bound:g}' for bound in bounds)}, for less or more cannot be{advice}"),
+    ):
+        if marks.any():
+            notes.append(f"{short}: {long}" + (f" ({int(marks.sum())} of {len(places)} places)" if len(places) > 1 else ""))
+        for at in np.flatnonzero(marks):
+            said[at].append(short)
+    cautions = [_joined([*(caution.split(":")[0].split(" (")[0] for caution in one.cautions), *own]) for own in said]
+    table = places.assign(response=response.name, unit=response.unit, **found, beyond=beyond, cautions=cautions)
+    runs = made.groupby("point")[response.name] if made is not None else None
+    counts = runs.count().reindex(range(1, len(places) + 1), fill_value=0).to_numpy() if runs is not None else np.zeros(len(places), int)
+    mean, error = (
+        ((of.reindex(range(1, len(places) + 1)).to_numpy() for of in (runs.mean(), runs.sem()))) if runs is not None else (np.nan, np.nan)
+    )
+    within = [
+        None if np.isnan(low) or not count else bool(low <= value <= high)
+        for low, high, value, count in zip(table["run_low"], table["run_high"], np.broadcast_to(mean, len(places)), counts, strict=True)
+    ]
+    table = table.assign(
+        confirmed=mean, confirmed_error=error, confirmed_runs=counts, is_within=pandas.Series(within, index=places.index, dtype=object)
+    )
+    table.insert(0, "place", np.arange(1, len(places) + 1))
+    table.attrs["cautions"] = notes
+    return table
+
+
+def _factor(study: Study, name: str, where: str) -> Factor:
+    for factor in study.factors:
+        if name.strip() in (factor.name, *factor.keys.split(", ")):
+            return factor
+    raise InputError(f"{where}: {name!r} is not a factor of the study, expected one of {', '.join(one.name for one in study.factors)}")
+
+
+def _assignment(study: Study, text: str) -> tuple[str, str]:
+    """Name and value of ``NAME=VALUE``; both may have ``=`` in them."""
+    names = {name for factor in study.factors for name in (factor.name, *factor.keys.split(", "))}
+    parts = [(text[: at.start()].strip(), text[at.end() :].strip()) for at in re.finditer("=", text)]
+    return next((part for part in parts if part[0] in names), parts[0] if parts else (text, ""))
+
+
+def _value(factor: Factor, said: Any, where: str, is_curved: bool) -> Any:
+    """A value of a factor, from a text with its unit, an SI number or a word."""
+    if not factor.is_number:
+        if str(said) not in factor.levels:
+            raise InputError(f"{where}: {factor.name} = {said}: expected one of {', '.join(factor.levels)}")
+        return str(said)
+    value = said
+    if isinstance(said, str):
+        number = said.strip().removesuffix(factor.study_unit).strip()
+        is_plain = re.fullmatch(r"[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?", number.replace("−", "-"))
+        if is_plain and (number != said.strip() or not factor.study_unit):
+            value = float(number.replace("−", "-")) * factor.one + factor.zero
+        elif is_plain:
+            raise InputError(f'{where}: {factor.name} = {said}: expected a quantity such as "{factor.text(factor.ends[0])}"')
+        else:
+            value = parsed(factor.unit or "1", said)
+    if not np.isfinite(value) or factor.logarithmic and value <= 0:
+        raise InputError(f"{where}: {factor.name} = {said}: expected a {'number above 0' if factor.logarithmic else 'number'}")
+    if not factor.is_range:
+        same = [level for level in factor.levels if abs(level - value) <= SAME * max(map(abs, factor.levels))]
+        if not same and (factor.whole or len(factor.levels) > 2 and not is_curved):
+            levels = ", ".join(map(factor.text, factor.levels))
+            advice = "" if factor.whole else "; --model quadratic tells what lies between them"
+            raise InputError(f"{where}: {factor.name} = {said}: the model knows the levels {levels} alone{advice}")
+        value = same[0] if same else value
+    return float(value)
+
+
+def _axis(factor: Factor, grid: int | None, is_curved: bool) -> list[Any]:
+    """Values of a grid; the middle of a range or the first level without."""
+    is_between = factor.is_number and (factor.is_range or not factor.whole and (len(factor.levels) == 2 or is_curved))
+    if not is_between:
+        return list(factor.levels) if grid else [factor.levels[0]]
+    values = factor.value(np.linspace(-1.0, 1.0, max(grid, 1)) if grid and grid > 1 else [-1.0 if grid else 0.0])
+    return [float(value) for value in (np.unique(np.round(values)) if factor.whole else values)]
+
+
+def _rows(study: Study, points: Any, held: dict[str, Any], is_curved: bool) -> tuple[pandas.DataFrame, list[str]]:
+    """The rows of a table, and the factors that they have."""
+    where = "points"
+    if not isinstance(points, pandas.DataFrame):
+        where = os.fspath(points)
+        try:
+            points = pandas.read_csv(points, dtype=str, keep_default_na=False, skipinitialspace=True, sep=None, engine="python")
+        except (OSError, ValueError) as error:
+            raise InputError(f"{where}: cannot be read as a table: {error}") from error
+    columns: dict[str, list[Any]] = {}
+    for head in points.columns:
+        name, unit = re.fullmatch(r"(.*?)\s*(?:\[(.*)\])?", str(head)).groups()  # type: ignore[union-attr]
+        factor = _factor(study, name, f"{where}: column {head!r}")
+        said = [f"{value} {unit}" if unit and isinstance(value, str) else value for value in points[head]]
+        columns[factor.name] = [_value(factor, value, f"{where}: line {at + 2}", is_curved) for at, value in enumerate(said)]
+    rest = {one.name: held.get(one.name, _axis(one, None, is_curved)[0]) for one in study.factors}
+    places = pandas.DataFrame({one.name: columns.get(one.name, rest[one.name]) for one in study.factors}, index=range(len(points)))
+    return places, [*columns, *held]
+
+
+def _beyond(study: Study, places: pandas.DataFrame) -> list[str]:
+    """By place, which factors are beyond the runs."""
+    said: list[list[str]] = [[] for _ in range(len(places))]
+    for factor in (factor for factor in study.factors if factor.is_number):
+        run = factor.coded(study.runs[factor.name])
+        ends, coded = (min(run.min(), -1.0), max(run.max(), 1.0)), factor.coded(places[factor.name].to_numpy(float))
+        low, high = (factor.text(float(factor.value(end))) for end in ends)
+        low = low.removesuffix(factor.study_unit).strip() if factor.study_unit else low
+        for at in np.flatnonzero((coded < ends[0] - SAME) | (coded > ends[1] + SAME)):
+            said[at].append(f"{factor.name} is beyond {low} to {high}")
+    return [_joined(one) for one in said]
+
+
+def _no_curve(study: Study, places: pandas.DataFrame) -> list[str]:
+    """That the runs show no curve of factors with two values, between which there are places."""
+    names = []
+    for factor in (factor for factor in study.factors if factor.is_number):
+        values = np.unique(np.round(factor.coded(study.runs[factor.name]), 9))
+        if len(values) == 2 and (np.abs(factor.coded(places[factor.name].to_numpy(float))) < 1.0 - SAME).any():
+            names.append(factor.name)
+    if not names:
+        return []
+    said = f"{', '.join(names)}: the runs have two values of {'it' if len(names) == 1 else 'each'}, so that they show no curve: between these, "
+    said += "forecasts follow a straight line, and their intervals do not know by how much the response bends; give a third value in the middle, "
+    return [said + 'such as with design = "central-composite", and look with --confirm how far off a forecast is']
+
+
+def _head(name: str, unit: str) -> str:
+    return name if unit in ("", "1") else f"{name} [{unit}]"
+
+
+def _joined(parts: Any) -> str:
+    return "; ".join(dict.fromkeys(part for one in parts for part in str(one).split("; ") if part))
+
+
+def _plain(value: Any) -> float | None:
+    return float(value) if np.isfinite(value) else None
