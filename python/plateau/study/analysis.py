@@ -701,11 +701,11 @@ def _digits(value: float, width: float = np.nan) -> str:
     return f"{round(value, places):.{max(places, 0)}f}".replace("-", "−")
 
 
-def _text(one: ResponseEffects) -> str:
-    """What is said of a response."""
+def told(one: ResponseEffects) -> tuple[list[str], list[list[str]], list[str]]:
+    """What is said of a response, the rows of its table with their heads, and what stands below it."""
     fit, table = one.fit, one.table
     if fit is None:
-        return f"{one.response.name}\n  {one.error}\n"
+        return [one.response.name, one.error], [], []
     unit = unit_for(one.unit, float(np.abs(fit.values).max()))
     unit = Unit(one.unit, 1.0) if unit.offset else unit
     summary, scale = one.summary, unit.per_si
@@ -748,13 +748,8 @@ def _text(one: ResponseEffects) -> str:
         cells = [name, _digits(row["effect"] * scale, width), " … ".join(ends) if np.isfinite(width) else "", f"{100 * row['share']:.1f} %"]
         freedom = f"{row['error_freedom']:.3g}" if np.isfinite(row["error_freedom"]) else ""
         rows.append([*cells, str(row["degrees_of_freedom"]), freedom, _digits(row["f"]), _digits(row["p"])])
-    widths = [max(len(row[at]) for row in rows) for at in range(len(heads) + 5)]
-    body = [
-        "  ".join([row[0].ljust(widths[0]), *(cell.rjust(width) for cell, width in zip(row[1:], widths[1:], strict=True))]) for row in rows
-    ]
-    lines += [line.rstrip() for line in body]
     aliased = table[[bool(others) for others in table["aliased_with"]]]
-    lines += [f"{row['term']} cannot be told from {', '.join(row['aliased_with'])}" for _, row in aliased.iterrows()]
+    below = [f"{row['term']} cannot be told from {', '.join(row['aliased_with'])}" for _, row in aliased.iterrows()]
     for name, terms in one.equations.items():
         said = "in coded units, −1 to 1 over each range" if name == "coded" else "in the units of the study"
         heading = one.title + (f" [{unit.symbol}]" if unit.symbol else "")
@@ -762,8 +757,17 @@ def _text(one: ResponseEffects) -> str:
             f"{'−' if row['coefficient'] < 0 else '+'} {abs(row['coefficient']) * scale:.6g} {row['variables']}".strip()
             for row in terms.to_dict("records")
         ]
-        lines += [f"{said}:", f"  {heading} = {' '.join(pieces).removeprefix('+ ')}"]
-    return "\n  ".join(lines) + "\n"
+        below += [f"{said}:", f"  {heading} = {' '.join(pieces).removeprefix('+ ')}"]
+    return lines, rows, below
+
+
+def _text(one: ResponseEffects) -> str:
+    """The same as text."""
+    lines, rows, below = told(one)
+    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
+    for first, *cells in rows:
+        lines.append("  ".join([first.ljust(widths[0]), *(cell.rjust(width) for cell, width in zip(cells, widths[1:], strict=True))]).rstrip())
+    return "\n  ".join([*lines, *below]) + "\n"
 
 
 def _probability(p: float) -> str:

@@ -6,20 +6,31 @@ import json
 import math
 import os
 import sys
+import unicodedata
 import warnings
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
-from typing import Any, NoReturn
+from typing import TYPE_CHECKING, Any, NoReturn
 
-from plateau.errors import InputError, MissingPackageError, PlateauError, PlateauWarning
+from plateau.errors import InputError, PlateauError, PlateauWarning, RunFailed, in_program_words
+from plateau.study.output_folder import put, refuse_earlier, refuse_file, relative, write
+
+if TYPE_CHECKING:
+    import pandas
+
+    from plateau.study.results import Study
 
 MODELS = ("main", "interactions", "full", "quadratic")
-# What a table cell of CSV begins with that a spreadsheet would run.
-FORMULAS = ("=", "+", "-", "@")
+# Columns of effects.csv that come first, as ever.
+EFFECTS = "response term degrees_of_freedom sum_of_squares mean_square f p share variance_inflation effect coefficient standard_error t low high"
+EFFECTS += " margin_of_error simultaneous_margin_of_error aliased_with"
 
 
 class Parser(argparse.ArgumentParser):
-    """A parser whose errors are those of the program."""
+    """A parser whose errors are those of the program, and which takes whole names of options alone."""
+
+    def __init__(self, *arguments: Any, **options: Any) -> None:
+        super().__init__(*arguments, allow_abbrev=False, **options)
 
     def error(self, message: str) -> NoReturn:
         raise InputError(f"{message}; {self.prog} --help tells more")
@@ -53,18 +64,21 @@ def main(arguments: Sequence[str]) -> int:
     int
         Exit status: 0, 1 for a failed run, 2 for a wrong command line or input.
     """
+    sys.stdout.reconfigure(errors="backslashreplace")  # type: ignore[union-attr]
     try:
-        given = _parser().parse_args(arguments)
-        warnings.showwarning = _quiet if given.quiet else _say
-        with warnings.catch_warnings():
+        with in_program_words(), warnings.catch_warnings():
+            given = _parser().parse_args(arguments)
+            warnings.showwarning = _quiet if given.quiet else _say
             warnings.simplefilter("ignore")
             warnings.simplefilter("always", PlateauWarning)
-            print(given.answer(given))
-            sys.stdout.flush()
+            _print(given.answer(given))
         return 0
     except PlateauError as error:
-        print(f"plateau: {error}", file=sys.stderr)
+        print(f"plateau: {shown(str(error))}", file=sys.stderr)
         return 2 if isinstance(error, InputError) else 1
+    except ModuleNotFoundError as error:
+        print(f"plateau: {error.name} is not installed: pip install 'plateau-brake[all]'", file=sys.stderr)
+        return 1
     except KeyboardInterrupt:
         return 130
     except BrokenPipeError:
@@ -73,12 +87,41 @@ def main(arguments: Sequence[str]) -> int:
         return 0
 
 
-def _say(message: Warning | str, *_: Any) -> None:
-    print(f"plateau: warning: {message}", file=sys.stderr)
+def _say(message: Warning | str, *_: Any, **__: Any) -> None:
+    print(f"plateau: warning: {shown(str(message))}", file=sys.stderr)
 
 
-def _quiet(*_: Any) -> None:
+def _quiet(*_: Any, **__: Any) -> None:
     """Says nothing."""
+
+
+def _print(text: str) -> None:
+    try:
+        print(shown(text), end="")
+        sys.stdout.flush()
+    except BrokenPipeError:
+        raise
+    except OSError as error:
+        raise RunFailed(f"cannot write to standard output: {error.strerror}") from error
+
+
+def shown(text: str) -> str:
+    """A text that can do nothing to a terminal: control characters and those that turn the direction of letters are written out.
+
+    Parameters
+    ----------
+    text : str
+
+    Returns
+    -------
+    str
+
+    Examples
+    --------
+    >>> shown("a\x1b[31mb\n")
+    'a\\\\u{1b}[31mb\\n'
+    """
+    return "".join(f"\\u{{{ord(one):x}}}" if unicodedata.category(one) in ("Cc", "Cf", "Zl", "Zp") and one not in "\n\t" else one for one in text)
 
 
 def _parser() -> Parser:
@@ -187,3 +230,180 @@ def _share(text: str) -> float:
     if not 0.0 < share < 1.0:
         raise argparse.ArgumentTypeError(f"{text!r}, expected more than 0 and less than 1, such as 0.95")
     return share
+
+
+# Answers ---------------------------------------------------------------------------------------------------------------------------
+
+
+def _told(given: argparse.Namespace, found: Any, folder: Path, files: list[str], title: str, text: str | None = None) -> str:
+    """A document, or a text with the files."""
+    if given.json:
+        return _json({**found.document(), "files": files})
+    figures = sum(file.endswith(".png") for file in files)
+    lines = [file for file in files if not file.endswith((".png", ".svg", ".pdf"))]
+    lines += [f"{figures} figure{'s' if figures > 1 else ''} as PNG, SVG and PDF in {folder}"] if figures else []
+    return (found.text() if text is None else text).rstrip("\n") + f"\n\n{title}\n" + "".join(f"  written  {line}\n" for line in lines)
+
+
+def _json(document: Mapping[str, Any]) -> str:
+    return json.dumps(_plain(document), indent=2, ensure_ascii=False, allow_nan=False) + "\n"
+
+
+def _plain(value: Any) -> Any:
+    """What JSON has: null for what is no number, and no types of NumPy."""
+    if isinstance(value, Mapping):
+        return {str(name): _plain(one) for name, one in value.items()}
+    if isinstance(value, list | tuple):
+        return [_plain(one) for one in value]
+    value = value.tolist() if hasattr(value, "tolist") else value
+    if isinstance(value, list):
+        return _plain(value)
+    return None if isinstance(value, float) and not math.isfinite(value) else str(value) if isinstance(value, Path) else value
+
+
+def csv_of(table: "pandas.DataFrame") -> bytes:
+    """A table in CSV with all digits, empty where there is no number, and nothing in it that a spreadsheet would compute.
+
+    Parameters
+    ----------
+    table : pandas.DataFrame
+
+    Returns
+    -------
+    bytes
+    """
+    from plateau.study.text_tables import written_table
+
+    def cell(value: Any) -> str:
+        if isinstance(value, list | tuple):
+            return "; ".join(map(str, value))
+        value = _plain(value)
+        return "" if value is None or value != value else str(value).lower() if isinstance(value, bool) else str(value)
+
+    return written_table([list(map(str, table.columns)), *([cell(value) for value in row] for row in table.itertuples(index=False, name=None))])
+
+
+def _opened(given: argparse.Namespace, name: str, of: str | None = None) -> tuple["Study", Path, str | None]:
+    """The study, the folder of the answer, and what its files are of; refuses a folder that is taken before any work is done."""
+    from plateau.study.results import analysed
+
+    study = analysed(given.study)
+    folder = study.directory / name if given.output is None else given.output
+    said = None if of is None else f"{of} {relative(given.study, folder)}"
+    refuse_earlier(folder, said, given.force)
+    return study, folder, said
+
+
+def _inputs(study: "Study", *others: Path | None) -> tuple[Path, ...]:
+    """Files that are never replaced: the study and what it names."""
+    here = Path(study.path or ".").parent
+    tables = [study.document, *study.document.get("response", [])]
+    named = [here / table[key] for table in tables for key in ("base", "file", "measured_file") if isinstance(table.get(key), str)]
+    return tuple(path for path in (study.path, *named, study.directory / "imported.csv", *others) if path is not None)
+
+
+def _options(given: argparse.Namespace, *names: str) -> dict[str, Any]:
+    return {name: getattr(given, name) for name in names}
+
+
+def _progress(given: argparse.Namespace) -> bool | None:
+    """Whether progress is shown: not where nothing is to be said, else in terminals."""
+    return False if given.quiet else None
+
+
+def _effects(given: argparse.Namespace) -> str:
+    from plateau.study.analysis import effects
+    from plateau.study.figures import saved
+    from plateau.study.page import effects_page
+
+    study, folder, _ = _opened(given, "effects")
+    found = effects(study, **_options(given, "model", "terms", "confidence"))
+    figures, table = found.figures(), found.table
+    columns = [*EFFECTS.split(), *(name for name in table if name not in EFFECTS.split() and name != "factors")]
+    files = {"effects.csv": csv_of(table.reindex(columns=columns)), "residuals.csv": csv_of(found.residuals)}
+    files |= {"effects.html": effects_page(found, figures).encode(), **saved(figures)}
+    return _told(given, found, folder, write(folder, files, force=given.force, inputs=_inputs(study)), study.title)
+
+
+def _predict(given: argparse.Namespace) -> str:
+    from plateau.study.prediction import predict
+    from plateau.study.results import analysed
+
+    study = analysed(given.study)
+    inputs = _inputs(study, given.points)
+    if given.output is not None:
+        refuse_file(given.output, given.force, inputs)
+    asked = _options(given, "at", "grid", "points", "extrapolate", "confirm", "model", "terms", "confidence", "jobs", "workers")
+    found = predict(study, **asked)
+    if given.output is not None:
+        refuse_file(given.output, given.force, inputs)
+        put(given.output, csv_of(found.wide))
+    if given.json:
+        return _json(found.document())
+    count = len(found.places)
+    return f"{study.title}\n  predicted at {count} places, written {given.output}\n" if given.output and count > 1 else found.text()
+
+
+def _optimize(given: argparse.Namespace) -> str:
+    from plateau.study.figures import optimum_figures, saved
+    from plateau.study.optimum import optimize
+
+    study, folder, _ = _opened(given, "optimum")
+    asked = _options(given, "maximize", "minimize", "target", "limit", "limit_on", "hold", "importance", "model", "terms", "confidence")
+    found = optimize(study, **asked, runs=given.runs or 0, **_options(given, "confirm", "jobs", "workers"), progress=_progress(given))
+    files = {"optimum.csv": csv_of(found.table), **saved(optimum_figures(found, given.contour))}
+    said = _told(given, found, folder, write(folder, files, force=given.force, inputs=_inputs(study)), study.title)
+    if found.keeps_limits:
+        return said
+    _print(said)
+    raise RunFailed("no settings within the ranges keep all limits")
+
+
+def _sensitivity(given: argparse.Namespace) -> str:
+    from plateau.study.figures import saved
+    from plateau.study.variance_parts import sensitivity
+
+    study, folder, _ = _opened(given, "sensitivity")
+    found = sensitivity(study, confidence=given.confidence)
+    files = {"sensitivity.csv": csv_of(found.table), **saved(found.figures())}
+    return _told(given, found, folder, write(folder, files, force=given.force, inputs=_inputs(study)), study.title)
+
+
+def _import(given: argparse.Namespace) -> str:
+    from plateau.study.measured import import_values
+
+    found = import_values(given.study, given.table, force=given.force)
+    return _json(found.document()) if given.json else found.text()
+
+
+def _fit(given: argparse.Namespace) -> str:
+    from plateau.study.calibration import fit, plan
+    from plateau.study.figures import saved
+
+    if given.plan:
+        planned = plan(given.study, jobs=given.jobs, workers=given.workers)
+        return _json(planned.document()) if given.json else planned.text()
+    study, folder, of = _opened(given, "fit", "fit")
+    found = fit(study, **_options(given, "jobs", "workers", "retry"), progress=_progress(given))
+    files = {**{name: csv_of(table) for name, table in found.tables().items()}, **saved(found.figures())}
+    return _told(given, found, folder, write(folder, files, of=of, force=given.force, inputs=_inputs(study)), study.title)
+
+
+def _compare(given: argparse.Namespace) -> str:
+    from plateau.study.figures import saved
+    from plateau.study.page import comparison_page
+    from plateau.study.scene_comparison import compare
+
+    folder = given.output or Path("comparison")
+    of = "compare " + ", ".join(relative(scene, folder) for scene in given.scenes)
+    refuse_earlier(folder, of, given.force)
+    asked = _options(given, "set", "confidence", "jobs", "workers")
+    found = compare(given.scenes, given.seeds, responses=given.response, output=folder, **asked, progress=_progress(given))
+    figures = found.figures()
+    files = {"comparison.html": comparison_page(found, figures).encode(), "comparison.csv": csv_of(found.table)}
+    files |= {"means.csv": csv_of(found.means), "runs.csv": csv_of(found.runs), "curves.csv": csv_of(found.curves), **saved(figures)}
+    return _told(given, found, folder, write(folder, files, of=of, force=given.force, inputs=tuple(given.scenes)), found.title)
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

@@ -93,7 +93,7 @@ def content(figure: Any, form: str) -> bytes:
     """A figure as a file of this format."""
     import matplotlib
 
-    dates = {"png": {}, "svg": {"Date": None}, "pdf": {"CreationDate": None, "ModDate": None}}
+    dates = {"png": {}, "svg": {"Date": None, "Creator": None}, "pdf": {"CreationDate": None, "ModDate": None}}
     with io.BytesIO() as file, matplotlib.rc_context(LOOK):
         figure.savefig(file, format=form, metadata=dates[form])
         return file.getvalue()

@@ -1,6 +1,5 @@
 """Comparison of scenes: the same seeds in all, differences of each response with intervals."""
 
-import io
 import json
 import os
 import re
@@ -8,7 +7,6 @@ import tomllib
 import warnings
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from html import escape
 from pathlib import Path
 from typing import Any
 
@@ -36,12 +34,6 @@ USUAL = [
     ("temperature of the contact", "contact_temperature:mean", "thermal"),
     ("PM10", "pm10_mass:end", "emission"),
 ]
-STYLE = "body{font-family:sans-serif;max-width:64em;margin:2em auto}table{border-collapse:collapse}td,th{padding:.2em .6em;text-align:left}"
-NOTE = (
-    "Differences are means over pairs of runs with the same seed, with t intervals ({level}); with more than two scenes, intervals and sureness hold for "
-    "all differences of a response together (Bonferroni). Sure at: 1 − p/2, how sure the sign is. Bands of curves: one standard deviation of runs; of "
-    "differences: the interval at each time alone."
-)
 
 
 @dataclass(frozen=True)
@@ -117,57 +109,10 @@ class Comparison:
         return {"scenes": scenes, "reference": scenes[0]["name"], "confidence": self.confidence, **rows, "cautions": self.cautions}
 
     def figures(self) -> dict[str, Any]:
-        """Each series against time, mean with the standard deviation of runs, and below it the differences with their intervals."""
-        from matplotlib.figure import Figure
+        """Draws each series against time, and the differences."""
+        from plateau.study.figures import comparison_figures
 
-        figures = {}
-        for series, curves in self.curves.groupby("series", sort=False):
-            figure = Figure(figsize=(8, 5), layout="constrained")
-            top, below = figure.subplots(2, sharex=True, height_ratios=[2, 1])
-            of = unit_for(curves["unit"].iloc[0], float(curves["mean"].abs().max()))
-            for number, (scene, curve) in enumerate(curves.groupby("scene", sort=False)):
-                time, band = curve["time"], {"color": f"C{number}", "alpha": 0.2, "linewidth": 0}
-                middle, half, (change, low, high) = (
-                    of.value(curve["mean"].values),
-                    of.per_si * curve["deviation"].fillna(0.0),
-                    of.per_si * curve[ENDS].values.T,
-                )
-                top.plot(time, middle, color=f"C{number}", label=scene)
-                top.fill_between(time, middle - half, middle + half, **band)
-                below.plot(time, change, color=f"C{number}")
-                below.fill_between(time, low, high, **band)
-            top.set(ylabel=", ".join(filter(None, [str(series).replace("_", " "), of.symbol])))
-            below.set(xlabel="time, s", ylabel=f"less {next(iter(self.scenes))}")
-            below.axhline(0.0, color="0.5", linewidth=0.8)
-            top.legend()
-            figures[str(series)] = figure
-        return figures
-
-    def page(self) -> str:
-        """One page for the browser, with the figures inside."""
-        import matplotlib
-
-        head = f'<!doctype html><html lang="en"><meta charset="utf-8"><title>{escape(self.title)}</title><style>{STYLE}</style><h1>{escape(self.title)}</h1>'
-        items = [*(f"{name}: {file}" for name, file in self.scenes.items()), *self.said()]
-        parts = [head, "<ul>", *(f"<li>{escape(item)}</li>" for item in items), "</ul>", self.shown().to_html(index=False)]
-        parts.append(f"<p>{NOTE.format(level=f'{100 * self.confidence:g} %')}</p>")
-        for series, figure in self.figures().items():
-            text = io.StringIO()
-            with matplotlib.rc_context({"svg.hashsalt": series}):
-                figure.savefig(text, format="svg", metadata={"Date": None})
-            parts.append(text.getvalue()[text.getvalue().index("<svg") :])
-        return "\n".join([*parts, "</html>\n"])
-
-    def write(self) -> list[str]:
-        """Writes the page and the tables into the folder of the runs, and gives their names."""
-        files = {
-            "comparison.html": self.page(),
-            "comparison.csv": self.table.to_csv(index=False),
-            "runs.csv": self.runs.to_csv(index=False),
-        }
-        for name, content in files.items():
-            (self.directory / name).write_text(content, encoding="utf-8")
-        return [str(self.directory / name) for name in files]
+        return comparison_figures(self)
 
 
 def compare(
