@@ -107,7 +107,7 @@ class Process:
         # What each set of seeds adds at each point; where it has no run, what it adds everywhere.
         self._added = added + of_point @ (seeds * rest[:, None]) / np.maximum(of_point @ seeds, 1e-300)
         self.means, self._axes = means + self.offset, np.asarray(range(places.shape[1]) if axes is None else axes, int)
-        self._given = self.points, means, 1.0 / runs, (float(rest @ rest) if freedom else 0.0, freedom)
+        self.runs, self._given = runs, (self.points, means, 1.0 / runs, (float(rest @ rest) if freedom else 0.0, freedom))
         self._draw()
 
     def solved(self, logs: Numbers, some: slice | npt.NDArray[np.int64] = slice(None)) -> Equations:

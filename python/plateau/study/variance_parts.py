@@ -1,0 +1,311 @@
+"""Sensitivity: which part of a response's variance each factor has, over the whole of all ranges.
+
+Sobol's indices of functions that may be true: of drawn coefficients or drawn processes, so that intervals carry what the surrogate does not
+know. I. M. Sobol', Math. Comput. Simul. 55, 271-280 (2001); estimators: first order of A. Saltelli et al., Comput. Phys. Commun. 181, 259-270
+(2010), total of M. J. W. Jansen, ibid. 117, 35-43 (1999); drawn processes: A. G. Journel, C. J. Huijbregts, Mining Geostatistics (1978),
+VII. Elementary effects of Morris designs: M. D. Morris, Technometrics 33, 161-174 (1991); F. Campolongo et al., Environ. Model. Softw. 22,
+1509-1518 (2007).
+"""
+
+import os
+import warnings
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import pandas
+from scipy import stats
+
+from plateau.errors import PlateauWarning
+from plateau.study.analysis import _digits, together, usable
+from plateau.study.model import Fitted
+from plateau.study.process import Process
+from plateau.study.results import Numbers, Study, analysed
+from plateau.study.surrogate import Surrogate, surrogates
+from plateau.study.units import unit_for
+
+# Places of the sample, functions that are drawn, and cosines of each.
+ROWS, FUNCTIONS, COSINES = 1024, 100, 200
+SEEDS = "seeds"
+
+
+@dataclass(frozen=True, repr=False)
+class Sensitivity:
+    """Which part of the variance of each response each factor has.
+
+    Attributes
+    ----------
+    study : Study
+    table : pandas.DataFrame
+        A row for each response and factor. Of indices ``first_order`` and ``total`` with ends ``_low`` and ``_high``, parts from 0 to 1, with
+        a row `seeds` for the part that seeds have in the variance of single runs. Of Morris designs ``mean_size``, ``mean``, ``deviation``,
+        ``standard_error`` and ``effects`` (their number), per whole range in ``unit``.
+    surrogates : list of Surrogate
+    variances : dict of float
+        Variance of each response over all ranges, on the scale of the fit squared.
+    confidence : float
+    cautions : list of str
+    """
+
+    study: Study
+    table: pandas.DataFrame
+    surrogates: list[Surrogate]
+    variances: dict[str, float]
+    confidence: float
+    cautions: list[str]
+
+    @property
+    def is_morris(self) -> bool:
+        """Whether the table has elementary effects."""
+        return self.study.design == "morris"
+
+    def document(self, files: list[str] | None = None) -> dict[str, Any]:
+        """What ``plateau sweep sensitivity --json`` prints."""
+        responses = []
+        for surrogate in self.surrogates:
+            response, rows = surrogate.response, self.table[self.table["response"] == surrogate.response.name]
+            indices, effects, seeds = [], [], None
+            for row in ({key: _plain(value) for key, value in row.items()} for row in rows.to_dict("records")):
+                parts = {
+                    name: {"value": row[name], "interval": _pair(row[f"{name}_low"], row[f"{name}_high"])}
+                    for name in ("first_order", "total")
+                }
+                if self.is_morris:
+                    effects.append({name: row[name] for name in ["factor", "mean_size", "mean", "deviation", "standard_error", "effects"]})
+                elif row["factor"] == SEEDS:
+                    seeds = parts["total"]
+                else:
+                    indices.append({"factor": row["factor"], **parts})
+            said = f"of the {surrogate.words}; {surrogate.reason}" if indices else None
+            report = {"name": response.name, "unit": response.unit, "error": surrogate.error or None, "surrogate": said}
+            report |= {"variance": self.variances.get(response.name), "indices": indices, "seeds": seeds, "elementary_effects": effects}
+            responses.append(report)
+        return {"study": self.study.title, "responses": responses, "cautions": self.cautions, "files": files or []}
+
+    def text(self) -> str:
+        """What ``plateau sweep sensitivity`` prints."""
+        lines = []
+        for surrogate in self.surrogates:
+            response, rows = surrogate.response, self.table[self.table["response"] == surrogate.response.name]
+            if surrogate.error or rows.empty:
+                lines += [response.name, f"  {surrogate.error or 'the surrogate has the same value everywhere: no factor has a part'}", ""]
+                continue
+            unit = unit_for(response.unit, float(np.nanmax(np.abs(self.study.runs[response.name].to_numpy(float)))))
+            is_seeds = rows["factor"] == SEEDS
+            rows = pandas.concat([rows[~is_seeds].sort_values("mean_size" if self.is_morris else "total", ascending=False), rows[is_seeds]])
+            if self.is_morris:
+                lines.append(f"{', '.join(filter(None, [response.name, unit.symbol]))}: elementary effects per whole range")
+                names = {"mean_size": "mean size μ*", "standard_error": "its error", "mean": "mean", "deviation": "deviation σ"}
+                error = rows["standard_error"].to_numpy() * unit.per_si
+                cells = {
+                    said: [_digits(v * unit.per_si, e) for v, e in zip(rows[name], error, strict=True)] for name, said in names.items()
+                }
+                shown = pandas.DataFrame({"factor": rows["factor"], **cells, "effects": rows["effects"]})
+            else:
+                of = f"intervals of {100 * self.confidence:g} % are for what the runs leave open of the function"
+                lines += [f"{response.name}: parts of the variance", f"  of the {surrogate.words}; {surrogate.reason}", f"  {of}"]
+                heads = {"first_order": "alone (first order)", "total": "with interactions (total)"}
+                shown = pandas.DataFrame(
+                    {"factor": rows["factor"], **{said: [_part(row, name) for _, row in rows.iterrows()] for name, said in heads.items()}}
+                )
+                shown["factor"] = shown["factor"].where(shown["factor"] != SEEDS, "seeds (of single runs)")
+            lines += ["  " + line.rstrip() for line in shown.to_string(index=False).splitlines()] + [""]
+        return "\n".join([*lines, *(f"caution: {caution}" for caution in self.cautions), ""])
+
+
+def sensitivity(study: Study | str | os.PathLike[str], confidence: float = 0.95) -> Sensitivity:
+    """Finds which part of the variance of each response each factor has.
+
+    Parameters
+    ----------
+    study : path or Study
+        Of a Morris design it gives elementary effects, of others Sobol's indices of what forecasts the response best.
+    confidence : float
+        Level of the intervals.
+
+    Returns
+    -------
+    Sensitivity
+
+    Examples
+    --------
+    >>> sensitivity("loads.toml").table[["response", "factor", "total", "total_low", "total_high"]]
+    """
+    opened = usable(analysed(study))
+    is_morris = opened.design == "morris"
+    known = surrogates(opened, confidence=confidence, of_any_design=not is_morris)
+    cautions = together(opened)
+    two = ", ".join(factor.name for factor in opened.factors if factor.is_number and not factor.is_range and len(factor.levels) == 2)
+    ranges = ", ".join(factor.name for factor in opened.factors if factor.is_range)
+    if two and ranges and not is_morris:
+        said = (
+            f"{two}: numbers with two levels vary between these alone, which counts three times as much as an even variation over a range, "
+        )
+        cautions.append(said + f"as of {ranges}; give all of them range = [lower, upper] to compare their parts")
+    for said in cautions:
+        warnings.warn(said, PlateauWarning, stacklevel=2)
+    tables, variances = [], {}
+    for one in known:
+        if is_morris:
+            tables.append(elementary_effects(opened, one.response.name).assign(response=one.response.name, unit=one.response.unit))
+        elif one.fit is not None:
+            table, variance = _indices(opened, one, confidence)
+            tables.append(table.assign(response=one.response.name, unit="1"))
+            variances[one.response.name] = variance
+            cautions += [f"{one.response.name}: {caution}" for caution in one.cautions]
+    numbers = ["mean_size", "mean", "deviation", "standard_error", "effects"]
+    columns = [
+        "response",
+        "factor",
+        *(f"{name}{end}" for name in ("first_order", "total") for end in ("", "_low", "_high")),
+        *numbers,
+        "unit",
+    ]
+    whole = pandas.concat(tables, ignore_index=True) if tables else pandas.DataFrame()
+    return Sensitivity(opened, whole.reindex(columns=columns), known, variances, confidence, cautions)
+
+
+def sobol(a: Numbers, b: Numbers, mixed: Numbers) -> tuple[Numbers, Numbers, Numbers]:
+    """Indices of functions from their values at a sample.
+
+    Parameters
+    ----------
+    a, b : numpy.ndarray, shape (functions, rows)
+        Values at two samples.
+    mixed : numpy.ndarray, shape (functions, factors, rows)
+        Values at the first one with one factor of the second.
+
+    Returns
+    -------
+    tuple of numpy.ndarray
+        First order, total (function, factor), and variances.
+    """
+    both = np.concatenate([a, b], axis=-1)
+    centre = np.concatenate([both, mixed.reshape(len(mixed), -1)], axis=-1).mean(-1)[:, None, None]
+    variance = both.var(-1)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        first = ((b[:, None] - centre) * (mixed - a[:, None])).mean(-1) / variance[:, None]
+        total = ((mixed - a[:, None]) ** 2).mean(-1) / (2.0 * variance[:, None])
+    return first, total, variance
+
+
+def _indices(study: Study, one: Surrogate, confidence: float) -> tuple[pandas.DataFrame, float]:
+    """Indices of what may be true of a response, and the variance of what is expected."""
+    count, names = len(study.factors), [factor.name for factor in study.factors]
+    even = stats.qmc.Sobol(2 * count, rng=np.random.default_rng(0)).random(ROWS)
+    a, b = (
+        pandas.DataFrame({one.name: _values(one, part[:, at]) for at, one in enumerate(study.factors)})
+        for part in (even[:, :count], even[:, count:])
+    )
+    places = pandas.concat([a, b, *(a.assign(**{name: b[name]}) for name in names)], ignore_index=True)
+    values = _drawn(one, places).reshape(-1, count + 2, ROWS)
+    expected = one.mean(places).reshape(1, count + 2, ROWS)
+    first, total, variance = sobol(values[:, 0], values[:, 1], values[:, 2:])
+    tail = 50.0 * (1.0 - confidence)
+    rows = {}
+    for name, found in (("first_order", first), ("total", total)):
+        low, middle, high = np.nanpercentile(found, [tail, 50.0, 100.0 - tail], axis=0)
+        rows |= {name: middle, f"{name}_low": low, f"{name}_high": high}
+    table = pandas.DataFrame({"factor": names, **rows})
+    run, freedom = _of_seeds(one)
+    if np.isfinite(run):
+        of_run = run * freedom / stats.chi2(freedom).rvs(len(variance), random_state=np.random.default_rng(2))
+        low, middle, high = np.percentile(of_run / (of_run + variance), [tail, 50.0, 100.0 - tail])
+        table.loc[len(table), ["factor", "total", "total_low", "total_high"]] = [SEEDS, middle, low, high]
+    return table, float(expected[0, :2].var())
+
+
+def _values(factor: Any, even: Numbers) -> Any:
+    """Values of a factor, even over its range or its levels."""
+    if factor.is_range:
+        return factor.value(2.0 * even - 1.0)
+    return np.array(factor.levels)[(even * len(factor.levels)).astype(int)]
+
+
+def _of_seeds(one: Surrogate) -> tuple[float, float]:
+    """Variance of runs with other seeds at one place, and its degrees of freedom; NaN where there are no replicates."""
+    return one.fit._run_variance if one.fit is not None else (np.nan, np.nan)
+
+
+def _drawn(one: Surrogate, places: pandas.DataFrame) -> Numbers:
+    """Functions that may be true, at places (function, place), on the scale of the fit."""
+    random = np.random.default_rng(1)
+    if one.takes_process and one.process is not None:
+        return drawn_processes(one.process, one.rows(places), FUNCTIONS, random)
+    return drawn_models(one, one._fit, places, random)
+
+
+def drawn_processes(process: Process, places: Numbers, count: int, random: np.random.Generator) -> Numbers:
+    """Functions of a process: one without data, and what the data say of its differences from them."""
+    result, share = [], 1.0 / process.runs
+    for chosen, times in zip(*np.unique(random.choice(len(process.logs), count, p=process.probabilities), return_counts=True), strict=True):
+        own = process.solved(process.logs[chosen])
+        weights = own.forecast(places)[0][0]
+        for _ in range(times):
+            # The spectrum of the correlation along an axis is Student's t of five degrees of freedom.
+            frequency = random.standard_t(5, (COSINES, places.shape[1])) / own.lengths[0]
+            at_points, at_places = _cosines((process.points, places), frequency, random)
+            noise = np.sqrt(own.noise[0] * share) * random.standard_normal(len(share))
+            scale = np.sqrt(process.calibration * own.square[0] / random.chisquare(process.freedom))
+            result.append(scale * at_places + weights @ (process.means - process.offset - scale * (at_points + noise)) + process.offset)
+    return np.array(result)
+
+
+def _cosines(places: tuple[Numbers, ...], frequency: Numbers, random: np.random.Generator) -> list[Numbers]:
+    """A random function with a variance of one at places: cosines of these frequencies."""
+    phase, size = random.uniform(0.0, 2.0 * np.pi, COSINES), random.standard_normal(COSINES) * (2.0 / COSINES) ** 0.5
+    return [np.cos(where @ frequency.T + phase) @ size for where in places]
+
+
+def drawn_models(one: Surrogate, fit: Fitted, places: pandas.DataFrame, random: np.random.Generator) -> Numbers:
+    """Models with other coefficients, and smooth functions of as much as the model misses."""
+    rows, where = fit.matrix(places), one.rows(places)
+    freedom, (missed, _) = fit.residual_freedom, fit._missed
+    if np.isnan(fit.error):
+        # Nothing tells the error.
+        return np.array([rows @ fit.coefficients])
+    result = []
+    for _ in range(FUNCTIONS):
+        scale = np.sqrt(freedom / random.chisquare(freedom))
+        change = fit.fit.root @ random.standard_normal(len(fit.fit.kept)) * np.sqrt(fit.error) * scale
+        frequency = random.standard_t(5, (COSINES, where.shape[1])) / np.exp(np.log(2.0) + random.standard_normal(where.shape[1]))
+        result.append(
+            rows @ fit.coefficients + rows[:, fit.fit.kept] @ change + np.sqrt(missed) * scale * _cosines((where,), frequency, random)[0]
+        )
+    return np.array(result)
+
+
+def elementary_effects(study: Study, response: str) -> pandas.DataFrame:
+    """What a response changes by when one factor does, along the trajectories of a Morris design, per whole range or change of level."""
+    # Means over the seeds; a point of which one is missing is left out, for its other seeds would be compared with other ones.
+    points = study.runs.groupby("point").agg(
+        {**{one.name: "first" for one in study.factors}, response: lambda values: values.mean(skipna=False)}
+    )
+    effects: dict[str, list[float]] = {factor.name: [] for factor in study.factors}
+    for at in range(len(points) - 1):
+        before, after = points.iloc[at], points.iloc[at + 1]
+        changed = [factor for factor in study.factors if before[factor.name] != after[factor.name]]
+        change = after[response] - before[response]
+        if (at + 1) % (len(study.factors) + 1) and len(changed) == 1 and np.isfinite(change):
+            factor = changed[0]
+            step = float(np.diff(factor.coded([before[factor.name], after[factor.name]]))[0]) / 2.0 if factor.is_number else 1.0
+            effects[factor.name].append(change / step)
+    rows = []
+    for name, found in effects.items():
+        each = pandas.Series(found, dtype=float)
+        row = {"factor": name, "mean_size": each.abs().mean(), "mean": each.mean(), "deviation": each.std()}
+        rows.append({**row, "standard_error": each.abs().sem(), "effects": len(each)})
+    return pandas.DataFrame(rows)
+
+
+def _part(row: pandas.Series, name: str) -> str:
+    value, low, high = (float(np.clip(row[each], 0.0, 1.0)) for each in (name, f"{name}_low", f"{name}_high"))
+    return "" if np.isnan(value) else f"{value:.2f} ({low:.2f} … {high:.2f})"
+
+
+def _plain(value: Any) -> Any:
+    return None if isinstance(value, float) and not np.isfinite(value) else value
+
+
+def _pair(low: float | None, high: float | None) -> list[float] | None:
+    return None if low is None or high is None else [low, high]
