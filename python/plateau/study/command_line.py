@@ -319,9 +319,10 @@ def _effects(given: argparse.Namespace) -> str:
     study, folder, _ = _opened(given, "effects")
     found = effects(study, **_options(given, "model", "terms", "confidence"))
     figures, table = found.figures(), found.table
+    drawn = saved(figures)
     columns = [*EFFECTS.split(), *(name for name in table if name not in EFFECTS.split() and name != "factors")]
     files = {"effects.csv": csv_of(table.reindex(columns=columns)), "residuals.csv": csv_of(found.residuals)}
-    files |= {"effects.html": effects_page(found, figures).encode(), **saved(figures)}
+    files |= {"effects.html": effects_page(found, figures, drawn).encode(), **drawn}
     return _told(given, found, folder, write(folder, files, force=given.force, inputs=_inputs(study)), study.title)
 
 
@@ -400,8 +401,9 @@ def _compare(given: argparse.Namespace) -> str:
     asked = _options(given, "set", "confidence", "jobs", "workers")
     found = compare(given.scenes, given.seeds, responses=given.response, output=folder, **asked, progress=_progress(given))
     figures = found.figures()
-    files = {"comparison.html": comparison_page(found, figures).encode(), "comparison.csv": csv_of(found.table)}
-    files |= {"means.csv": csv_of(found.means), "runs.csv": csv_of(found.runs), "curves.csv": csv_of(found.curves), **saved(figures)}
+    drawn = saved(figures)
+    files = {"comparison.html": comparison_page(found, figures, drawn).encode(), "comparison.csv": csv_of(found.table)}
+    files |= {"means.csv": csv_of(found.means), "runs.csv": csv_of(found.runs), "curves.csv": csv_of(found.curves), **drawn}
     return _told(given, found, folder, write(folder, files, of=of, force=given.force, inputs=tuple(given.scenes)), found.title)
 
 

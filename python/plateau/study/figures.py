@@ -26,7 +26,8 @@ if TYPE_CHECKING:
 Figures = dict[str, Any]
 MM = 1 / 25.4
 NARROW, WIDE = 88.0, 180.0
-FORMATS = ("png", "svg", "pdf")
+# Formats, and what is left out of their files so that equal figures give equal files.
+FORMATS: dict[str, dict[str, Any]] = {"png": {}, "svg": {"Date": None, "Creator": None}, "pdf": {"CreationDate": None, "ModDate": None}}
 LOOK = {
     "font.size": 8,
     "axes.titlesize": 8,
@@ -86,17 +87,18 @@ def saved(figures: Figures) -> dict[str, bytes]:
     dict
         Names of the files and their contents.
     """
-    return {f"{name}.{form}": content(figure, form) for name, figure in figures.items() for form in FORMATS}
-
-
-def content(figure: Any, form: str) -> bytes:
-    """A figure as a file of this format."""
     import matplotlib
 
-    dates = {"png": {}, "svg": {"Date": None, "Creator": None}, "pdf": {"CreationDate": None, "ModDate": None}}
-    with io.BytesIO() as file, matplotlib.rc_context(LOOK):
-        figure.savefig(file, format=form, metadata=dates[form])
-        return file.getvalue()
+    files = {}
+    with matplotlib.rc_context(LOOK):
+        for name, figure in figures.items():
+            for form, dates in FORMATS.items():
+                with io.BytesIO() as file:
+                    figure.savefig(file, format=form, metadata=dates)
+                    files[f"{name}.{form}"] = file.getvalue()
+                # The places of all that is drawn are the same in each.
+                figure.set_layout_engine("none")
+    return files
 
 
 def file_names(names: Sequence[str]) -> list[str]:
@@ -255,7 +257,7 @@ def _main_effects(one: "ResponseEffects", fit: "Fitted") -> Any:
     unit = _unit(one.response, one.response.back(fit.values))
     for axis, factor in zip(axes.flat, own, strict=False):
         means = one.means(factor.name)
-        _means(axis, one.response, unit, factor, one.means(factor.name, steps=STEPS // 2), LINES[0], "-")
+        _means(axis, one.response, unit, factor, one.means(factor.name, fine=STEPS // 2), LINES[0], "-")
         if is_straight:
             axis.plot(_positions(factor, means[factor.name]), _shown(one.response, unit, means["observed"]), "o", mec=LINES[0], mfc="none")
         _axis(axis, factor)
@@ -308,7 +310,7 @@ def _interactions(one: "ResponseEffects", fit: "Fitted") -> Any:
     for axis, pair in zip(axes.flat, pairs, strict=False):
         # Over the factor with more values, which is a number if there is one; a line for each level of the other.
         x, line = sorted((fit.study.factors[at] for at in pair), key=lambda factor: (factor.is_number, factor.is_range), reverse=True)
-        means = one.means(x.name, line.name, steps=STEPS // 4)
+        means = one.means(x.name, line.name, fine=STEPS // 4)
         levels = list(dict.fromkeys(means[line.name]))
         if line.is_range:
             # Within the range: axial points are beyond it.

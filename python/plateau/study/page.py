@@ -1,12 +1,12 @@
 """Pages for the browser: tables and figures in one file, without scripts, for a screen in light or dark and for paper."""
 
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from html import escape
 from string import Template
 from typing import TYPE_CHECKING, Any
 
-from plateau.study.figures import content, file_names
+from plateau.study.figures import file_names
 
 if TYPE_CHECKING:
     import pandas
@@ -70,24 +70,20 @@ def table_of(frame: "pandas.DataFrame", kind: str = "numbers") -> str:
     return table(list(frame.columns), frame.to_numpy().tolist(), kind)
 
 
-def pictures(figures: dict[str, Any]) -> str:
+def pictures(figures: Mapping[str, Any], files: Mapping[str, bytes]) -> str:
     """Figures with their captions; names within drawings are made different from each other."""
     parts = []
-    for number, figure in enumerate(figures.values(), 1):
-        drawing = content(figure, "svg").decode()
+    for number, (name, figure) in enumerate(figures.items(), 1):
+        drawing = files[f"{name}.svg"].decode()
         drawing = re.sub(r"<metadata>.*?</metadata>", "", drawing[drawing.index("<svg") :], flags=re.DOTALL)
-        drawing = re.sub(r'(\bid="|href="#|url\(#)', rf"\g<1>f{len(parts)}-{_plain(figure)}-", drawing)
+        drawing = re.sub(r'(\bid="|href="#|url\(#)', rf"\g<1>{name}-", drawing)
         caption = escape(figure.get_label())
         drawing = drawing.replace("<svg ", f'<svg role="img" aria-label="{caption}" ', 1)
         parts.append(f"<figure>{drawing}<figcaption>Figure {number}. {caption}</figcaption></figure>")
     return "\n".join(parts)
 
 
-def _plain(figure: Any) -> str:
-    return file_names([figure.get_label()])[0]
-
-
-def effects_page(found: "Effects", figures: dict[str, Any]) -> str:
+def effects_page(found: "Effects", figures: Mapping[str, Any], files: Mapping[str, bytes]) -> str:
     """The page of ``plateau sweep effects``.
 
     Parameters
@@ -95,6 +91,8 @@ def effects_page(found: "Effects", figures: dict[str, Any]) -> str:
     found : Effects
     figures : dict
         Those of `Effects.figures`.
+    files : dict
+        Their files, from `saved`.
 
     Returns
     -------
@@ -114,11 +112,11 @@ def effects_page(found: "Effects", figures: dict[str, Any]) -> str:
         parts += [table(rows[0], rows[1:])] if rows else []
         parts += [f"<pre>{escape(chr(10).join(below))}</pre>"] if below else []
         own = [f"{stem}-{kind}" for kind in ("pareto", "main-effects", "interactions", "residuals", "surface")]
-        parts.append(pictures({name: figures[name] for name in own if name in figures}))
+        parts.append(pictures({name: figures[name] for name in own if name in figures}, files))
     return page(f"{study.title}: effects", *parts)
 
 
-def comparison_page(found: "Comparison", figures: dict[str, Any]) -> str:
+def comparison_page(found: "Comparison", figures: Mapping[str, Any], files: Mapping[str, bytes]) -> str:
     """The page of ``plateau compare``.
 
     Parameters
@@ -126,6 +124,8 @@ def comparison_page(found: "Comparison", figures: dict[str, Any]) -> str:
     found : Comparison
     figures : dict
         Those of `Comparison.figures`.
+    files : dict
+        Their files, from `saved`.
 
     Returns
     -------
@@ -133,4 +133,4 @@ def comparison_page(found: "Comparison", figures: dict[str, Any]) -> str:
     """
     scenes = table(["scene", "file"], list(map(list, found.scenes.items())), "words")
     note = f'<p class="quiet">{escape(NOTE.format(level=f"{100 * found.confidence:g} %"))}</p>'
-    return page(found.title, scenes, listed(found.said()), table_of(found.shown()), note, pictures(figures))
+    return page(found.title, scenes, listed(found.said()), table_of(found.shown()), note, pictures(figures, files))
