@@ -1,0 +1,276 @@
+"""What is wanted of responses: goals, limits, how much is liked, and the search for the point where that is most."""
+
+import itertools
+import warnings
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from functools import lru_cache
+from typing import Any
+
+import numpy as np
+import pandas
+from scipy import optimize, stats
+
+from plateau.errors import InputError
+from plateau.study.results import Numbers, Study
+from plateau.study.surrogate import Surrogate
+from plateau.study.units import parsed
+
+# Typed more strictly than it can be called.
+minimize: Any = optimize.minimize
+# Points looked at in all and at least at each combination of levels, combinations at most, and points from which the search goes on.
+POINTS, LEAST_POINTS, MOST_COMBINATIONS, STARTS = 4096, 16, 100_000, 4
+# What is missed by less, in differences that count, is missed by rounding.
+ROUNDING = 1e-10
+
+
+@dataclass(frozen=True)
+class Goal:
+    """What a response should be: `values` from worth nothing to worth everything, of a target to worth nothing again, SI.
+
+    `is_of_runs` says that the values are those of the runs, beyond which there may be better ones.
+    """
+
+    response: str
+    aim: str
+    values: tuple[float, ...]
+    importance: float = 1.0
+    is_of_runs: bool = False
+
+    def way(self, response: Any) -> Numbers:
+        """The part of the way from worth nothing to worth everything, beyond 0 and 1, too."""
+        low, best = self.values[:2]
+        up = (np.asarray(response, float) - low) / (best - low)
+        return np.asarray(
+            up if len(self.values) == 2 else np.minimum(up, (self.values[2] - np.asarray(response)) / (self.values[2] - best))
+        )
+
+    def desirability(self, response: Any) -> Numbers:
+        """Desirability, 0 to 1 (G. Derringer and R. Suich, Journal of Quality Technology 12, 214-219 (1980)); 0 of NaN."""
+        return np.nan_to_num(np.clip(self.way(response), 0.0, 1.0))
+
+
+@dataclass(frozen=True)
+class Limit:
+    """What a response has to keep, SI: at least or at most `value`. `scale` is a difference that counts."""
+
+    response: str
+    is_least: bool
+    value: float
+    on: str
+    scale: float
+
+    def margin(self, forecast: pandas.DataFrame) -> Numbers:
+        """How far what has to keep the limit is from it, in differences that count; negative beyond it."""
+        name = "value" if self.on == "mean" else f"{self.on.removesuffix('s')}_{'low' if self.is_least else 'high'}"
+        kept = forecast[name].fillna(forecast["value"]).to_numpy()
+        return np.asarray((kept - self.value if self.is_least else self.value - kept) / self.scale)
+
+
+def overall(goals: Sequence[Goal], desirabilities: Sequence[Any]) -> Numbers:
+    """The geometric mean of desirabilities, weighted by importance: what makes one response worth nothing no other can save."""
+    with np.errstate(divide="ignore"):
+        logs = sum(goal.importance * np.log(np.asarray(each)) for goal, each in zip(goals, desirabilities, strict=True))
+    return np.asarray(np.exp(logs / sum(goal.importance for goal in goals)))
+
+
+# A merit, the levels of a point, and its coded place in the ranges.
+Start = tuple[float, tuple[Any, ...], Numbers]
+
+
+@dataclass(frozen=True)
+class Problem:
+    """What is searched for, and where: ``axes`` has the levels of each factor; None if it may be anywhere in its range."""
+
+    study: Study
+    surrogates: dict[str, Surrogate]
+    goals: list[Goal]
+    limits: list[Limit]
+    axes: list[list[Any] | None]
+    confidence: float
+
+    def points(self, levels: Sequence[Any], coded: Numbers) -> pandas.DataFrame:
+        """Points of the factors at levels, and at coded places of the others."""
+        columns, place = {}, iter(coded.T)
+        for factor, axis, level in zip(self.study.factors, self.axes, levels, strict=True):
+            columns[factor.name] = factor.value(next(place)) if axis is None else [level] * len(coded)
+        return pandas.DataFrame(columns)
+
+    def forecasts(self, points: pandas.DataFrame, *, with_intervals: bool = False) -> dict[str, pandas.DataFrame]:
+        """What surrogates expect of the responses that are wanted."""
+        found = {}
+        for name in dict.fromkeys([*(goal.response for goal in self.goals), *(limit.response for limit in self.limits)]):
+            surrogate = self.surrogates[name]
+            needs = with_intervals or any(limit.response == name and limit.on != "mean" for limit in self.limits)
+            value = pandas.DataFrame({"value": surrogate.response.back(surrogate.mean(points))})
+            found[name] = surrogate.forecast(points, self.confidence) if needs else value
+        return found
+
+    def merit(self, points: pandas.DataFrame) -> Numbers:
+        """Above 0 the mean desirability; below 0 how far a limit is missed or a response is worth nothing, so that the way back is known."""
+        found = self.forecasts(points)
+        ways = [goal.way(found[goal.response]["value"]) for goal in self.goals]
+        merit = overall(self.goals, [np.clip(way, 0.0, 1.0) for way in ways])
+        short = sum(np.minimum(way, 0.0) for way in ways)
+        merit = np.where(merit > 0.0, merit, np.maximum(short / (1.0 - short), -1.0))
+        missed = sum((np.maximum(-limit.margin(found[limit.response]), 0.0) for limit in self.limits), np.zeros(len(points)))
+        return np.nan_to_num(np.where(missed > ROUNDING, -2.0 - missed, merit), nan=-1e9)
+
+    def spread(self, count: int = POINTS) -> list[tuple[tuple[Any, ...], Numbers]]:
+        """All combinations of levels, each with coded points spread over the ranges."""
+        choices = [[None] if axis is None else axis for axis in self.axes]
+        if (combinations := int(np.prod([len(choice) for choice in choices], dtype=float))) > MOST_COMBINATIONS:
+            raise InputError(
+                f"the levels have {combinations} combinations, at most {MOST_COMBINATIONS} are looked at: hold some of the factors"
+            )
+        ranges = self.axes.count(None)
+        bits = int(np.ceil(np.log2(max(count // combinations, LEAST_POINTS))))
+        places = 2.0 * stats.qmc.Sobol(ranges, rng=0).random_base2(bits) - 1.0 if ranges else np.zeros((1, 0))
+        return [(levels, places) for levels in itertools.product(*choices)]
+
+    def best(self) -> pandas.DataFrame:
+        """The point of the largest merit, one row."""
+        starts: list[Start] = []
+        for levels, places in self.spread():
+            merits = self.merit(self.points(levels, places))
+            starts += [(merits[at], levels, places[at]) for at in np.argsort(-merits, kind="stable")[:STARTS]]
+            starts = sorted(starts, key=lambda start: -start[0])[:STARTS]
+        best = starts[0]
+        if self.axes.count(None):
+            best = max((self._climbed(start, ["SLSQP"]) for start in starts), key=lambda found: found[0])
+            best = self._climbed(best, ["Nelder-Mead", "SLSQP"])
+        return self.points(best[1], best[2][None])
+
+    def _climbed(self, start: Start, methods: Sequence[str]) -> Start:
+        """Goes on from a start: along slopes and limits, and by simplices where these have corners."""
+        merit, levels, place = start
+        bounds, step = [(-1.0, 1.0)] * len(place), 1e-5 * np.eye(len(place))
+
+        def fall(x: Numbers) -> float:
+            return -float(self.merit(self.points(levels, x[None]))[0])
+
+        @lru_cache(maxsize=8)
+        def smooth(coded: bytes) -> tuple[Numbers, Numbers]:
+            """Minus the logarithm of the desirability and the margins of the limits, and their slopes."""
+            x = np.frombuffer(coded)
+            found = self.forecasts(self.points(levels, np.vstack([x, x + step, x - step])))
+            logs = sum(goal.importance * np.log(np.maximum(goal.way(found[goal.response]["value"]), 1e-9)) for goal in self.goals)
+            values = np.column_stack([-logs, *(limit.margin(found[limit.response]) for limit in self.limits)])
+            return values[0], ((values[1 : 1 + len(x)] - values[1 + len(x) :]) / 2e-5).T
+
+        kept = [
+            {"type": "ineq", "fun": lambda x, at=at: smooth(x.tobytes())[0][at], "jac": lambda x, at=at: smooth(x.tobytes())[1][at].copy()}
+            for at in range(1, 1 + len(self.limits))
+        ]
+        of_slopes = {"fun": lambda x: smooth(x.tobytes())[0][0], "jac": lambda x: smooth(x.tobytes())[1][0].copy(), "constraints": kept}
+        options: dict[str, Any] = {"SLSQP": {**of_slopes, "options": {"ftol": 1e-13}}}
+        options["Nelder-Mead"] = {"fun": fall, "options": {"xatol": 1e-5, "fatol": 1e-9, "maxfev": 60 * len(place)}}
+        for method in methods:
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore", RuntimeWarning)
+                x = np.clip(minimize(x0=place, method=method, bounds=bounds, **options[method]).x, -1.0, 1.0)
+            if np.isfinite(x).all() and -fall(x) > merit:
+                merit, place = -fall(x), x
+        return merit, levels, place
+
+
+def beyond_runs(problem: Problem) -> Problem:
+    """The problem whose goals end at the best that is expected within the ranges, if that is better than all runs: else all that is better
+    were worth the same."""
+    goals = []
+    for goal in problem.goals:
+        if goal.is_of_runs:
+            worst, best = goal.values
+            far = replace(goal, values=(worst - 100.0 * (best - worst), best + 100.0 * (best - worst)))
+            alone = replace(problem, goals=[far], limits=[])
+            found = float(alone.forecasts(alone.best())[goal.response]["value"].iloc[0])
+            goal = replace(goal, values=(worst, max(best, found) if best > worst else min(best, found)))
+        goals.append(goal)
+    return replace(problem, goals=goals)
+
+
+def named(names: Sequence[str], text: str, signs: Sequence[str]) -> tuple[str, str, str]:
+    """The name that a text begins with, the longest that fits, the sign behind it and what stands behind that."""
+    for name in sorted(names, key=len, reverse=True):
+        rest = text.strip().removeprefix(name).lstrip()
+        sign = next((sign for sign in signs if rest.startswith(sign)), "")
+        if text.strip().startswith(name) and (sign or not rest):
+            return name, sign, rest.removeprefix(sign).strip()
+    raise InputError(f'"{text}": expected {" or ".join(sign + "VALUE" for sign in signs)} behind one of {", ".join(map(repr, names))}')
+
+
+def wanted(
+    study: Study, given: dict[str, Sequence[str]], limits: Sequence[str], limit_on: str, importance: Sequence[str]
+) -> tuple[list[Goal], list[Limit]]:
+    """Goals and limits of the words."""
+    responses = {response.name: response for response in study.responses}
+    goals: dict[str, Goal] = {}
+
+    def observed(name: str) -> tuple[float, float]:
+        values = study.runs[name][np.isfinite(study.runs[name])]
+        if values.empty:
+            raise InputError(f'"{name}": no run has this response')
+        return float(values.min()), float(values.max())
+
+    for aim, text in ((aim, text) for aim, texts in given.items() for text in texts):
+        name, _, said = named(list(responses), text, ["="])
+        values = [parsed(responses[name].unit, value) for value in said.split("..")] if said else []
+        low, high = observed(name)
+        if name in goals:
+            raise InputError(f'"{name}" has two goals, expected one; a --limit may stand beside it')
+        if not values and aim != "target":
+            values = [low, high]
+        elif len(values) == 1 and aim == "target":
+            if not low <= values[0] <= high:
+                raise InputError(
+                    f'--target "{text}": the runs have {low:.6g} to {high:.6g} {responses[name].unit}; to aim beyond give LOW..VALUE..HIGH'
+                )
+            reach = max(high - values[0], values[0] - low)
+            values = [values[0] - reach, values[0], values[0] + reach]
+        if len(values) != (3 if aim == "target" else 2) or not all(a < b for a, b in itertools.pairwise(values)):
+            expected = (
+                "NAME=VALUE or NAME=LOW..VALUE..HIGH"
+                if aim == "target"
+                else "NAME, of which not all runs have the same value, or NAME=LOW..HIGH"
+            )
+            raise InputError(f'--{aim} "{text}": expected {expected}, with values that ascend')
+        goals[name] = Goal(name, aim, tuple(values[::-1] if aim == "minimize" else values), is_of_runs=not said)
+    if not goals:
+        raise InputError("no goal: give --maximize, --minimize or --target with a response")
+    for text in importance:
+        name, _, said = named(list(goals), text, ["="])
+        if not 0.01 <= (power := parsed("1", said)) <= 100.0:
+            raise InputError(f'--importance "{text}": expected a number between 0.01 and 100')
+        goals[name] = replace(goals[name], importance=power)
+    found = []
+    for text in limits:
+        name, sign, said = named(list(responses), text, ["<=", ">="])
+        low, high = observed(name)
+        found.append(Limit(name, sign == ">=", parsed(responses[name].unit, said), limit_on, high - low if high > low else 1.0))
+    return list(goals.values()), found
+
+
+def axes_of(study: Study, hold: Sequence[str], is_curved: bool) -> list[list[Any] | None]:
+    """Where each factor may be."""
+    held = {}
+    for text in hold:
+        name, _, said = named([factor.name for factor in study.factors], text, ["="])
+        factor = next(factor for factor in study.factors if factor.name == name)
+        value: Any = said
+        if factor.is_number:
+            number = said.removesuffix(factor.study_unit).strip()
+            value = float(number) * factor.one + factor.zero if number != said or not factor.study_unit else parsed(factor.unit, said)
+            low, high = min(study.runs[name].min(), factor.ends[0]), max(study.runs[name].max(), factor.ends[1])
+            if not low - 1e-9 * abs(low) <= value <= high + 1e-9 * abs(high):
+                raise InputError(f"--hold: {name} is beyond {factor.text(low)} to {factor.text(high)}; the search stays within the ranges")
+        elif value not in factor.levels:
+            raise InputError(f"--hold {text}: expected one of {', '.join(factor.levels)}")
+        held[name] = value
+    axes: list[list[Any] | None] = []
+    for factor in study.factors:
+        is_between = factor.is_number and not factor.whole and (factor.is_range or len(factor.levels) == 2 or is_curved)
+        whole = (
+            list(range(int(np.ceil(factor.ends[0])), int(factor.ends[1]) + 1)) if factor.whole and factor.is_range else list(factor.levels)
+        )
+        axes.append([held[factor.name]] if factor.name in held else None if is_between else whole)
+    return axes

@@ -1,0 +1,162 @@
+"""Expected improvement: runs at points that may be better than all that were run, for responses that are dear and noisy."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pandas
+from scipy import stats
+
+from plateau.errors import InputError
+from plateau.study.goals import POINTS, ROUNDING, Problem, Start, beyond_runs, minimize, overall
+from plateau.study.results import Numbers, Study
+from plateau.study.surrogate import surrogates
+
+# Draws of responses, and the improvement, as part of the way to the goal, that is worth no run.
+DRAWS, WORTH = 256, 1e-3
+# Coded places nearer than this are one point: its runs, with the same seeds, would tell nothing new.
+NEAR = 0.02
+
+
+def improved(
+    problem: Problem, runs: int, made: Callable[[pandas.DataFrame], pandas.DataFrame], at_a_time: int = 1
+) -> tuple[Problem, pandas.DataFrame]:
+    """Makes runs where improvement is expected, and fits Gaussian processes anew after each round.
+
+    Parameters
+    ----------
+    problem : Problem
+    runs : int
+        At most so many, those with each seed counted. The last ones are made where the mean is expected to be best.
+    made : callable
+        Makes the runs at points.
+    at_a_time : int
+        Points of a round: after the first one, each is chosen as if the ones before it had given what is expected of them.
+
+    Returns
+    -------
+    tuple of Problem and DataFrame
+        With all runs in its study, and the points with the improvement that was expected of them.
+    """
+    rows: list[dict[Any, Any]] = []
+    left, number = runs // problem.study.seeds, 0
+    if left < 1:
+        raise InputError(f"runs = {runs}: expected {problem.study.seeds} or more, one for each set of seeds")
+    problem = with_processes(problem, problem.study)
+    while left > 0:
+        number, believed = number + 1, problem
+        chosen: list[dict[Any, Any]] = []
+        while len(chosen) < min(at_a_time, left):
+            point, gain = _promising(believed)
+            if is_last := gain < WORTH or len(chosen) + 1 == left:
+                point, left = beyond_runs(believed).best(), len(chosen) + 1
+                gain = float(expected_improvement(believed, point)[0])
+            if not _is_run(believed, point).any():
+                chosen.append({**point.iloc[0].to_dict(), "expected_improvement": gain})
+            if is_last:
+                break
+            if len(chosen) < min(at_a_time, left):
+                guess = {name: surrogate.response.back(surrogate.mean(point))[0] for name, surrogate in believed.surrogates.items()}
+                believed = with_processes(
+                    believed, _with_runs(believed.study, [point.assign(**guess, replicate=1 + at) for at in range(problem.study.seeds)])
+                )
+        if not chosen:
+            break
+        left -= len(chosen)
+        new = made(pandas.DataFrame(chosen))
+        means = new.groupby("point")[[response.name for response in problem.study.responses]].mean().to_dict("records")
+        rows += [{"round": number} | point | mean for point, mean in zip(chosen, means, strict=True)]
+        problem = with_processes(problem, _with_runs(problem.study, [new]))
+    return problem, pandas.DataFrame(rows)
+
+
+def _with_runs(study: Study, new: Sequence[pandas.DataFrame]) -> Study:
+    runs = pandas.concat([study.runs, *(each.assign(state="finished") for each in new)], ignore_index=True)[study.runs.columns]
+    # Equal points have one number.
+    points = runs.groupby([factor.name for factor in study.factors], sort=False).ngroup() + 1
+    return replace(
+        study,
+        runs=runs.assign(point=points, order=range(1, len(runs) + 1), same_as=range(1, len(runs) + 1)).set_axis(range(1, len(runs) + 1)),
+    )
+
+
+def with_processes(problem: Problem, study: Study) -> Problem:
+    """The problem with processes that are fitted to the runs of a study."""
+    wanted = [*(goal.response for goal in problem.goals), *(limit.response for limit in problem.limits)]
+    own = replace(study, responses=[response for response in study.responses if response.name in wanted])
+    found = {one.response.name: replace(one, takes_process=one.process is not None) for one in surrogates(own, of_any_design=True)}
+    return replace(problem, study=study, surrogates={**problem.surrogates, **found})
+
+
+def expected_improvement(problem: Problem, points: pandas.DataFrame) -> Numbers:
+    """By how much of the way to the goals points are expected to be better than the best mean of a point that was run.
+
+    The reference is the best expected mean, not the best run, as runs are noisy (V. Picheny and others, Structural and Multidisciplinary
+    Optimization 48, 607-626 (2013)). What is as uncertain at points that were run, too, is nothing that more runs tell. Points that miss a
+    limit improve nothing.
+
+    Parameters
+    ----------
+    problem : Problem
+        With processes.
+    points : pandas.DataFrame
+
+    Returns
+    -------
+    numpy.ndarray
+    """
+    names = list(problem.forecasts(points.head(1)))
+    known = problem.study.runs.drop_duplicates("point")
+    draws = stats.norm.ppf(stats.qmc.Sobol(len(names), rng=0).random(DRAWS) * (1.0 - 1e-9) + 0.5e-9)
+    values, kept, forecasts = {}, np.ones((len(points), DRAWS), bool), problem.forecasts(points)
+    for name, z in zip(names, draws.T, strict=True):
+        surrogate = problem.surrogates[name]
+        open_part = np.sqrt(np.maximum(surrogate.deviation(points) ** 2 - surrogate.deviation(known).min() ** 2, 0.0))
+        values[name] = surrogate.response.back(surrogate.mean(points)[:, None] + open_part[:, None] * z)
+    for limit in problem.limits:
+        change = (values[limit.response] - forecasts[limit.response][["value"]].to_numpy()) / limit.scale
+        kept &= limit.margin(forecasts[limit.response])[:, None] + (change if limit.is_least else -change) >= -ROUNDING
+    expected = problem.forecasts(known)
+    keeps = np.ones(len(known), bool)
+    for limit in problem.limits:
+        keeps &= limit.margin(expected[limit.response]) >= -ROUNDING
+    reached = overall(problem.goals, [np.maximum(goal.way(expected[goal.response]["value"]), 0.0) for goal in problem.goals])
+    best = float(np.where(keeps, reached, 0.0).max())
+    merit = overall(problem.goals, [np.maximum(goal.way(values[goal.response]), 0.0) for goal in problem.goals])
+    return np.asarray((np.maximum(merit - best, 0.0) * kept).mean(axis=1))
+
+
+def _promising(problem: Problem) -> tuple[pandas.DataFrame, float]:
+    """The point of the largest expected improvement that was not run, and how large that is."""
+    best: Start = (-1.0, (), np.zeros(0))
+    for levels, places in problem.spread(POINTS // 4):
+        points = problem.points(levels, places)
+        gains = np.where(_is_run(problem, points), 0.0, expected_improvement(problem, points))
+        if gains.max() > best[0]:
+            best = (float(gains.max()), levels, places[gains.argmax()])
+    gain, levels, place = best
+    if len(place) and gain > 0.0:
+
+        def fall(x: Numbers) -> float:
+            at = problem.points(levels, np.clip(x, -1.0, 1.0)[None])
+            return 0.0 if _is_run(problem, at)[0] else -float(expected_improvement(problem, at)[0])
+
+        options = {
+            "maxfev": 40 * len(place),
+            "initial_simplex": np.clip(place + 0.1 * np.vstack([0.0 * place, np.eye(len(place))]) * np.where(place > 0, -1, 1), -1, 1),
+        }
+        found = minimize(fall, place, method="Nelder-Mead", bounds=[(-1.0, 1.0)] * len(place), options=options)
+        if -found.fun > gain:
+            gain, place = -float(found.fun), np.clip(found.x, -1.0, 1.0)
+    return problem.points(levels, place[None]), gain
+
+
+def _is_run(problem: Problem, points: pandas.DataFrame) -> Numbers:
+    """Whether points are at one that was run."""
+    known = problem.study.runs.drop_duplicates("point")
+    is_near = np.ones((len(points), len(known)), bool)
+    for factor in problem.study.factors:
+        own, others = points[factor.name].to_numpy()[:, None], known[factor.name].to_numpy()
+        is_near &= np.abs(factor.coded(own) - factor.coded(others)) < NEAR if factor.is_number else own == others
+    return np.asarray(is_near.any(axis=1))
