@@ -357,7 +357,7 @@ def _with_imported(study: Study) -> Study:
 
     values = imported_values(study)
     units = {response.name: response.unit for response in study.responses}
-    for name in values:
+    for name in map(str, values):
         study.runs[name] = values[name]
         study.table[name if units[name] == "1" else f"{name} [{units[name]}]"] = values[name].to_numpy()
     if "base" not in study.document:
