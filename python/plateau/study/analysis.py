@@ -627,3 +627,6 @@ def _text(one: ResponseEffects) -> str:
     widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
     lines += ["  ".join(cell.rjust(width) if at else cell.ljust(width) for at, (cell, width) in enumerate(zip(row, widths, strict=True))).rstrip() for row in rows]
     return "\n  ".join([*lines, *below]) + "\n"
+
+
+_digits = digits

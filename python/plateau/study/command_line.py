@@ -361,12 +361,12 @@ def _optimize(given: argparse.Namespace) -> str:
 
 
 def _sensitivity(given: argparse.Namespace) -> str:
-    from plateau.study.figures import saved
+    from plateau.study.figures import saved, sensitivity_figures
     from plateau.study.variance_parts import sensitivity
 
     study, folder, _ = _opened(given, "sensitivity")
     found = sensitivity(study, confidence=given.confidence)
-    files = {"sensitivity.csv": csv_of(found.table), **saved(found.figures())}
+    files = {"sensitivity.csv": csv_of(found.table), **saved(sensitivity_figures(found))}
     return _told(given, found, folder, write(folder, files, force=given.force, inputs=_inputs(study)), study.title)
 
 
@@ -379,14 +379,14 @@ def _import(given: argparse.Namespace) -> str:
 
 def _fit(given: argparse.Namespace) -> str:
     from plateau.study.calibration import fit, plan
-    from plateau.study.figures import saved
+    from plateau.study.figures import fit_figures, saved
 
     if given.plan:
         planned = plan(given.study, jobs=given.jobs, workers=given.workers)
         return _json(planned.document()) if given.json else planned.text()
     study, folder, of = _opened(given, "fit", "fit")
     found = fit(study, **_options(given, "jobs", "workers", "retry"), progress=_progress(given))
-    files = {**{name: csv_of(table) for name, table in found.tables().items()}, **saved(found.figures())}
+    files = {**{name: csv_of(table) for name, table in found.tables.items()}, **saved(fit_figures(found))}
     return _told(given, found, folder, write(folder, files, of=of, force=given.force, inputs=_inputs(study)), study.title)
 
 

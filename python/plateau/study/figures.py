@@ -18,9 +18,11 @@ from plateau.study.units import Unit, unit_for
 
 if TYPE_CHECKING:
     from plateau.study.analysis import Effects, ResponseEffects
+    from plateau.study.calibration import Fit
     from plateau.study.model import Fitted
     from plateau.study.optimum import Optimum
     from plateau.study.scene_comparison import Comparison
+    from plateau.study.variance_parts import Sensitivity
 
 # Figures by the names of their files; the label of a figure is its caption.
 Figures = dict[str, Any]
@@ -439,12 +441,12 @@ def optimum_figures(found: "Optimum", contour: str | None = None) -> Figures:
     dict of matplotlib.figure.Figure
         ``"profiler"`` and, where there are two numbers that may be anywhere, ``"contour"``.
     """
-    from plateau.study.optimum import overall
+    from plateau.study.goals import overall
 
     problem = found.problem
     best = pandas.DataFrame({row.factor: [row.value] for row in found.settings.itertuples()})
-    factors = {factor.name: axis for factor, axis in zip(found.study.factors, problem.axes, strict=True)}
-    pair = contour_pair(found.study.factors, [name for name, axis in factors.items() if axis is None], contour)
+    factors = {factor.name: axis for factor, axis in zip(problem.study.factors, problem.axes, strict=True)}
+    pair = contour_pair(problem.study.factors, [name for name, axis in factors.items() if axis is None], contour)
 
     def worth(points: pandas.DataFrame) -> Numbers:
         forecasts = problem.forecasts(points)
@@ -453,11 +455,11 @@ def optimum_figures(found: "Optimum", contour: str | None = None) -> Figures:
         return np.asarray(np.where(np.all(kept, axis=0) if kept else True, overall(problem.goals, each), 0.0))
 
     shown = list(problem.forecasts(best))
-    own = [factor for factor in found.study.factors if (axis := factors[factor.name]) is None or len(axis) > 1]
+    own = [factor for factor in problem.study.factors if (axis := factors[factor.name]) is None or len(axis) > 1]
     if not own:
         return {}
     caption = "Responses and their desirability along each factor, the others at the best settings"
-    level = f"{100 * found.confidence:g} %"
+    level = f"{100 * problem.confidence:g} %"
     note = f"Bands: {level} interval of means; vertical lines: best settings" + ("; dotted: limits" if problem.limits else "")
     width = WIDE if len(own) > 2 else NARROW
     figure, axes = _new(width, 14 + 34 * (len(shown) + 1), caption, len(shown) + 1, len(own), note, sharex="col", sharey="row")
@@ -470,7 +472,7 @@ def optimum_figures(found: "Optimum", contour: str | None = None) -> Figures:
         style = {"color": LINES[0], "linestyle": "-" if levels is None else "none", "marker": "" if levels is None else "o"}
         for row, name in enumerate(shown):
             response, y = problem.surrogates[name].response, forecasts[name]
-            unit, axis = _unit(response, found.study.runs[name]), axes[row, column]
+            unit, axis = _unit(response, problem.study.runs[name]), axes[row, column]
             low, middle, high = (unit.value(y[end].to_numpy()) for end in ("mean_low", "value", "mean_high"))
             axis.plot(x, middle, **style)
             if levels is None:
@@ -490,7 +492,7 @@ def optimum_figures(found: "Optimum", contour: str | None = None) -> Figures:
     figures = {"profiler": figure}
     ranges = sorted((factor for factor in own if factors[factor.name] is None), key=lambda factor: -spans[factor.name])
     if pair or len(ranges) > 1:
-        x, y = pair or sorted(ranges[:2], key=found.study.factors.index)
+        x, y = pair or sorted(ranges[:2], key=problem.study.factors.index)
         grid = [factor.value(np.linspace(-1.0, 1.0, STEPS)) for factor in (x, y)]
         points = pandas.DataFrame(list(itertools.product(*grid)), columns=[x.name, y.name])
         points = points.assign(**{name: best[name].iloc[0] for name in best if name not in (x.name, y.name)})
@@ -525,6 +527,135 @@ def contour_pair(factors: Sequence[Factor], free: Sequence[str], asked: str | No
             return by_name[one], by_name[other]
     wanted = ", ".join(free) or "none here"
     raise InputError(f"--contour {asked}: expected two different factors that are numbers and not held, with a comma between; there are {wanted}")
+
+
+# Sensitivity -----------------------------------------------------------------------------------------------------------------------
+
+
+@in_look
+def sensitivity_figures(found: "Sensitivity") -> Figures:
+    """Draws parts of the variance of each response, or elementary effects.
+
+    Parameters
+    ----------
+    found : Sensitivity
+
+    Returns
+    -------
+    dict of matplotlib.figure.Figure
+        By name, such as ``"contact-area-indices"``.
+    """
+    figures: Figures = {}
+    draws, kind = (_elementary, "elementary-effects") if found.is_morris else (_indices, "indices")
+    names = [surrogate.response.name for surrogate in found.surrogates]
+    for surrogate, stem in zip(found.surrogates, file_names(names), strict=True):
+        table = found.table[found.table["response"] == surrogate.response.name]
+        if not surrogate.error and len(table):
+            figures[f"{stem}-{kind}"] = draws(found, surrogate.response, table)
+    return figures
+
+
+def _indices(found: "Sensitivity", response: Response, table: pandas.DataFrame) -> Any:
+    """Parts alone and with interactions, with their intervals, the largest on top and the seeds below."""
+    level = f"{100 * found.confidence:g} %"
+    is_seeds = (table["factor"] == "seeds") & table["first_order"].isna()
+    table = pandas.concat([table[~is_seeds].sort_values("total", ascending=False, kind="stable"), table[is_seeds]])
+    note = f"Bars: {level} intervals of what the runs leave open" + ("; seeds: part of the variance of single runs" if is_seeds.any() else "")
+    figure, axes = _new(NARROW, 30 + 7 * len(table), f"{response.name}: parts of the variance, with {level} intervals", note=note)
+    axis, places = axes[0, 0], np.arange(len(table))
+    for kind, label, aside, colour, mark in (
+        ("first_order", "alone (first order)", -0.15, LINES[0], "o"),
+        ("total", "with interactions (total)", 0.15, LINES[1], "s"),
+    ):
+        middle, low, high = (np.clip(table[f"{kind}{end}"].to_numpy(float), 0.0, 1.0) for end in ("", "_low", "_high"))
+        axis.errorbar(middle, places + aside, xerr=[middle - low, high - middle], fmt=mark, color=colour, elinewidth=1.4, capsize=2, label=label)
+    axis.set(xlabel=_labelled(f"part of the variance of {response.name}", ""), xlim=(-0.02, 1.02))
+    axis.set_yticks(places, [_wrapped(str(name)) for name in table["factor"]])
+    axis.invert_yaxis()
+    axis.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=2, columnspacing=1.0)
+    return figure
+
+
+def _elementary(found: "Sensitivity", response: Response, table: pandas.DataFrame) -> Any:
+    """Deviations of elementary effects against their mean sizes."""
+    unit = _unit(response, found.study.runs[response.name])
+    symbol = "K" if unit.offset else unit.symbol
+    sizes, errors, deviations = (table[name].to_numpy(float) * unit.per_si for name in ("mean_size", "standard_error", "deviation"))
+    caption = f"{response.name}: elementary effects over the whole range of each factor; above the line a factor acts unevenly or with others"
+    figure, axes = _new(NARROW, 76, caption, note="Bars: standard error; line: deviation = mean size")
+    axis = axes[0, 0]
+    axis.errorbar(sizes, deviations, xerr=np.nan_to_num(errors), fmt="o", color=LINES[0], capsize=2)
+    for name, x, y in zip(table["factor"], sizes, deviations, strict=True):
+        axis.annotate(_wrapped(str(name)), (x, y), xytext=(3, 3), textcoords="offset points", fontsize=7)
+    axis.axline((0.0, 0.0), slope=1.0, color=QUIET, linewidth=0.6)
+    axis.set(xlabel=_labelled("mean size of effects, μ*", symbol), ylabel=_labelled("deviation of effects, σ", symbol))
+    axis.set(xlim=(0.0, 1.15 * np.nanmax(sizes + np.nan_to_num(errors))), ylim=(-0.03 * np.nanmax(deviations, initial=1e-300), None))
+    return figure
+
+
+# Fit -------------------------------------------------------------------------------------------------------------------------------
+
+
+@in_look
+def fit_figures(found: "Fit") -> Figures:
+    """Draws profiles of the keys, regions of their pairs, and series beside what was measured.
+
+    Parameters
+    ----------
+    found : Fit
+
+    Returns
+    -------
+    dict of matplotlib.figure.Figure
+        ``"profiles"``, ``"region-..."`` for each pair, ``"series-..."`` for each series.
+    """
+    factors, level = {factor.name: factor for factor in found.study.factors}, f"{100 * found.confidence:g} %"
+    columns = min(len(factors), 3)
+    caption = f"How far −2 ln L rises where a key is held at a value, the others at their most likely ones; shaded: {level} interval"
+    width, note = (WIDE if columns > 1 else NARROW), f"Dashed: threshold of the {level} interval, which is shaded"
+    figure, axes = _new(width, 14 + 50 * -(-len(factors) // columns), caption, -(-len(factors) // columns), columns, note, sharey=True)
+    for axis, (name, rows) in zip(axes.flat, found.profiles.groupby("key", sort=False), strict=False):
+        factor, threshold = factors[str(name)], float(rows["threshold"].iloc[0])
+        axis.plot(factor.in_study_unit(rows["value"]), rows["rise"], color=LINES[0])
+        axis.axhline(threshold, color=QUIET, linestyle="--", linewidth=0.8)
+        for row in found.keys[(found.keys["key"] == name) & found.keys["low"].notna()].to_dict("records"):
+            axis.axvspan(*factor.in_study_unit(np.array([row["low"], row["high"]])), color=LINES[0], alpha=0.15, linewidth=0)
+        axis.set_ylim(-0.05 * threshold, 3.0 * threshold)
+        _axis(axis, factor)
+    for axis in axes.flat[len(factors) :]:
+        axis.set_axis_off()
+    for axis in axes[:, 0]:
+        axis.set_ylabel("rise of −2 ln L")
+    figures: Figures = {"profiles": figure}
+    regions = [(f"region-{'-'.join(file_names(names))}", names, *rest) for *names, x, y, z in found.regions for rest in [(x, y, z)]]
+    for file, names, across, along, rises in regions:
+        x, y = (factors[name] for name in names)
+        caption = f"Where {x.name} and {y.name} may be: {level} region; dots: runs"
+        figure, axes = _new(NARROW, 76, caption, note=f"Shaded: {level} region; dots: runs" if not found.outcome.has_failed else "Dots: runs")
+        axis = axes[0, 0]
+        if not found.outcome.has_failed:
+            threshold = float(stats.chi2.ppf(found.confidence, 2))
+            at = x.in_study_unit(across), y.in_study_unit(along)
+            axis.contourf(*at, rises, [-1.0, threshold], colors=[LINES[0]], alpha=0.2)
+            axis.contour(*at, rises, [threshold], colors=[LINES[0]], linewidths=1.0)
+        axis.plot(x.in_study_unit(found.runs[x.name]), y.in_study_unit(found.runs[y.name]), "o", mfc="white", mec="black", mew=0.6, ms=3.0)
+        _axis(axis, x)
+        _axis(axis, y, "y")
+        figures[file] = figure
+    measured = [(str(name), rows) for name, rows in found.series.groupby("response", sort=False)] if len(found.series) else []
+    for (name, rows), stem in zip(measured, file_names([name for name, _ in measured]), strict=True):
+        unit, time = unit_for(rows["unit"].iloc[0], float(rows["measured"].abs().max())), unit_for("s", float(rows["time"].max()))
+        figure, axes = _new(NARROW, 66, f"{name}: measured, and what runs give at the most likely values; bars and band: one standard deviation")
+        axis, at = axes[0, 0], time.value(rows["time"].to_numpy())
+        middle, half = unit.value(rows["forecast"].to_numpy()), unit.per_si * rows["forecast_deviation"].to_numpy()
+        bars, points = unit.per_si * rows["uncertainty"].to_numpy(), unit.value(rows["measured"].to_numpy())
+        axis.errorbar(at, points, bars, fmt="o", color="black", ms=2.5, elinewidth=0.6, label="measured")
+        axis.plot(at, middle, color=LINES[0], label="runs", zorder=3)
+        axis.fill_between(at, middle - half, middle + half, color=LINES[0], alpha=0.25, linewidth=0, zorder=3)
+        axis.set(xlabel=_labelled("time", time.symbol), ylabel=_labelled(name, unit.symbol))
+        axis.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=2)
+        figures[f"series-{stem}"] = figure
+    return figures
 
 
 # Comparison ------------------------------------------------------------------------------------------------------------------------
