@@ -109,14 +109,14 @@ class ResponseEffects:
         values = [len(fit.values), fit.missing, fit.mean, float(fit.coefficients[0]), *shares, fit.error**0.5, error_from(fit)]
         return dict(zip(MEMBERS[2:11], values, strict=True))
 
-    def means(self, *factors: str, fine: int = 0) -> pandas.DataFrame:
+    def means(self, *factors: str, steps: int = 0) -> pandas.DataFrame:
         """Means of the model at the levels of one factor or two, over all levels of the others and their middles.
 
         Parameters
         ----------
         *factors : str
             Names.
-        fine : int
+        steps : int
             Number of values of the first factor, if it has a range; those of the runs unless given.
 
         Returns
@@ -130,10 +130,13 @@ class ResponseEffects:
         codings = {coding.factor.name: coding for coding in fit.codings}
         places: list[list[Any]] = []
         for coding in (codings[name] for name in factors):
-            coded = np.unique(np.round(coding.factor.coded(fit.runs[coding.factor.name]), 9)) if coding.classes is None else np.array([])
-            count = fine if fine and not places else 5 if len(coded) > MOST_VALUES else 0
-            steps: Any = coding.factor.value(np.linspace(-1.0, 1.0, count) if count else coded) if len(coded) else []
-            places.append(list(coding.classes or steps))
+            if coding.classes is not None:
+                places.append(list(coding.classes))
+                continue
+            coded = np.unique(np.round(coding.factor.coded(fit.runs[coding.factor.name]), 9))
+            if steps and not places or len(coded) > MOST_VALUES:
+                coded = np.linspace(-1.0, 1.0, 5 if places or not steps else steps)
+            places.append(list(coding.factor.value(coded)))
         cells = pandas.DataFrame(list(itertools.product(*places)), columns=list(factors))
         numbers = [one.numbers(cells[name]) if name in factors else np.zeros((len(cells), one.width)) for name, one in codings.items()]
         found = fit.combined(rows := fit.products(numbers))
@@ -417,14 +420,8 @@ class Effects:
 
     @property
     def cautions(self) -> list[str]:
-        """What holds of all responses: pairs of factors that change together in all runs."""
-        runs, said = self.study.runs, []
-        places = {factor.name: runs[factor.name] if factor.is_number else pandas.factorize(runs[factor.name])[0] for factor in self.study.factors}
-        for one, other in itertools.combinations([name for name in places if np.ptp(places[name]) > 0], 2):
-            if abs(np.corrcoef(places[one], places[other])[0, 1]) > 0.999:
-                what = "what one of them does cannot be told from what the other does"
-                said.append(f"{one} and {other} change together in all runs: {what}")
-        return said
+        """What holds of all responses."""
+        return together(self.study)
 
     @property
     def repeats(self) -> int:
@@ -505,6 +502,17 @@ def usable(study: Study) -> Study:
     return study
 
 
+def together(study: Study) -> list[str]:
+    """Pairs of factors that change together in all runs: a sentence each."""
+    places = {one.name: study.runs[one.name] if one.is_number else pandas.factorize(study.runs[one.name])[0] for one in study.factors}
+    said = []
+    for one, other in itertools.combinations([name for name in places if np.ptp(places[name]) > 0], 2):
+        if abs(np.corrcoef(places[one], places[other])[0, 1]) > 0.999:
+            what = "what one of them does cannot be told from what the other does"
+            said.append(f"{one} and {other} change together in all runs: {what}")
+    return said
+
+
 def _effects(study: Study, response: Response, model: str | None, terms: str, confidence: float) -> ResponseEffects:
     """The analysis of one response."""
     try:
@@ -565,7 +573,7 @@ def _report(one: ResponseEffects) -> dict[str, Any]:
     return report | {"cautions": one.cautions}
 
 
-def digits(value: float, width: float = np.nan) -> str:
+def _digits(value: float, width: float = np.nan) -> str:
     """A number with as many digits as half the width of its interval leaves; four without."""
     if not np.isfinite(value):
         return ""
@@ -578,7 +586,7 @@ def digits(value: float, width: float = np.nan) -> str:
 
 
 def told(one: ResponseEffects) -> tuple[list[str], list[list[str]], list[str]]:
-    """What is said of a response, the rows of its table with their heads first, and what stands below it."""
+    """What is said of a response, the rows of its table with their heads, and what stands below it."""
     if (fit := one.fit) is None:
         return [one.response.name, one.error], [], []
     unit, table, summary = unit_for(one.unit, float(np.abs(fit.values).max())), one.table, one.summary
@@ -595,13 +603,13 @@ def told(one: ResponseEffects) -> tuple[list[str], list[list[str]], list[str]]:
     p, why = fit.lack_of_fit[2], "nothing is left for it" if fit.scatter[0].freedom else "no point has replicates"
     quality.append(f"lack of fit not tested: {why}" if np.isnan(p) else f"lack of fit p {'< 0.0001' if p < 1e-4 else f'= {p:.2g}'}")
     error = f"error {'' if np.isnan(fit.error) else 'from '}{summary['error_from']}"
-    error += f"; residual {digits(fit.error**0.5 * scale)}{symbol}" if np.isfinite(fit.error) else ""
+    error += f"; residual {_digits(fit.error**0.5 * scale)}{symbol}" if np.isfinite(fit.error) else ""
     if fit.residual_freedom == 0:
         error += ", so no interval can be told: give [replicates] of seeds, such as those of the disc, or a smaller model such as --model main"
     for _, margins in table[["margin_of_error", "simultaneous_margin_of_error"]].dropna().head(1).iterrows():
-        error += ", margin of error {}, simultaneous {} (Lenth)".format(*(digits(value * scale) for value in margins))
+        error += ", margin of error {}, simultaneous {} (Lenth)".format(*(_digits(value * scale) for value in margins))
     missing = f", {fit.missing} without a response" if fit.missing else ""
-    lines += [", ".join(quality), f"{len(fit.values)} runs{missing}, mean {digits(fit.mean * scale)}{symbol}, {error}"]
+    lines += [", ".join(quality), f"{len(fit.values)} runs{missing}, mean {_digits(fit.mean * scale)}{symbol}, {error}"]
     lines += [f"all results are those of {one.title}"] if one.response.transform != "none" else []
     lines += [f"caution: {caution}" for caution in one.cautions] + ([one.advice] if one.advice else [])
     rows = [["term", f"effect,{symbol}" if symbol else "effect", f"{100 * fit.confidence:.4g} % interval", "share", "df", "error df", "F", "p"]]
@@ -609,10 +617,10 @@ def told(one: ResponseEffects) -> tuple[list[str], list[list[str]], list[str]]:
     left_over = table[table["factors"].isna() & table["term"].isin(["residual", *parts])]
     for row in pandas.concat([one.terms.sort_values("share", ascending=False, kind="stable"), left_over]).to_dict("records"):
         width = (row["high"] - row["low"]) / 2 * scale
-        interval = " … ".join(digits(row[end] * scale, width) for end in ("low", "high")) if np.isfinite(width) else ""
+        interval = " … ".join(_digits(row[end] * scale, width) for end in ("low", "high")) if np.isfinite(width) else ""
         freedom = f"{row['error_freedom']:.3g}" if np.isfinite(row["error_freedom"]) else ""
-        cells = [("  " if row["term"] in parts else "") + row["term"], digits(row["effect"] * scale, width), interval, f"{100 * row['share']:.1f} %"]
-        rows.append([*cells, str(row["degrees_of_freedom"]), freedom, digits(row["f"]), digits(row["p"])])
+        cells = [("  " if row["term"] in parts else "") + row["term"], _digits(row["effect"] * scale, width), interval, f"{100 * row['share']:.1f} %"]
+        rows.append([*cells, str(row["degrees_of_freedom"]), freedom, _digits(row["f"]), _digits(row["p"])])
     below = [f"{row['term']} cannot be told from {', '.join(row['aliased_with'])}" for row in table.to_dict("records") if row["aliased_with"]]
     for units, products in one.equations.items():
         said = "in coded units, −1 to 1 over each range" if units == "coded" else "in the units of the study"
@@ -625,8 +633,6 @@ def _text(one: ResponseEffects) -> str:
     """The same as text."""
     lines, rows, below = told(one)
     widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
-    lines += ["  ".join(cell.rjust(width) if at else cell.ljust(width) for at, (cell, width) in enumerate(zip(row, widths, strict=True))).rstrip() for row in rows]
+    for first, *cells in rows:
+        lines.append("  ".join([first.ljust(widths[0]), *(cell.rjust(width) for cell, width in zip(cells, widths[1:], strict=True))]).rstrip())
     return "\n  ".join([*lines, *below]) + "\n"
-
-
-_digits = digits

@@ -181,7 +181,7 @@ class Fitted:
     missing, repeated : int
         Runs without a response, and those that repeat another one.
     confidence : float
-    seeds, points : int
+    seeds, point_count : int
         Numbers of sets of seeds, which are blocks of the model, and of different points.
     columns : list of slice
         Columns of the mean, the blocks (none without) and each term in ``design``, the model matrix of the runs.
@@ -208,7 +208,7 @@ class Fitted:
         keys = [np.round(factor.coded(runs[factor.name]) * 1e9) if factor.is_number else rank(runs[factor.name]) for factor in study.factors]
         self.is_curved = [coding.classes is None and len(set(key)) > 2 for coding, key in zip(self.codings, keys, strict=True)]
         self.runs = runs.assign(point=rank(np.column_stack(keys)))
-        self.seeds, self.points = int(runs["replicate"].nunique()), int(self.runs["point"].max()) + 1
+        self.seeds, self.point_count = int(runs["replicate"].nunique()), int(self.runs["point"].max()) + 1
         self.centre = self._centre() if centre and model != "quadratic" else {}
         self.terms = terms if terms is not None else self._terms() + ([()] if self.centre else [])
         widths = [1, self.seeds - 1, *(int(np.prod([self.codings[at].width for at in term])) for term in self.terms)]
@@ -241,7 +241,7 @@ class Fitted:
         order = {"main": 1, "full": count}.get(self.model, 2)
         for more in range(2, count + 1) if self.model == "full" else ():
             # Up to the order at which there are as many coefficients as points.
-            if sum(columns[:more]) >= self.points or sum(columns[: more + 1]) > MOST_COLUMNS:
+            if sum(columns[:more]) >= self.point_count or sum(columns[: more + 1]) > MOST_COLUMNS:
                 order = more - 1
                 break
         squares = [(at, at) for at in range(count) if self.model == "quadratic" and self.study.factors[at].is_number]
@@ -297,7 +297,7 @@ class Fitted:
         # What points leave of blocks is nothing but rounding where each point is in one block only.
         fit = LeastSquares(blocks.where(blocks.abs() > 1e-12, 0.0).to_numpy())
         left = self._unless_rounding(fit.residuals(self.within))
-        freedom = len(left) - self.points - len(fit.kept)
+        freedom = len(left) - self.point_count - len(fit.kept)
         return Squares(freedom, float(left @ left) if freedom > 0 else 0.0), left
 
     @cached_property
@@ -312,8 +312,8 @@ class Fitted:
     @cached_property
     def _held_out(self) -> Numbers:
         """By point, the mean residual of the fit and of the fit without the point."""
-        held_out = np.full((self.points, 2), np.nan)
-        for point in range(self.points):
+        held_out = np.full((self.point_count, 2), np.nan)
+        for point in range(self.point_count):
             own = np.flatnonzero(self.runs["point"] == point)
             rows = self.fit.basis[own]
             values, vectors = np.linalg.eigh(np.eye(len(own)) - rows @ rows.T)
@@ -395,7 +395,7 @@ class Fitted:
         It is that which errors at points that were left out support. Without replicates scatter is not known: all of it is taken to be
         missed.
         """
-        known, pure, freedom = self._held_out[~np.isnan(self.loo)], self.scatter[0], self.points - len(self.own)
+        known, pure, freedom = self._held_out[~np.isnan(self.loo)], self.scatter[0], self.point_count - len(self.own)
         if freedom <= 0 or not len(known):
             return (0.0, 1.0) if pure.freedom > 0 else (np.nan, np.nan)
         left = float((known[:, 0] * known[:, 1]).mean())
@@ -496,10 +496,10 @@ class Fitted:
                 better = f"try --model {missed['model_to_try']}, which explains more, {share}"
             how = ": points differ from the model by more than replicates from each other" if missed["by_replicates"] else ""
             said.append(f"lack of fit{how} ({p}); {better}")
-        if (freedom := self.points - len(self.own)) <= 0:
+        if (freedom := self.point_count - len(self.own)) <= 0:
             said.append("as many coefficients as points: the runs cannot show what the model misses; more points or a smaller --model would")
         elif freedom < LEAST_FREEDOM:
-            said.append(f"few points: {self.points} for {len(self.own)} coefficients, so that the fit hardly shows what the model misses")
+            said.append(f"few points: {self.point_count} for {len(self.own)} coefficients, so that the fit hardly shows what the model misses")
         if self.seeds == 2:
             wide = "two sets of seeds leave one degree of freedom for the error, and intervals are wide"
             said.append(f"{wide}; a third makes them about 3.6 times as narrow")
@@ -612,8 +612,8 @@ def no_squares(fit: Fitted) -> str:
         columns.start for term, columns in zip(fit.terms, fit.columns[2:], strict=True) if len(term) == 2 and term[0] == term[1] and not fit.is_curved[term[0]]
     }  # fmt: skip
     coefficients = fit.design.shape[1] - len(straight)
-    if (needed := coefficients - fit.seeds + 1) > fit.points:
-        return f"{fit.points} different points are too few for {needed} coefficients"
+    if (needed := coefficients - fit.seeds + 1) > fit.point_count:
+        return f"{fit.point_count} different points are too few for {needed} coefficients"
     if coefficients + LEAST_FREEDOM > len(fit.values):
         return f"{len(fit.values)} runs are too few for {coefficients} coefficients and an error"
     owners = [fit.owner(column) for column in fit.fit.relations if column not in straight]
