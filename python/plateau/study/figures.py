@@ -259,7 +259,7 @@ def _main_effects(one: "ResponseEffects", fit: "Fitted") -> Any:
     unit = _unit(one.response, one.response.back(fit.values))
     for axis, factor in zip(axes.flat, own, strict=False):
         means = one.means(factor.name)
-        _means(axis, one.response, unit, factor, one.means(factor.name, fine=STEPS // 2), LINES[0], "-")
+        _means(axis, one.response, unit, factor, one.means(factor.name, steps=STEPS // 2), LINES[0], "-")
         if is_straight:
             axis.plot(_positions(factor, means[factor.name]), _shown(one.response, unit, means["observed"]), "o", mec=LINES[0], mfc="none")
         _axis(axis, factor)
@@ -312,7 +312,7 @@ def _interactions(one: "ResponseEffects", fit: "Fitted") -> Any:
     for axis, pair in zip(axes.flat, pairs, strict=False):
         # Over the factor with more values, which is a number if there is one; a line for each level of the other.
         x, line = sorted((fit.study.factors[at] for at in pair), key=lambda factor: (factor.is_number, factor.is_range), reverse=True)
-        means = one.means(x.name, line.name, fine=STEPS // 4)
+        means = one.means(x.name, line.name, steps=STEPS // 4)
         levels = list(dict.fromkeys(means[line.name]))
         if line.is_range:
             # Within the range: axial points are beyond it.
