@@ -52,7 +52,7 @@ def improved(
             if is_last := gain < WORTH or len(chosen) + 1 == left:
                 point, left = beyond_runs(believed).best(), len(chosen) + 1
                 gain = float(expected_improvement(believed, point)[0])
-            if not _is_run(believed, point).any():
+            if not is_run(believed, point).any():
                 chosen.append({**point.iloc[0].to_dict(), "expected_improvement": gain})
             if is_last:
                 break
@@ -132,7 +132,7 @@ def _promising(problem: Problem) -> tuple[pandas.DataFrame, float]:
     best: Start = (-1.0, (), np.zeros(0))
     for levels, places in problem.spread(POINTS // 4):
         points = problem.points(levels, places)
-        gains = np.where(_is_run(problem, points), 0.0, expected_improvement(problem, points))
+        gains = np.where(is_run(problem, points), 0.0, expected_improvement(problem, points))
         if gains.max() > best[0]:
             best = (float(gains.max()), levels, places[gains.argmax()])
     gain, levels, place = best
@@ -140,7 +140,7 @@ def _promising(problem: Problem) -> tuple[pandas.DataFrame, float]:
 
         def fall(x: Numbers) -> float:
             at = problem.points(levels, np.clip(x, -1.0, 1.0)[None])
-            return 0.0 if _is_run(problem, at)[0] else -float(expected_improvement(problem, at)[0])
+            return 0.0 if is_run(problem, at)[0] else -float(expected_improvement(problem, at)[0])
 
         options = {
             "maxfev": 40 * len(place),
@@ -152,11 +152,11 @@ def _promising(problem: Problem) -> tuple[pandas.DataFrame, float]:
     return problem.points(levels, place[None]), gain
 
 
-def _is_run(problem: Problem, points: pandas.DataFrame) -> Numbers:
+def is_run(problem: Problem, points: pandas.DataFrame, near: float = NEAR) -> Numbers:
     """Whether points are at one that was run."""
     known = problem.study.runs.drop_duplicates("point")
     is_near = np.ones((len(points), len(known)), bool)
     for factor in problem.study.factors:
         own, others = points[factor.name].to_numpy()[:, None], known[factor.name].to_numpy()
-        is_near &= np.abs(factor.coded(own) - factor.coded(others)) < NEAR if factor.is_number else own == others
+        is_near &= np.abs(factor.coded(own) - factor.coded(others)) < near if factor.is_number else own == others
     return np.asarray(is_near.any(axis=1))

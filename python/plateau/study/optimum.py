@@ -2,6 +2,7 @@
 
 import itertools
 import os
+import warnings
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
@@ -9,16 +10,16 @@ from typing import Any
 import numpy as np
 import pandas
 
-from plateau.errors import InputError
+from plateau.errors import InputError, PlateauWarning
 from plateau.study.goals import ROUNDING, Goal, Limit, Problem, axes_of, beyond_runs, overall, wanted
-from plateau.study.improvement import improved
+from plateau.study.improvement import improved, is_run
 from plateau.study.results import Numbers, Response, Study, analysed
 from plateau.study.runs import make_runs
 from plateau.study.surrogate import Surrogate, surrogates
 from plateau.study.units import Unit, unit_for
 
-# In differences that count: on a limit; in parts of a range: at its end.
-ON_LIMIT, AT_END = 2e-3, 1e-3
+# In differences that count: on a limit; in halves of a range: at its end, and so far from its middle that a model knows nothing.
+ON_LIMIT, AT_END, FAR = 2e-3, 1e-3, 5.0
 
 
 def canonical(function: Callable[[Numbers], Numbers], count: int) -> dict[str, Any]:
@@ -113,8 +114,9 @@ class Optimum:
             confirmed.append(made if row["runs"] else None)
             worth[row["response"]] = row["desirability"]
         for limit in self.problem.limits:
-            margin, ends = self._margin(limit), [limit.value, None] if limit.is_least else [None, limit.value]
-            said = {"response": limit.response, "least": ends[0], "most": ends[1], "on": limit.on}
+            margin = self._margin(limit)
+            least, most = (limit.value, None) if limit.is_least else (None, limit.value)
+            said = {"response": limit.response, "least": least, "most": most, "on": limit.on}
             limits.append({**said, "is_kept": margin >= -ROUNDING, "holds_back": abs(margin) < ON_LIMIT})
         return {
             "study": self.problem.study.title,
@@ -179,9 +181,12 @@ class Optimum:
         if self.at_ends:
             lines.append(f"  at an end of the range: {', '.join(self.at_ends)}; the study knows nothing beyond it")
         for each in self.canonical:
+            is_near = all(abs(row["coded"]) <= FAR for row in each["stationary"])
             at = ", ".join(f"{row['factor']} = {row['text']}" for row in each["stationary"])
             where = "" if all(row["is_within"] for row in each["stationary"]) else ", outside the ranges"
-            lines.append(f"  {each['response']}: the quadratic model has a {each['nature']}{f' at {at}{where}' if at else ''}")
+            lines.append(
+                f"  {each['response']}: the quadratic model has a {each['nature']}{f' at {at}{where}' if at and is_near else ' far outside the ranges' if at else ''}"
+            )
         if confirmed:
             lines += ["Confirmed by runs at this place, mean ± standard error", *confirmed]
         if len(self.rounds):
@@ -312,6 +317,10 @@ def optimize(
         # The best of the places that were run, so that its own runs confirm it.
         points = problem.study.runs.drop_duplicates("point").reset_index(drop=True)[list(best.columns)]
         best = points.iloc[[int(problem.merit(points).argmax())]].reset_index(drop=True)
+    if confirm and not runs and is_run(problem, best, 1e-9).any():
+        warnings.warn(
+            "a point of the study is at this place: the fit has used its runs, so that they confirm nothing", PlateauWarning, stacklevel=2
+        )
     if confirm or runs:
         confirming = made(best).drop_duplicates("same_as")
     return _told(problem, best, confirming, rounds)

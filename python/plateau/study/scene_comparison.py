@@ -34,6 +34,7 @@ USUAL = [
     ("temperature of the contact", "contact_temperature:mean", "thermal"),
     ("PM10", "pm10_mass:end", "emission"),
 ]
+SURFACES = [("disc", "surface"), ("pin", "base"), ("pin", "surface")]
 
 
 @dataclass(frozen=True)
@@ -167,10 +168,11 @@ def compare(
     directory, made, cautions = Path(output), {}, []
     for name, file, scene in zip(names, files, resolved, strict=True):
         keys = _seed_keys(scene)
+        fixed = [f"{body}.{part}" for body, part in SURFACES if part in scene.get(body, {}) and "synthetic" not in scene[body][part]]
         if not keys:
-            cautions.append(
-                f"{name} has no synthetic surface and so no seeds: it is one run, and no interval says how other specimens scatter"
-            )
+            cautions.append(f"{name} has no synthetic surface and so no seeds: it is one run, and no interval says how other specimens scatter")
+        elif fixed:
+            cautions.append(f"{name}: {', '.join(fixed)} is the same in all runs, so intervals say nothing of other specimens of it")
         folder = directory / name
         folder.mkdir(parents=True, exist_ok=True)
         (folder / "seeds.csv").write_text("\n".join(["seed", *map(str, range(1, seeds + 1) if keys else ["none"]), ""]))

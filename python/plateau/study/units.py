@@ -42,6 +42,8 @@ class Unit:
 
     def text(self, value: float, error: float = math.nan, *, is_difference: bool = False) -> str:
         """A value, SI, with its unit, and with as many digits as its error leaves: ``"2.08 ± 0.10 mm²"``."""
+        if not math.isfinite(value):
+            return "–"
         number = value * self.per_si + (0.0 if is_difference else self.offset)
         return f"{with_error(number, error * self.per_si)} {'K' if is_difference and self.offset else self.symbol}".strip()
 
@@ -77,8 +79,6 @@ def plain(unit: str) -> str:
 
 def with_error(number: float, error: float = math.nan) -> str:
     """A number with its error, to two digits of the error; without an error to five digits."""
-    if not math.isfinite(number):
-        return "–"
     if not math.isfinite(error):
         return f"{number:.5g}"
     places = min(max(1 - math.floor(math.log10(float(f"{error:.1e}"))), 0), 9) if error > 0 else 4

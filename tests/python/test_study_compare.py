@@ -1,0 +1,113 @@
+"""Comparison of scenes: differences paired by seed, runs that are made once."""
+
+import json
+import os
+import pathlib
+import tempfile
+import unittest
+import warnings
+
+import numpy as np
+from plateau.errors import InputError
+from plateau.study.scene_comparison import _response, _seed_keys, compare, difference
+from scipy import stats
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
+QUICK = ROOT / "data" / "scenes" / "quick.toml"
+os.environ.setdefault("PLATEAU_PROGRAM", str(ROOT / "plateau"))
+
+# Student's sleep data (R: `sleep`): hours of sleep gained with two drugs by the same ten patients.
+ONE = [0.7, -1.6, -0.2, -1.2, -0.1, 3.4, 3.7, 0.8, 0.0, 2.0]
+TWO = [1.9, 0.8, 1.1, 0.1, -0.1, 4.4, 5.5, 1.6, 4.6, 3.4]
+
+
+class Differences(unittest.TestCase):
+    def test_the_paired_test_of_r(self):
+        # R's documentation: t.test(extra ~ group, paired = TRUE) gives p = 0.002833, 95 % interval -2.4598858 -0.7001142.
+        found = difference(TWO, ONE)
+        self.assertAlmostEqual(found["difference"], -1.58, places=12)
+        self.assertAlmostEqual(found["low"], -2.4598858, places=7)
+        self.assertAlmostEqual(found["high"], -0.7001142, places=7)
+        self.assertAlmostEqual(found["p"], 0.002833, places=6)
+        self.assertAlmostEqual(found["sureness"], 1 - 0.002833 / 2, places=6)
+        self.assertTrue(np.isnan(found["ratio"]))
+
+    def test_several_comparisons_hold_together(self):
+        alone, both = difference(ONE, TWO), difference(ONE, TWO, comparisons=2)
+        self.assertAlmostEqual(both["p"], 2 * alone["p"])
+        half = stats.t.ppf(1 - 0.025 / 2, 9) * np.std(np.subtract(TWO, ONE), ddof=1) / np.sqrt(10)
+        self.assertAlmostEqual(both["high"] - both["difference"], half)
+
+    def test_a_ratio_is_that_of_geometric_means(self):
+        one, two = np.array([1.0, 2.0, 4.0]), np.array([2.0, 4.0, 9.0])
+        found = difference(one, two)
+        by_log = stats.ttest_rel(np.log(two), np.log(one)).confidence_interval()
+        self.assertAlmostEqual(found["ratio"], (2 * 2 * 2.25) ** (1 / 3))
+        self.assertAlmostEqual(found["ratio_low"], np.exp(by_log.low))
+        self.assertAlmostEqual(found["ratio_high"], np.exp(by_log.high))
+
+    def test_few_and_equal_values(self):
+        self.assertEqual(difference([1.0], [3.0])["difference"], 2.0)
+        self.assertTrue(np.isnan(difference([1.0], [3.0])["low"]))
+        self.assertTrue(np.isnan(difference([], [])["difference"]))
+        self.assertEqual([difference([1.0, 1.0], two)["p"] for two in ([1.0, 1.0], [2.0, 2.0])], [1.0, 0.0])
+
+    def test_intervals_cover_in_95_of_100(self):
+        # Runs of a seed are alike in both scenes, and the difference scatters between seeds; three scenes hold together.
+        random, covered = np.random.default_rng(1), []
+        for _ in range(1500):
+            common = random.standard_normal(5)
+            first, second, third = common + random.standard_normal((3, 5))
+            ends = [difference(first, other + 1.0, 0.95, 2) for other in (second, third)]
+            covered.append(all(end["low"] <= 1.0 <= end["high"] for end in ends))
+        self.assertGreater(np.mean(covered), 0.94)
+        self.assertLess(np.mean(covered), 0.98)
+
+
+class Words(unittest.TestCase):
+    def test_responses(self):
+        self.assertEqual(_response("", "worn_pin"), {"name": "worn pin", "dataset": "/series/worn_pin", "at": "end"})
+        self.assertEqual(_response("", "/series/contact_area")["mean"], "last tenth")
+        self.assertEqual(_response("x", "pool:mean 1 s..2 s")["mean"], ["1 s", "2 s"])
+        self.assertEqual(_response("x", "contact_area:reaches .8")["reaches"], 0.8)
+        self.assertEqual(_response("x", "/event/temperature:3"), {"name": "x", "dataset": "/event/temperature", "event": 3})
+        with self.assertRaisesRegex(InputError, "expected a fraction"):
+            _response("x", "contact_area:reaches 90 %")
+
+    def test_seeds_of_a_scene(self):
+        scene = {"disc": {"surface": {"synthetic": {"seed": 1}}}, "pin": {"base": {"file": "a"}, "surface": {"synthetic": {"seed": 3}}}}
+        self.assertEqual(_seed_keys(scene), ["disc.surface.synthetic.seed", "pin.surface.synthetic.seed"])
+        with self.assertRaisesRegex(InputError, "two scenes or more"):
+            compare([QUICK])
+
+
+class Scenes(unittest.TestCase):
+    def test_runs_are_made_once_and_compared_by_seed(self):
+        with tempfile.TemporaryDirectory() as name:
+            folder = pathlib.Path(name)
+            smooth = folder / "smooth.toml"
+            smooth.write_text(f'version = 1\nextends = {json.dumps(str(QUICK))}\n[disc.surface]\nsynthetic.rms_height = "1 um"\n')
+            options = {"set": {"operation.duration": "2 s"}, "output": folder / "out"}
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore")
+                found = compare([QUICK, smooth], 3, **options)
+                journal = {path: path.stat().st_mtime_ns for path in (folder / "out").rglob("journal/*")}
+                again = compare([QUICK, smooth], 3, **options)
+            self.assertTrue(journal)
+            self.assertEqual(journal, {path: path.stat().st_mtime_ns for path in (folder / "out").rglob("journal/*")})
+            self.assertEqual(found.table.to_csv(), again.table.to_csv())
+            area = found.runs.pivot(index="seed", columns="scene", values="contact area")
+            self.assertEqual(area.shape, (3, 2))
+            expected = stats.ttest_rel(area["smooth"], area["quick"])
+            row = found.table.set_index("response").loc["contact area"]
+            self.assertAlmostEqual(row["p"], expected.pvalue)
+            self.assertIn("smooth: contact area is smaller by", row["words"])
+            page = found.page()
+            self.assertEqual(page.count("<svg"), found.curves["series"].nunique())
+            self.assertEqual([pathlib.Path(file).name for file in found.write()], ["comparison.html", "comparison.csv", "runs.csv"])
+            self.assertEqual(json.loads(json.dumps(found.document()))["reference"], "quick")
+            self.assertTrue(any("running-in time has a value in 0 of 3" in caution for caution in found.cautions))
+
+
+if __name__ == "__main__":
+    unittest.main()
