@@ -104,7 +104,6 @@ class Scenes(unittest.TestCase):
             self.assertIn("smooth: contact area is smaller by", row["words"])
             page = found.page()
             self.assertEqual(page.count("<svg"), found.curves["series"].nunique())
-            self.assertEqual([pathlib.Path(file).name for file in found.write()], ["comparison.html", "comparison.csv", "runs.csv"])
             self.assertEqual(json.loads(json.dumps(found.document()))["reference"], "quick")
             self.assertTrue(any("running-in time has a value in 0 of 3" in caution for caution in found.cautions))
 

@@ -12,7 +12,7 @@ import pandas
 from scipy import stats
 
 from plateau.errors import MissingPackageError
-from plateau.looks import CHOSEN, LINES, QUIET
+from plateau.looks import APART, CHOSEN, LINES, QUIET
 from plateau.study.results import Factor, Numbers, Response
 from plateau.study.units import Unit, unit_for
 
@@ -452,7 +452,7 @@ def optimum_figures(found: "Optimum", contour: str | None = None) -> Figures:
         forecasts = problem.forecasts(points)
         each = [goal.desirability(forecasts[goal.response]["value"]) for goal in problem.goals]
         kept = [limit.margin(forecasts[limit.response]) >= -1e-9 for limit in problem.limits]
-        return np.asarray(np.where(np.all(kept, axis=0) if kept else True, overall(problem.goals, each), 0.0))
+        return np.asarray(np.where(np.all(kept, axis=0) if kept else True, overall(problem.goals, each), np.nan))
 
     shown = list(problem.forecasts(best))
     own = [factor for factor in problem.study.factors if (axis := factors[factor.name]) is None or len(axis) > 1]
@@ -482,7 +482,7 @@ def optimum_figures(found: "Optimum", contour: str | None = None) -> Figures:
             for limit in (limit for limit in problem.limits if limit.response == name):
                 axis.axhline(unit.value(limit.value), color=LINES[1], linestyle=":")
             axes[row, 0].set_ylabel(_labelled(name, unit.symbol))
-        desirability = worth(points)
+        desirability = np.nan_to_num(worth(points))
         spans[factor.name] = float(np.ptp(desirability))
         axes[-1, column].plot(x, desirability, **style)
         _axis(axes[-1, column], factor)
@@ -493,14 +493,15 @@ def optimum_figures(found: "Optimum", contour: str | None = None) -> Figures:
     ranges = sorted((factor for factor in own if factors[factor.name] is None), key=lambda factor: -spans[factor.name])
     if pair or len(ranges) > 1:
         x, y = pair or sorted(ranges[:2], key=problem.study.factors.index)
-        grid = [factor.value(np.linspace(-1.0, 1.0, STEPS)) for factor in (x, y)]
+        grid = [factor.value(np.linspace(-1.0, 1.0, 2 * STEPS)) for factor in (x, y)]
         points = pandas.DataFrame(list(itertools.product(*grid)), columns=[x.name, y.name])
         points = points.assign(**{name: best[name].iloc[0] for name in best if name not in (x.name, y.name)})
-        values = worth(points).reshape(STEPS, STEPS)
-        if np.ptp(values) > 0:
+        values = worth(points).reshape(2 * STEPS, 2 * STEPS)
+        if np.isfinite(values).any() and np.nanmax(values) > np.nanmin(values):
             held = [f"{row.factor} = {row.text}" for row in found.settings.itertuples() if row.factor not in (x.name, y.name)]
             at = f", at {', '.join(held)}" if held else ""
-            map_ = _map(x, y, grid, values, "desirability", f"Desirability over {x.name} and {y.name}{at}", f"Star: best settings{at}")
+            map_ = _map(x, y, grid, values, "desirability", f"Desirability over {x.name} and {y.name}{at}", f"Star: best settings{at}" + ("; grey: a limit is missed" if problem.limits else ""))
+            map_.axes[0].set_facecolor(APART)
             star = x.in_study_unit(best[x.name]), y.in_study_unit(best[y.name])
             map_.axes[0].plot(*star, "*", mfc="white", mec="black", ms=9, mew=0.6, clip_on=False, zorder=5)
             figures["contour"] = map_
@@ -572,7 +573,7 @@ def _indices(found: "Sensitivity", response: Response, table: pandas.DataFrame) 
     axis.set(xlabel=_labelled(f"part of the variance of {response.name}", ""), xlim=(-0.02, 1.02))
     axis.set_yticks(places, [_wrapped(str(name)) for name in table["factor"]])
     axis.invert_yaxis()
-    axis.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=2, columnspacing=1.0)
+    figure.legend(loc="outside upper left", ncols=2, columnspacing=1.0)
     return figure
 
 
@@ -653,7 +654,7 @@ def fit_figures(found: "Fit") -> Figures:
         axis.plot(at, middle, color=LINES[0], label="runs", zorder=3)
         axis.fill_between(at, middle - half, middle + half, color=LINES[0], alpha=0.25, linewidth=0, zorder=3)
         axis.set(xlabel=_labelled("time", time.symbol), ylabel=_labelled(name, unit.symbol))
-        axis.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=2)
+        figure.legend(loc="outside upper left", ncols=2)
         figures[f"series-{stem}"] = figure
     return figures
 
@@ -695,7 +696,7 @@ def comparison_figures(found: "Comparison") -> Figures:
         top.set(ylabel=_labelled(name, unit.symbol))
         below.set(xlabel="time, s", ylabel=_labelled(f"less {reference}", "K" if unit.offset else unit.symbol))
         below.axhline(0.0, color=QUIET, linewidth=0.6)
-        top.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=2, columnspacing=1.0)
+        figure.legend(*top.get_legend_handles_labels(), loc="outside upper left", ncols=2, columnspacing=1.0)
         figure.align_ylabels()
         figures[str(series).replace("_", "-")] = figure
     return figures

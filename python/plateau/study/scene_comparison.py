@@ -115,6 +115,13 @@ class Comparison:
 
         return comparison_figures(self)
 
+    def page(self) -> str:
+        """One page for the browser, with the figures inside."""
+        from plateau.study.figures import saved
+        from plateau.study.page import comparison_page
+
+        return comparison_page(self, figures := self.figures(), saved(figures))
+
 
 def compare(
     scenes: Sequence[str | os.PathLike[str]],
