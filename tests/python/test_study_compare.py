@@ -102,8 +102,7 @@ class Scenes(unittest.TestCase):
             row = found.table.set_index("response").loc["contact area"]
             self.assertAlmostEqual(row["p"], expected.pvalue)
             self.assertIn("smooth: contact area is smaller by", row["words"])
-            page = found.page()
-            self.assertEqual(page.count("<svg"), found.curves["series"].nunique())
+            self.assertEqual(list(found.figures()), list(found.curves["series"].unique()))
             self.assertEqual(json.loads(json.dumps(found.document()))["reference"], "quick")
             self.assertTrue(any("running-in time has a value in 0 of 3" in caution for caution in found.cautions))
 

@@ -698,5 +698,5 @@ def comparison_figures(found: "Comparison") -> Figures:
         below.axhline(0.0, color=QUIET, linewidth=0.6)
         figure.legend(*top.get_legend_handles_labels(), loc="outside upper left", ncols=2, columnspacing=1.0)
         figure.align_ylabels()
-        figures[str(series).replace("_", "-")] = figure
+        figures[str(series)] = figure
     return figures

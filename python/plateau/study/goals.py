@@ -12,6 +12,7 @@ import pandas
 from scipy import optimize, stats
 
 from plateau.errors import InputError
+from plateau.study.prediction import _assignment, _axis, _beyond, _factor, _value
 from plateau.study.results import Numbers, Study
 from plateau.study.surrogate import Surrogate
 from plateau.study.units import parsed
@@ -251,26 +252,20 @@ def wanted(
 
 
 def axes_of(study: Study, hold: Sequence[str], is_curved: bool) -> list[list[Any] | None]:
-    """Where each factor may be."""
-    held = {}
+    """Where each factor may be: its levels, the value that it is held at, or None anywhere in its range."""
+    held: dict[str, Any] = {}
     for text in hold:
-        name, _, said = named([factor.name for factor in study.factors], text, ["="])
-        factor = next(factor for factor in study.factors if factor.name == name)
-        value: Any = said
-        if factor.is_number:
-            number = said.removesuffix(factor.study_unit).strip()
-            value = float(number) * factor.one + factor.zero if number != said or not factor.study_unit else parsed(factor.unit, said)
-            low, high = min(study.runs[name].min(), factor.ends[0]), max(study.runs[name].max(), factor.ends[1])
-            if not low - 1e-9 * abs(low) <= value <= high + 1e-9 * abs(high):
-                raise InputError(f"--hold: {name} is beyond {factor.text(low)} to {factor.text(high)}; the search stays within the ranges")
-        elif value not in factor.levels:
-            raise InputError(f"--hold {text}: expected one of {', '.join(factor.levels)}")
-        held[name] = value
+        name, said = _assignment(study, text)
+        factor = _factor(study, name, "--hold")
+        held[factor.name] = _value(factor, said, "--hold", is_curved)
+    place = pandas.DataFrame({factor.name: [held.get(factor.name, _axis(factor, None, is_curved)[0])] for factor in study.factors})
+    if beyond := _beyond(study, place)[0]:
+        raise InputError(f"--hold: {beyond}; the search stays within the ranges")
     axes: list[list[Any] | None] = []
     for factor in study.factors:
-        is_between = factor.is_number and not factor.whole and (factor.is_range or len(factor.levels) == 2 or is_curved)
-        whole = (
+        levels = (
             list(range(int(np.ceil(factor.ends[0])), int(factor.ends[1]) + 1)) if factor.whole and factor.is_range else list(factor.levels)
         )
-        axes.append([held[factor.name]] if factor.name in held else None if is_between else whole)
+        is_between = factor.is_number and not factor.whole and (factor.is_range or len(factor.levels) == 2 or is_curved)
+        axes.append([held[factor.name]] if factor.name in held else None if is_between else levels)
     return axes

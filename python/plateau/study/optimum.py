@@ -11,8 +11,10 @@ import numpy as np
 import pandas
 
 from plateau.errors import InputError, PlateauWarning
+from plateau.study.analysis import together, usable
 from plateau.study.goals import ROUNDING, Goal, Limit, Problem, axes_of, beyond_runs, overall, wanted
 from plateau.study.improvement import improved, is_run
+from plateau.study.prediction import INTERVALS, _beyond, _forecast, _no_curve
 from plateau.study.results import Numbers, Response, Study, analysed
 from plateau.study.runs import make_runs
 from plateau.study.surrogate import Surrogate, surrogates
@@ -62,7 +64,8 @@ class Optimum:
         A row for each factor: ``factor``, ``unit``, ``value`` (SI or a word), ``text``.
     table : pandas.DataFrame
         A row for each response: ``unit``, ``value``, ``mean_low``, ``mean_high`` (of the mean), ``run_low``, ``run_high`` (of one more run),
-        ``desirability``; and of runs at the place ``runs``, ``mean``, ``standard_error``, ``is_within`` the interval of runs. SI units.
+        ``leverage``, ``desirability``; and of runs at the place ``confirmed_runs``, their mean ``confirmed``, its ``confirmed_error``, and whether
+        that mean ``is_within`` the interval of runs. SI units.
     desirability : float
         The mean of all goals; 0 if a limit is missed.
     keeps_limits : bool
@@ -105,13 +108,8 @@ class Optimum:
             error = "no model could be fitted" if row["value"] is None else None
             ends = {"mean_interval": interval(row, "mean"), "run_interval": interval(row, "run"), "error": error}
             responses.append({"name": row["response"], "unit": row["unit"], "value": row["value"], **ends})
-            made = {
-                "runs": row["runs"],
-                "mean": row["mean"],
-                "standard_error": row["standard_error"],
-                "within_run_interval": row["is_within"],
-            }
-            confirmed.append(made if row["runs"] else None)
+            made = {"runs": int(row["confirmed_runs"]), "mean": row["confirmed"], "standard_error": row["confirmed_error"]}
+            confirmed.append({**made, "within_run_interval": row["is_within"]} if made["runs"] else None)
             worth[row["response"]] = row["desirability"]
         for limit in self.problem.limits:
             margin = self._margin(limit)
@@ -128,13 +126,10 @@ class Optimum:
             "responses": responses,
             "goals": [
                 {
-                    "response": one.response,
-                    "aim": one.aim,
-                    "values": list(one.values),
-                    "importance": one.importance,
-                    "desirability": worth[one.response],
+                    **{name: getattr(goal, name) for name in ("response", "aim", "values", "importance")},
+                    "desirability": worth[goal.response],
                 }
-                for one in self.problem.goals
+                for goal in self.problem.goals
             ],
             "desirability": self.desirability,
             "keeps_limits": self.keeps_limits,
@@ -165,10 +160,10 @@ class Optimum:
                 cell[f"{level} of {of}"] = f"{unit.value(row[f'{name}_low']):.4g} … {unit.value(row[f'{name}_high']):.4g}"
             worth = "" if np.isnan(row["desirability"]) else f"{row['desirability']:.3g}"
             cells.append({**cell, "goal": wanted, "desirability": worth})
-            if row["runs"]:
+            if row["confirmed_runs"]:
                 is_within = "within" if row["is_within"] else "outside"
-                mean = unit.text(row["mean"], row["standard_error"])
-                confirmed.append(f"  {row['response']}: {mean}, {row['runs']} runs, {is_within} the interval of runs")
+                mean = unit.text(row["confirmed"], row["confirmed_error"])
+                confirmed.append(f"  {row['response']}: {mean}, {row['confirmed_runs']:.0f} runs, {is_within} the interval of runs")
         lines += ["  " + line for line in pandas.DataFrame(cells).to_string(index=False).splitlines()]
         for limit in self.problem.limits:
             unit = _unit(self.problem.study, responses[limit.response])
@@ -210,37 +205,11 @@ class Optimum:
         can = ", so that it can be kept alone, but not with the others" if limit.margin(forecast)[0] >= 0.0 else ""
         return most + ", ".join(f"{factor.name} = {factor.text(point[factor.name].iloc[0])}" for factor in self.problem.study.factors) + can
 
-    def figures(self) -> dict[str, Any]:
-        """The profiler: desirability and responses along each factor through the best settings."""
-        from matplotlib.figure import Figure
+    def figures(self, contour: str | None = None) -> dict[str, Any]:
+        """The profiler, and the desirability over two factors, by their names with a comma between."""
+        from plateau.study.figures import optimum_figures
 
-        names = [
-            factor for factor, axis in zip(self.problem.study.factors, self.problem.axes, strict=True) if axis is None or len(axis) > 1
-        ]
-        best = pandas.DataFrame({row.factor: [row.value] for row in self.settings.itertuples()})
-        shown = list(self.problem.forecasts(best))
-        figure = Figure(figsize=(2.6 * len(names) + 1.0, 2.0 * len(shown) + 2.5), layout="constrained")
-        axes = figure.subplots(len(shown) + 1, len(names), sharex="col", sharey="row", squeeze=False)
-        for column, factor in enumerate(names):
-            axis = self.problem.axes[self.problem.study.factors.index(factor)]
-            values = factor.value(np.linspace(-1.0, 1.0, 61)) if axis is None else np.array(axis)
-            points = pandas.concat([best] * len(values), ignore_index=True).assign(**{factor.name: values})
-            found = self.problem.forecasts(points, with_intervals=True)
-            x = factor.in_study_unit(values) if factor.is_number else values
-            for row, name in enumerate(shown):
-                unit = _unit(self.problem.study, self.problem.surrogates[name].response)
-                y = found[name]
-                axes[row, column].plot(x, unit.value(y["value"]), "-" if axis is None else "o")
-                axes[row, column].fill_between(x, unit.value(y["mean_low"]), unit.value(y["mean_high"]), alpha=0.2, linewidth=0)
-                axes[row, 0].set_ylabel(", ".join(filter(None, [name, unit.symbol])))
-            worth = overall(self.problem.goals, [goal.desirability(found[goal.response]["value"]) for goal in self.problem.goals])
-            axes[-1, column].plot(x, worth, "k-" if axis is None else "ko")
-            axes[-1, column].set_xlabel(", ".join(filter(None, [factor.name, factor.study_unit])))
-            at = best[factor.name].iloc[0]
-            for each in axes[:, column]:
-                each.axvline(float(factor.in_study_unit(at)) if factor.is_number else at, color="C3", linewidth=0.8)
-        axes[-1, 0].set_ylabel("desirability")
-        return {"profiler": figure}
+        return dict(optimum_figures(self, contour))
 
 
 def optimize(
@@ -292,7 +261,7 @@ def optimize(
     -------
     Optimum
     """
-    study = analysed(study)
+    study = usable(analysed(study))
     goals, limits = wanted(study, {"maximize": maximize, "minimize": minimize, "target": target}, limit, limit_on, importance)
 
     def made(points: pandas.DataFrame) -> pandas.DataFrame:
@@ -339,24 +308,19 @@ def _limit_words(limit: Limit, unit: Unit) -> str:
 
 
 def _told(problem: Problem, best: pandas.DataFrame, confirming: pandas.DataFrame | None, rounds: pandas.DataFrame) -> Optimum:
-    study, rows, cautions = problem.study, [], []
-    for response in study.responses:
-        surrogate = problem.surrogates.get(response.name)
-        row: dict[Any, Any] = {"response": response.name, "unit": response.unit, "value": np.nan, "desirability": np.nan, "runs": 0}
-        row |= {"mean": np.nan, "standard_error": np.nan, "is_within": None}
-        if surrogate:
-            row |= surrogate.forecast(best, problem.confidence).iloc[0].to_dict()
-        for goal in problem.goals:
-            if goal.response == response.name:
-                row["desirability"] = float(goal.desirability(row["value"]))
-        if confirming is not None and len(values := confirming[response.name].dropna()):
-            is_within = bool(row["run_low"] <= values.mean() <= row["run_high"]) if np.isfinite(row.get("run_low", np.nan)) else None
-            row |= {"runs": len(values), "mean": values.mean(), "standard_error": values.sem(), "is_within": is_within}
-        cautions += [f"{response.name}: {caution}" for caution in (surrogate.cautions if surrogate else [])]
-        rows.append(row)
-    table = pandas.DataFrame(rows)
-    keeps = all(limit.margin(table[table["response"] == limit.response])[0] >= -ROUNDING for limit in problem.limits)
-    worth = {row["response"]: row["desirability"] for row in rows}
+    study = problem.study
+    beyond = _beyond(study, best)
+    tables = {name: _forecast(one, best, beyond, problem.confidence, confirming) for name, one in problem.surrogates.items()}
+    cautions = [*together(study), *_no_curve(study, best)]
+    cautions += [f"{name}: {said}" for name, table in tables.items() for said in table.attrs["cautions"]]
+    table = pandas.DataFrame(
+        {"response": [response.name for response in study.responses], "unit": [response.unit for response in study.responses]}
+    )
+    columns = ["response", "value", *INTERVALS, "leverage", "confirmed", "confirmed_error", "confirmed_runs", "is_within"]
+    table = table.merge(pandas.concat(tables.values())[columns], "left", on="response").fillna({"confirmed_runs": 0})
+    worth = {goal.response: float(goal.desirability(tables[goal.response]["value"])[0]) for goal in problem.goals}
+    table["desirability"] = table["response"].map(worth)
+    keeps = all(limit.margin(tables[limit.response])[0] >= -ROUNDING for limit in problem.limits)
     settings, at_ends = [], []
     for factor, axis in zip(study.factors, problem.axes, strict=True):
         value = best[factor.name].iloc[0]

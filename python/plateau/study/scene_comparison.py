@@ -115,13 +115,6 @@ class Comparison:
 
         return comparison_figures(self)
 
-    def page(self) -> str:
-        """One page for the browser, with the figures inside."""
-        from plateau.study.figures import saved
-        from plateau.study.page import comparison_page
-
-        return comparison_page(self, figures := self.figures(), saved(figures))
-
 
 def compare(
     scenes: Sequence[str | os.PathLike[str]],
@@ -177,7 +170,9 @@ def compare(
         keys = _seed_keys(scene)
         fixed = [f"{body}.{part}" for body, part in SURFACES if part in scene.get(body, {}) and "synthetic" not in scene[body][part]]
         if not keys:
-            cautions.append(f"{name} has no synthetic surface and so no seeds: it is one run, and no interval says how other specimens scatter")
+            cautions.append(
+                f"{name} has no synthetic surface and so no seeds: it is one run, and no interval says how other specimens scatter"
+            )
         elif fixed:
             cautions.append(f"{name}: {', '.join(fixed)} is the same in all runs, so intervals say nothing of other specimens of it")
         folder = directory / name

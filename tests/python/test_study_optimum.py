@@ -1,0 +1,297 @@
+"""Optimum of responses: desirability, search, canonical analysis, expected improvement, runs at points of a study."""
+
+import inspect
+import json
+import math
+import os
+import pathlib
+import tempfile
+import unittest
+import warnings
+
+import numpy as np
+import pandas
+from plateau.errors import InputError, RunFailed
+from plateau.study.goals import Goal, Limit, Problem, beyond_runs, overall
+from plateau.study.improvement import expected_improvement, improved
+from plateau.study.optimum import canonical, optimize
+from plateau.study.results import Factor, Response, Study, analysed
+from plateau.study.runs import make_runs, written
+from plateau.study.units import parsed, unit_for
+from scipy import stats
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
+os.environ.setdefault("PLATEAU_PROGRAM", str(ROOT / "plateau"))
+
+# A central composite design with three responses, and what the program before this package answered about it.
+LIMITS_MEET = {
+    "A": [0, 0, 0, -1, 1, -1, 0, 1, 1, -1],
+    "B": [-1, 1, 0, -1, -1, 0, 0, 0, 1, 1],
+    "gain": [3.9714657, 6.0253453, 5.0314383, 2.922013, 5.0164651, 3.9980913, 5.073694, 5.9844835, 7.0189114, 5.0544441],
+    "cost": [2.8875415, 3.2536537, 3.0716994, 1.7554306, 3.7623278, 1.9931305, 2.9403494, 3.9839142, 4.1892893, 2.2493497],
+    "risk": [1.0490076, 2.9217853, 2.0694868, 0.92275792, 1.1620449, 1.8782182, 2.076149, 2.084241, 3.0616457, 2.8808013],
+}
+
+
+def number(name, low=-1.0, high=1.0, unit="1", one=1.0, study_unit="", whole=False):
+    return Factor(name, "key", unit, (low, high), True, False, whole, study_unit, one, 0.0)
+
+
+def study(values, factors, responses, seeds=1, design="central-composite"):
+    """A study with these columns; runs of a point follow each other."""
+    count = len(next(iter(values.values())))
+    index = pandas.RangeIndex(1, count + 1, name="run")
+    own = {"point": np.arange(count) // seeds + 1, "replicate": np.arange(count) % seeds + 1, "order": index, "same_as": index, "state": "finished"}
+    runs = pandas.DataFrame({**own, **values}, index=index)
+    asked = [Response(name, unit, name, "none", -math.inf, math.inf, {}) for name, unit in responses.items()]
+    return Study("study", design, factors, asked, runs, pandas.DataFrame(), pandas.DataFrame(), None, {}, None, pathlib.Path("."))
+
+
+class Known:
+    """A surrogate that is a function of points."""
+
+    def __init__(self, function, deviation=0.0):
+        self.function, self.spread = function, deviation
+        self.response = Response("y", "1", "y", "none", -math.inf, math.inf, {})
+
+    def mean(self, points):
+        return self.function(*(points[name.upper()].to_numpy() for name in inspect.signature(self.function).parameters))
+
+    def deviation(self, points):
+        return np.full(len(points), self.spread)
+
+
+def problem(functions, goals, limits=(), axes=(None, None)):
+    factors = [number(name) for name in "AB"[: len(axes)]]
+    return Problem(study({"A": [0.0], "B": [0.0], "y": [0.0]}, factors, {"y": "1"}), functions, list(goals), list(limits), list(axes), 0.95)
+
+
+class Desirability(unittest.TestCase):
+    def test_by_hand(self):
+        most, least, target = Goal("y", "maximize", (120, 170)), Goal("y", "minimize", (3, 1)), Goal("y", "target", (400, 500, 700))
+        self.assertEqual(most.desirability([100, 120, 145, 170, 200]).tolist(), [0, 0, 0.5, 1, 1])
+        self.assertEqual(least.desirability([0, 1, 2, 3]).tolist(), [1, 1, 0.5, 0])
+        self.assertEqual(target.desirability([399, 425, 500, 550, 700, math.nan]).tolist(), [0, 0.25, 1, 0.75, 0, 0])
+        goals = [Goal("a", "maximize", (0, 1), 1.0), Goal("b", "maximize", (0, 1), 3.0)]
+        # (0.0625 * 0.5^3)^(1/4) = 2^(-7/4)
+        self.assertAlmostEqual(float(overall(goals, [0.0625, 0.5])), 2**-1.75, places=15)
+        self.assertEqual(float(overall(goals, [0.0, 1.0])), 0.0)
+
+    def test_units_of_people(self):
+        self.assertEqual([parsed("m3", text) for text in ("1.5 mm3", "1.5 mm^3", "1.5 mm³")], [1.5e-9] * 3)
+        self.assertEqual([parsed("1", "40 %"), parsed("1", "0.4"), parsed("K", "20 °C")], [0.4, 0.4, 293.15])
+        self.assertEqual(unit_for("m2", 2e-6).text(2.0812e-6, 0.0996e-6), "2.08 ± 0.10 mm²")
+        for text in ("1 mm", "one", "1 %"):
+            with self.assertRaises(InputError):
+                parsed("m2", text)
+
+
+class Search(unittest.TestCase):
+    def test_a_bent_ridge_and_a_rim(self):
+        goal = Goal("y", "maximize", (-10.0, 10.0))
+        # Rosenbrock's function in the box: highest at (0.5, 0.25).
+        best = problem({"y": Known(lambda a, b: -((a - 0.5) ** 2) - 100 * (b - a * a) ** 2)}, [goal]).best()
+        np.testing.assert_allclose(best.to_numpy(), [[0.5, 0.25]], atol=1e-5)
+        # Beyond the rim a = 1, there at b = -1.
+        best = problem({"y": Known(lambda a, b: -((a - 2) ** 2) - (b + a) ** 2)}, [goal]).best()
+        np.testing.assert_allclose(best.to_numpy(), [[1.0, -1.0]], atol=1e-6)
+
+    def test_a_limit_is_met_where_a_lagrange_multiplier_says(self):
+        # a + 2 b is largest on the circle a² + b² = 0.45 at (0.3, 0.6).
+        functions = {"y": Known(lambda a, b: a + 2 * b), "z": Known(lambda a, b: a * a + b * b)}
+        found = problem(functions, [Goal("y", "maximize", (-3.0, 3.0))], [Limit("z", False, 0.45, "mean", 1.0)]).best()
+        np.testing.assert_allclose(found.to_numpy(), [[0.3, 0.6]], atol=2e-5)
+        # It cannot be kept: the least that is missed.
+        found = problem(functions, [Goal("y", "maximize", (-3.0, 3.0))], [Limit("z", False, -1.0, "mean", 1.0)]).best()
+        np.testing.assert_allclose(found.to_numpy(), [[0.0, 0.0]], atol=1e-3)
+
+    def test_levels_are_tried_one_by_one(self):
+        asked = problem({"y": Known(lambda a, b: a * b)}, [Goal("y", "maximize", (-1.0, 1.0))], axes=([-1.0, 0.5], None))
+        self.assertEqual(asked.best().to_numpy().tolist(), [[-1.0, -1.0]])
+
+    def test_the_answers_of_the_program_before(self):
+        given = study(LIMITS_MEET, [number("A"), number("B")], {"gain": "m3", "cost": "1", "risk": "1"})
+        given.runs["gain"] *= 1e-9
+        limits = {"limit": ["cost<=3.1", "risk<=2.2"]}
+        wide = {"minimize": ["cost", "risk"], "importance": ["gain=2"]}
+        for goal, options, place, desirability in [
+            ("gain", limits, [0.04053128181175647, 0.1633281024590958], 0.566368089556722),
+            ("gain=4 mm3..6 mm3", wide, [0.3701921521886353, 0.10798442362379701], 0.5249308802607406),
+            ("gain", {"hold": ["A=0.2", "B=-0.1"]}, [0.2, -0.1], 0.5393462077544413),
+        ]:
+            with self.subTest(goal):
+                found = optimize(given, maximize=[goal], **options)
+                np.testing.assert_allclose(found.settings["value"].to_numpy(float), place, atol=2e-6)
+                self.assertAlmostEqual(found.desirability, desirability, delta=1e-8)
+                self.assertEqual([limit["holds_back"] for limit in found.document()["limits"]], [True] * len(options.get("limit", [])))
+        found = optimize(given, maximize=["gain"], limit=["cost<=2", "risk>=3"], limit_on="means")
+        self.assertEqual((found.keeps_limits, found.desirability), (False, 0.0))
+        self.assertIn("they are missed least at", found.text())
+
+
+class Canonical(unittest.TestCase):
+    def test_the_yield_of_montgomery(self):
+        # D. C. Montgomery, Design and Analysis of Experiments, section 11-2: stationary point (0.389, 0.306), 80.21; -0.9635, -1.4143.
+        def yields(x):
+            a, b = x.T
+            return 79.94 + 0.995 * a + 0.515 * b - 1.376 * a**2 - 1.001 * b**2 + 0.25 * a * b
+
+        found = canonical(yields, 2)
+        np.testing.assert_allclose(found["stationary"], [0.389, 0.306], atol=6e-4)
+        np.testing.assert_allclose(found["eigenvalues"], [-1.4143, -0.9635], atol=5e-4)
+        self.assertAlmostEqual(found["value"], 80.21, places=2)
+        self.assertEqual(found["nature"], "maximum")
+
+    def test_saddles_and_ridges(self):
+        self.assertEqual(canonical(lambda x: x[:, 0] * x[:, 1], 2)["nature"], "saddle")
+        self.assertEqual(canonical(lambda x: x[:, 0] ** 2 + x[:, 1], 2)["nature"], "ridge")
+        self.assertEqual(canonical(lambda x: (x**2).sum(axis=1), 3)["nature"], "minimum")
+
+
+class Improvement(unittest.TestCase):
+    def test_the_closed_form(self):
+        # The run at 0 has the mean 0 and, being known, no variance; elsewhere means are 0.3 a and deviations 0.5.
+        class Half(Known):
+            def deviation(self, points):
+                return np.where(points["A"] == 0.0, 0.0, 0.5)
+
+        asked = problem({"y": Half(lambda a: 0.3 * a)}, [Goal("y", "maximize", (0.0, 1.0))], axes=(None,))
+        a = np.array([-1.0, 0.5, 1.0])
+        z = 0.3 * a / 0.5
+        expected = 0.5 * (z * stats.norm.cdf(z) + stats.norm.pdf(z))
+        found = expected_improvement(asked, pandas.DataFrame({"A": a}))
+        np.testing.assert_allclose(found, expected, rtol=0.01)
+        # Only half of all responses keep a limit on the mean.
+        asked = problem({"y": Half(lambda a: 0 * a), "z": Half(lambda a: 0 * a)}, asked.goals, [Limit("z", False, 0.0, "mean", 1.0)], (None,))
+        self.assertAlmostEqual(expected_improvement(asked, pandas.DataFrame({"A": [1.0]}))[0], 0.25 * stats.norm.pdf(0.0), delta=0.01)
+
+    def test_a_noisy_peak_is_found_in_few_runs(self):
+        random, places = np.random.default_rng(4), np.linspace(-1.0, 1.0, 5)
+
+        def values(a):
+            return np.exp(-20 * (a - 0.35) ** 2) + 0.02 * random.standard_normal(len(a))
+
+        a = np.repeat(places, 2)
+        given = study({"A": a, "y": values(a)}, [number("A")], {"y": "1"}, seeds=2, design="sobol")
+        made = []
+
+        def make(points):
+            made.append(len(points))
+            a = np.repeat(points["A"].to_numpy(), 2)
+            return study({"A": a, "y": values(a)}, [number("A")], {"y": "1"}, seeds=2).runs
+
+        goal = Goal("y", "maximize", (given.runs["y"].min(), given.runs["y"].max()), is_of_runs=True)
+        found, rounds = improved(Problem(given, {}, [goal], [], [None], 0.95), 13, make, 2)
+        self.assertLessEqual(sum(made), 6)
+        self.assertEqual(len(rounds), sum(made))
+        self.assertEqual(len(found.study.runs), 10 + 2 * sum(made))
+        self.assertAlmostEqual(beyond_runs(found).best()["A"].iloc[0], 0.35, delta=0.06)
+        with self.assertRaisesRegex(InputError, "one for each set of seeds"):
+            improved(found, 1, make)
+
+
+class Wishes(unittest.TestCase):
+    def test_what_cannot_be_wanted(self):
+        given = study(LIMITS_MEET, [number("A"), number("B", unit="N", study_unit="N")], {"gain": "m3", "cost": "1", "risk": "1"})
+        for options, message in [
+            ({}, "no goal"),
+            ({"maximize": ["gain"], "minimize": ["gain"]}, "two goals"),
+            ({"maximize": ["pain"]}, "'gain'"),
+            ({"maximize": ["gain=2 mm3..1 mm3"]}, "ascend"),
+            ({"target": ["cost"]}, "NAME=VALUE"),
+            ({"target": ["cost=9"]}, "LOW..VALUE..HIGH"),
+            ({"maximize": ["gain"], "limit": ["cost=2"]}, "<="),
+            ({"maximize": ["gain"], "importance": ["gain=0"]}, "between 0.01 and 100"),
+            ({"maximize": ["gain"], "importance": ["cost=1"]}, "'gain'"),
+            ({"maximize": ["gain"], "hold": ["A=2"]}, "beyond"),
+            ({"maximize": ["gain"], "hold": ["B=1 m"]}, "unit of N"),
+        ]:
+            with self.subTest(options), self.assertRaisesRegex(InputError, message):
+                optimize(given, **options)
+
+
+class Runs(unittest.TestCase):
+    STUDY = """
+version = 1
+base = {base}
+set = ["operation.duration = '2 s'", "output.sample_every = '0.5 s'", "plateaus.debris = 'contact'", "plateaus.captured_fraction = 0.06"]
+design = "full-factorial"
+replicates = {{ keys = ["disc.surface.synthetic.seed"], seeds = [1, 2] }}
+[[factor]]
+name = "speed"
+key = "operation.rotational_speed"
+range = ["425 rpm", "850 rpm"]
+[[factor]]
+name = "debris"
+key = "plateaus.debris"
+levels = ["contact", "track"]
+[[response]]
+name = "area"
+dataset = "/series/contact_area_mean"
+at = "end"
+[[response]]
+name = "elsewhere"
+imported = true
+"""
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.path = pathlib.Path(folder.name) / "study.toml"
+        self.path.write_text(self.STUDY.format(base=json.dumps(str(ROOT / "data" / "scenes" / "quick.toml"))))
+
+    def test_runs_are_made_once_and_are_those_of_the_study(self):
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            given = analysed(self.path)
+            points = pandas.DataFrame({"speed": [50.0, given.runs["speed"].iloc[0]], "debris": ["track", "contact"]})
+            made = make_runs(given, points, jobs=2)
+            times = {file: file.stat().st_mtime_ns for file in (self.path.parent / "study" / "journal").iterdir()}
+            again = make_runs(given, points)
+            self.assertEqual(times, {file: file.stat().st_mtime_ns for file in (self.path.parent / "study" / "journal").iterdir()})
+            now = analysed(self.path)
+        self.assertEqual(made.to_csv(), again.to_csv())
+        self.assertEqual(made["point"].tolist(), [1, 1, 2, 2])
+        self.assertEqual(made["speed"].tolist()[:2], [50.0] * 2)
+        self.assertTrue(np.isfinite(made["area"]).all() and made["elsewhere"].isna().all())
+        # The runs of the second point are runs of the study.
+        same = (now.runs["speed"] == points["speed"][1]) & (now.runs["debris"] == "contact")
+        self.assertEqual(now.runs.loc[same, "area"].tolist(), made["area"].tolist()[2:])
+        self.assertEqual(now.runs["state"].value_counts()["finished"], 2)
+
+    def test_what_cannot_be_run(self):
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            given = analysed(self.path)
+        for points, message in [
+            (pandas.DataFrame({"speed": [-1.0], "debris": ["contact"]}), "study.toml: .* cannot be made"),
+            (pandas.DataFrame({"speed": [50.0]}), "debris"),
+            (pandas.DataFrame({"speed": [], "debris": []}), "points"),
+        ]:
+            with self.subTest(message), self.assertRaisesRegex((InputError, RunFailed), message):
+                make_runs(given, points)
+        with self.assertRaisesRegex(InputError, "without its study file"):
+            make_runs(study(LIMITS_MEET, [number("A")], {}), pandas.DataFrame({"A": [0.0]}))
+
+    def test_values_are_written_with_the_digits_that_give_them(self):
+        speed = number("speed", unit="rad/s", one=2 * math.pi / 60, study_unit="rpm")
+        self.assertEqual(written(speed, 425 * (2 * math.pi / 60)), "425 rpm")
+        for value in (50.0, 1 / 3, 44.50589592585541):
+            self.assertEqual(float(written(speed, value).split()[0]) * (2 * math.pi / 60), value)
+        self.assertEqual([written(number("n", whole=True), 20.0), written(speed, "none")], ["20", "none"])
+
+    def test_an_optimum_is_confirmed_by_its_runs(self):
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            make_runs(analysed(self.path), analysed(self.path).runs.drop_duplicates("point"))
+            found = optimize(self.path, maximize=["area"], hold=["speed=600 rpm"], confirm=True)
+        row = found.table.set_index("response").loc["area"]
+        self.assertEqual(row["confirmed_runs"], 2)
+        document = json.loads(json.dumps(found.document()))
+        self.assertEqual(document["confirmed"][0]["runs"], 2)
+        self.assertAlmostEqual(document["settings"][0]["number"], 600 * 2 * math.pi / 60)
+        self.assertIn("speed = 600 rpm", found.text())
+
+
+if __name__ == "__main__":
+    unittest.main()
