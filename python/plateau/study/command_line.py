@@ -29,8 +29,8 @@ EFFECTS += " margin_of_error simultaneous_margin_of_error aliased_with"
 class Parser(argparse.ArgumentParser):
     """A parser whose errors are those of the program, and which takes whole names of options alone."""
 
-    def __init__(self, *arguments: Any, **options: Any) -> None:
-        super().__init__(*arguments, allow_abbrev=False, **options)
+    def __init__(self, **options: Any) -> None:
+        super().__init__(allow_abbrev=False, **options)
 
     def error(self, message: str) -> NoReturn:
         raise InputError(f"{message}; {self.prog} --help tells more")
@@ -382,7 +382,7 @@ def _fit(given: argparse.Namespace) -> str:
     from plateau.study.figures import fit_figures, saved
 
     if given.plan:
-        planned = plan(given.study, jobs=given.jobs, workers=given.workers)
+        planned = plan(given.study)
         return _json(planned.document()) if given.json else planned.text()
     study, folder, of = _opened(given, "fit", "fit")
     found = fit(study, **_options(given, "jobs", "workers", "retry"), progress=_progress(given))

@@ -30,7 +30,7 @@ MM = 1 / 25.4
 NARROW, WIDE = 88.0, 180.0
 # Formats, and what is left out of their files so that equal figures give equal files.
 FORMATS: dict[str, dict[str, Any]] = {"png": {}, "svg": {"Date": None, "Creator": None}, "pdf": {"CreationDate": None, "ModDate": None}}
-LOOK = {
+LOOK: Any = {
     "font.size": 8,
     "axes.titlesize": 8,
     "legend.fontsize": 7,
@@ -70,7 +70,7 @@ def in_look(draws: Callable[..., Figures]) -> Callable[..., Figures]:
             import matplotlib
         except ImportError as error:
             raise MissingPackageError("figures need matplotlib: pip install 'plateau-brake[all]', or pip install matplotlib") from error
-        with matplotlib.rc_context({**matplotlib.rcParamsDefault, **LOOK}):
+        with matplotlib.rc_context(matplotlib.rcParamsDefault | LOOK):
             return draws(*arguments, **options)
 
     return drawn
