@@ -168,7 +168,10 @@ def error_from(fit: Fitted) -> str:
     if np.isnan(fit.error):
         return "none: the model reproduces all responses"
     if fit.seeds > 1:
-        return f"what each effect differs by between {fit.seeds} sets of seeds"
+        cells = fit.runs.groupby(["point", "replicate"]).size()
+        is_complete = len(cells) == fit.seeds * fit.point_count and cells.nunique() == 1
+        how = "" if is_complete else ", not all at the same points: degrees of freedom after Bell and McCaffrey"
+        return f"what each effect differs by between {fit.seeds} sets of seeds{how}"
     left_out = {"main": "interactions", "interactions": "interactions of third and higher order"}
     said = left_out.get(fit.model if fit.left_out is None and not any(fit.is_curved) else "", "what the model leaves out")
     if not fit.scatter[0].freedom:
@@ -242,8 +245,8 @@ def _table(fit: Fitted) -> pandas.DataFrame:
                     row |= {"low": row["effect"] - reach, "high": row["effect"] + reach}
         rows.append(row)
     nothing, (missed, *test) = [np.nan, np.nan], fit.lack_of_fit
-    others = [("residual", fit.residual, nothing), ("lack of fit", missed, test), ("pure error", fit.scatter[0], nothing), ("total", fit.total, nothing)]
-    for name, squares, (f, p) in others if fit.scatter[0].freedom > 0 else [others[0], others[3]]:
+    parts = [("lack of fit", missed, test), ("pure error", fit.scatter[0], nothing)] if fit.scatter[0].freedom > 0 else []
+    for name, squares, (f, p) in [("residual", fit.residual, nothing), *parts, ("total", fit.total, nothing)]:
         row = {"term": name, "degrees_of_freedom": squares.freedom, "sum_of_squares": squares.sum, "mean_square": squares.mean}
         rows.append(row | {"share": squares.sum / fit.total.sum, "f": f, "p": p, "aliased_with": []})
     table = pandas.DataFrame(rows).reindex(columns=COLUMNS)
@@ -477,15 +480,7 @@ def effects(study: Study | str | os.PathLike[str], model: str | None = None, ter
 
 
 def usable(study: Study) -> Study:
-    """The study, if it has results; runs without are said.
-
-    Raises
-    ------
-    InputError
-        If it asks for no response.
-    RunFailed
-        If no run has a value yet.
-    """
+    """The study, if it has results; runs without are said."""
     path = study.path or study.directory
     if not study.responses:
         advice = 'name one, such as dataset = "/series/contact_area_mean", at = "end"'
@@ -563,7 +558,8 @@ def _report(one: ResponseEffects) -> dict[str, Any]:
     if np.isnan(fit.error) and (judged := lenth(terms.loc[terms["factors"].str.len() > 0, "effect"], fit.confidence)):
         names = ("pseudo_standard_error", "margin_of_error", "simultaneous_margin_of_error")
         report["lenth"] = dict(zip(names, judged, strict=True))
-    copied = ["degrees_of_freedom", "sum_of_squares", "share", "variance_inflation", "f", "p", "effect", "standard_error", "aliased_with", "seed_ratio"]
+    copied = ["degrees_of_freedom", "sum_of_squares", "share", "variance_inflation", "f", "p", "effect", "standard_error"]
+    copied += ["aliased_with", "seed_ratio"]
     report["terms"] = [
         {"label": row["term"], "interval": None if np.isnan(row["low"]) else [row["low"], row["high"]]}
         | {name: _plain(row[name]) for name in copied}
@@ -605,26 +601,31 @@ def told(one: ResponseEffects) -> tuple[list[str], list[list[str]], list[str]]:
     error = f"error {'' if np.isnan(fit.error) else 'from '}{summary['error_from']}"
     error += f"; residual {_digits(fit.error**0.5 * scale)}{symbol}" if np.isfinite(fit.error) else ""
     if fit.residual_freedom == 0:
-        error += ", so no interval can be told: give [replicates] of seeds, such as those of the disc, or a smaller model such as --model main"
+        error += ", so no interval can be told: give [replicates] of seeds, such as those of the disc, or a smaller model, such as "
+        error += "--model main"
     for _, margins in table[["margin_of_error", "simultaneous_margin_of_error"]].dropna().head(1).iterrows():
         error += ", margin of error {}, simultaneous {} (Lenth)".format(*(_digits(value * scale) for value in margins))
     missing = f", {fit.missing} without a response" if fit.missing else ""
     lines += [", ".join(quality), f"{len(fit.values)} runs{missing}, mean {_digits(fit.mean * scale)}{symbol}, {error}"]
     lines += [f"all results are those of {one.title}"] if one.response.transform != "none" else []
     lines += [f"caution: {caution}" for caution in one.cautions] + ([one.advice] if one.advice else [])
-    rows = [["term", f"effect,{symbol}" if symbol else "effect", f"{100 * fit.confidence:.4g} % interval", "share", "df", "error df", "F", "p"]]
+    interval = f"{100 * fit.confidence:.4g} % interval"
+    rows = [["term", f"effect,{symbol}" if symbol else "effect", interval, "share", "df", "error df", "F", "p"]]
     parts = ["lack of fit", "pure error"] if fit.lack_of_fit[0].freedom > 0 else []
     left_over = table[table["factors"].isna() & table["term"].isin(["residual", *parts])]
     for row in pandas.concat([one.terms.sort_values("share", ascending=False, kind="stable"), left_over]).to_dict("records"):
         width = (row["high"] - row["low"]) / 2 * scale
         interval = " … ".join(_digits(row[end] * scale, width) for end in ("low", "high")) if np.isfinite(width) else ""
         freedom = f"{row['error_freedom']:.3g}" if np.isfinite(row["error_freedom"]) else ""
-        cells = [("  " if row["term"] in parts else "") + row["term"], _digits(row["effect"] * scale, width), interval, f"{100 * row['share']:.1f} %"]
+        name = ("  " if row["term"] in parts else "") + row["term"]
+        cells = [name, _digits(row["effect"] * scale, width), interval, f"{100 * row['share']:.1f} %"]
         rows.append([*cells, str(row["degrees_of_freedom"]), freedom, _digits(row["f"]), _digits(row["p"])])
-    below = [f"{row['term']} cannot be told from {', '.join(row['aliased_with'])}" for row in table.to_dict("records") if row["aliased_with"]]
+    aliased = [(row["term"], ", ".join(row["aliased_with"])) for row in table.to_dict("records") if row["aliased_with"]]
+    below = [f"{term} cannot be told from {others}" for term, others in aliased]
     for units, products in one.equations.items():
         said = "in coded units, −1 to 1 over each range" if units == "coded" else "in the units of the study"
-        pieces = [f"{'−' if value < 0 else '+'} {abs(value) * scale:.6g} {words}".strip() for words, value in products.itertuples(index=False)]
+        signed = [("−" if value < 0 else "+", abs(value) * scale, words) for words, value in products.itertuples(index=False)]
+        pieces = [f"{sign} {value:.6g} {words}".strip() for sign, value, words in signed]
         below += [f"{said}:", f"  {one.title}{f' [{unit.symbol}]' if symbol else ''} = {' '.join(pieces).removeprefix('+ ')}"]
     return lines, rows, below
 
@@ -634,5 +635,6 @@ def _text(one: ResponseEffects) -> str:
     lines, rows, below = told(one)
     widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
     for first, *cells in rows:
-        lines.append("  ".join([first.ljust(widths[0]), *(cell.rjust(width) for cell, width in zip(cells, widths[1:], strict=True))]).rstrip())
+        right = [cell.rjust(width) for cell, width in zip(cells, widths[1:], strict=True)]
+        lines.append("  ".join([first.ljust(widths[0]), *right]).rstrip())
     return "\n  ".join([*lines, *below]) + "\n"

@@ -3,6 +3,7 @@
 import itertools
 import os
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -25,8 +26,8 @@ class LevelDifferences:
     study : Study
     table : pandas.DataFrame
         A row for each pair of levels of each factor: ``response``, ``factor``, ``level``, ``other``, ``difference`` (level less other, over
-        all levels of the other factors), ``standard_error``, ``freedom``, ``low``, ``high``, ``p`` and ``unit``. Intervals hold for all pairs
-        of a factor together at the confidence level, and p is for all of them.
+        all levels of the other factors), ``standard_error``, ``freedom``, ``low``, ``high``, ``p`` and ``unit``. Intervals hold for all
+        pairs of a factor together at the confidence level, and p is for all of them.
     method : str
         ``"Tukey"`` for all pairs, ``"Dunnett"`` against one level.
     confidence : float
@@ -49,17 +50,13 @@ class LevelDifferences:
             unit = unit_for(rows["unit"].iloc[0], float(rows["difference"].abs().max()))
             shown = rows[["level", "other", "difference", "low", "high", "p"]].copy()
             shown[["difference", "low", "high"]] *= unit.per_si
-            said.append(
-                f"{response}: {factor}{f', {unit.symbol}' if unit.symbol else ''}\n{shown.to_string(index=False, float_format=lambda value: f'{value:.4g}')}\n"
-            )
+            text = shown.to_string(index=False, float_format=lambda value: f"{value:.4g}")
+            said.append(f"{response}: {factor}{f', {unit.symbol}' if unit.symbol else ''}\n{text}\n")
         return "\n".join([f"Differences between levels, simultaneous {100 * self.confidence:g} % intervals ({self.method})\n", *said])
 
 
 def levels(
-    study: Study | str | os.PathLike[str],
-    control: str | None = None,
-    model: str | None = None,
-    confidence: float = 0.95,
+    study: Study | str | os.PathLike[str], control: str | None = None, model: str | None = None, confidence: float = 0.95
 ) -> LevelDifferences:
     """Compares the levels of all factors that have three and more.
 
@@ -91,72 +88,70 @@ def levels(
             continue
         for at in range(len(fit.codings)):
             if fit.codings[at].classes is not None and len(fit.codings[at].classes or ()) > 2:
-                rows += _of_factor(fit, at, control)
-    if not rows:
+                rows.append(_of_factor(fit, at, control))
+    if not any(len(part) for part in rows):
         named = f" has a level {control!r} and" if control is not None else ""
         raise InputError(f"no factor{named} has three levels or more in the model: effects says the difference between two")
-    return LevelDifferences(opened, pandas.DataFrame(rows), "Tukey" if control is None else "Dunnett", confidence)
+    return LevelDifferences(opened, pandas.concat(rows, ignore_index=True), "Tukey" if control is None else "Dunnett", confidence)
 
 
-def _of_factor(fit: Fitted, at: int, control: str | None) -> list[dict[str, Any]]:
+@lru_cache
+def _tukey(confidence: float, levels: int, freedom: float) -> float:
+    """How many standard errors the intervals of all differences reach; a sum over two variables, the same for many responses."""
+    return float(stats.studentized_range.ppf(confidence, levels, freedom) / np.sqrt(2.0))
+
+
+def _of_factor(fit: Fitted, at: int, control: str | None) -> pandas.DataFrame:
     """Differences of one factor."""
     coding = fit.codings[at]
     classes = list(coding.classes or ())
     names = [coding.factor.text(level) for level in classes]
     if control is not None and control not in names:
-        return []
+        return pandas.DataFrame()
     # The others are averaged: their contrasts are 0.
-    own = coding.numbers(pandas.Series(classes))
-    means = fit.products([own if other == at else np.zeros((len(classes), fit.codings[other].width)) for other in range(len(fit.codings))])
-    first = names.index(control) if control is not None else None
-    pairs = [(one, first) for one in range(len(classes)) if one != first] if first is not None else None
-    pairs = pairs or [(one, other) for other, one in itertools.combinations(range(len(classes)), 2)]
-    contrasts = np.array([means[one] - means[other] for one, other in pairs])
-    weights = contrasts[:, fit.fit.kept] @ fit.fit.root @ fit.fit.basis.T
+    zeros = [np.zeros((len(classes), other.width)) for other in fit.codings]
+    means = fit.products([*zeros[:at], coding.numbers(pandas.Series(classes)), *zeros[at + 1 :]])
+    pairs = [(one, other) for other, one in itertools.combinations(range(len(classes)), 2)]
+    if control is not None:
+        pairs = [(one, names.index(control)) for one in range(len(classes)) if names[one] != control]
+    rows = np.array([means[one] - means[other] for one, other in pairs])
+    weights = rows[:, fit.fit.kept] @ fit.fit.root @ fit.fit.basis.T
     # The error of the factor as a whole: levels are taken to differ alike between sets of seeds.
-    directions = np.linalg.svd(weights, full_matrices=False)[2][: len(classes) - 1]
-    variances, freedoms = fit.errors(directions)
-    error, freedom = float(variances.mean()), float(freedoms.sum() if fit.seeds > 1 else freedoms[0])
-    errors = np.sqrt(error * (weights**2).sum(axis=1))
-    differences = contrasts @ fit.coefficients
-    told = fit.fit.tells(means)
-    if np.isnan(error):
-        reach = np.nan
-        chances = np.full(len(pairs), np.nan)
-    elif control is None:
-        reach = float(stats.studentized_range.ppf(fit.confidence, len(classes), freedom)) / np.sqrt(2.0)
+    variances, freedoms = fit.errors(np.linalg.svd(weights, full_matrices=False)[2][: len(classes) - 1])
+    freedom = float(freedoms.sum() if fit.seeds > 1 else freedoms[0])
+    errors = np.sqrt(variances.mean() * np.square(weights).sum(axis=1))
+    differences = rows @ fit.coefficients
+    differences[~(fit.fit.tells(means)[pairs].all(axis=1)) | np.isnan(errors)] = np.nan
+    if np.isnan(freedom):
+        return pandas.DataFrame()
+    if control is None:
+        reach = _tukey(fit.confidence, len(classes), round(freedom, 6))
         chances = stats.studentized_range.sf(np.sqrt(2.0) * np.abs(differences) / errors, len(classes), freedom)
     else:
-        shape = (weights @ weights.T) / np.sqrt(np.outer((weights**2).sum(axis=1), (weights**2).sum(axis=1)))
-        together = stats.multivariate_t(shape=shape, df=round(freedom), seed=0)
+        lengths = np.linalg.norm(weights, axis=1)
+        together = stats.multivariate_t(shape=weights @ weights.T / np.outer(lengths, lengths), df=round(freedom))
 
         def within(size: float) -> float:
             # C. W. Dunnett, J. Am. Stat. Assoc. 50, 1096-1121 (1955). Points of the same sequence each time: it is smooth.
-            ends = np.full(len(pairs), size)
-            return float(together.cdf(ends, lower_limit=-ends, random_state=0))
+            return float(together.cdf(np.full(len(pairs), size), lower_limit=np.full(len(pairs), -size), random_state=0))
 
-        single, most = (
-            float(stats.t.ppf(1.0 - tail, freedom)) for tail in ((1 - fit.confidence) / 2, (1 - fit.confidence) / 2 / len(pairs))
-        )
+        tail = (1.0 - fit.confidence) / 2.0
+        single, most = float(stats.t.isf(tail, freedom)), float(stats.t.isf(tail / len(pairs), freedom))
         reach = float(optimize.brentq(lambda size: within(size) - fit.confidence, 0.98 * single, 1.02 * most, xtol=1e-4))
         chances = np.array([1.0 - within(abs(size)) for size in differences / errors])
-    rows = []
-    for place, (one, other) in enumerate(pairs):
-        known = told[one] and told[other]
-        low, high = (differences[place] + side * reach * errors[place] if known else np.nan for side in (-1.0, 1.0))
-        rows.append(
-            {
-                "response": fit.response.name,
-                "factor": coding.factor.name,
-                "level": names[one],
-                "other": names[other],
-                "difference": differences[place] if known else np.nan,
-                "standard_error": errors[place] if known else np.nan,
-                "freedom": freedom,
-                "low": low,
-                "high": high,
-                "p": float(np.clip(chances[place], 0.0, 1.0)) if known else np.nan,
-                "unit": fit.response.unit if fit.response.transform == "none" else "1",
-            }
-        )
-    return rows
+    table = pandas.DataFrame(
+        {
+            "response": fit.response.name,
+            "factor": coding.factor.name,
+            "level": [names[one] for one, _ in pairs],
+            "other": [names[other] for _, other in pairs],
+            "difference": differences,
+            "standard_error": errors,
+            "freedom": freedom,
+            "low": differences - reach * errors,
+            "high": differences + reach * errors,
+            "p": np.clip(chances, 0.0, 1.0),
+            "unit": fit.response.unit if fit.response.transform == "none" else "1",
+        }
+    )
+    return table[table["difference"].notna()]

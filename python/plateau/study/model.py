@@ -88,7 +88,9 @@ class Coding:
 
 def is_same(values: pandas.Series, level: object) -> Numbers:
     """Whether values are a level; numbers may differ by rounding."""
-    return np.asarray(values == level) if isinstance(level, str) else np.isclose(values.to_numpy(float), float(str(level)), rtol=1e-9, atol=0.0)
+    if isinstance(level, str):
+        return np.asarray(values == level)
+    return np.isclose(values.to_numpy(float), float(str(level)), rtol=1e-9, atol=0.0)
 
 
 def named(factor: Factor) -> str:
@@ -197,15 +199,15 @@ class Fitted:
     """
 
     def __init__(
-        self, study: Study, response: Response, model: str, runs: pandas.DataFrame, values: Numbers, terms: list[Term] | None = None, reason: str = "",
-        confidence: float = 0.95, centre: bool = False, missing: int = 0, repeated: int = 0,
+        self, study: Study, response: Response, model: str, runs: pandas.DataFrame, values: Numbers, terms: list[Term] | None = None,
+        reason: str = "", confidence: float = 0.95, centre: bool = False, missing: int = 0, repeated: int = 0,
     ) -> None:  # fmt: skip
         self.study, self.response, self.model, self.reason, self.confidence = study, response, model, reason, confidence
         self.runs, self.values, self.missing, self.repeated = runs, values, missing, repeated
         self.left_out: list[Term] | None = None
         self.aicc = self.aicc_of_all = np.nan
         self.codings = [Coding.of(factor, runs[factor.name], model) for factor in study.factors]
-        keys = [np.round(factor.coded(runs[factor.name]) * 1e9) if factor.is_number else rank(runs[factor.name]) for factor in study.factors]
+        keys = [np.round(one.coded(runs[one.name]) * 1e9) if one.is_number else rank(runs[one.name]) for one in study.factors]
         self.is_curved = [coding.classes is None and len(set(key)) > 2 for coding, key in zip(self.codings, keys, strict=True)]
         self.runs = runs.assign(point=rank(np.column_stack(keys)))
         self.seeds, self.point_count = int(runs["replicate"].nunique()), int(self.runs["point"].max()) + 1
@@ -252,7 +254,8 @@ class Fitted:
 
     def _centre(self) -> dict[int, float]:
         """Coded middles of the numbers, if those with more than two values have them at the same points and are at their ends elsewhere."""
-        coded = {at: self.codings[at].numbers(self.runs[self.study.factors[at].name])[:, 0] for at, curved in enumerate(self.is_curved) if curved}
+        curved = {at: factor for at, factor in enumerate(self.study.factors) if self.is_curved[at]}
+        coded = {at: factor.coded(self.runs[factor.name]) for at, factor in curved.items()}
         middles = {at: float(values[np.abs(values).argmin()]) for at, values in coded.items()}
         marks = [np.abs(values - middles[at]) < SAME for at, values in coded.items()]
         at_ends = [np.abs(np.abs(values[~mark]) - 1.0) < SAME for values, mark in zip(coded.values(), marks, strict=True)]
@@ -336,17 +339,7 @@ class Fitted:
         return float(np.sqrt(np.square(self.response.back(mean) - self.response.back(mean - self.loo[known])).mean()))
 
     def combined(self, rows: Numbers) -> pandas.DataFrame:
-        """Linear combinations of the coefficients: ``value``, ``standard_error`` and ``freedom``, with errors as in `errors`.
-
-        Parameters
-        ----------
-        rows : numpy.ndarray
-            A row for each combination, as those of `matrix`.
-
-        Returns
-        -------
-        pandas.DataFrame
-        """
+        """``value``, ``standard_error`` and ``freedom`` of linear combinations of the coefficients, with rows as those of `matrix`."""
         variances, freedoms = self.errors(rows[:, self.fit.kept] @ self.fit.root @ self.fit.basis.T)
         return pandas.DataFrame({"value": rows @ self.coefficients, "standard_error": np.sqrt(variances), "freedom": freedoms})
 
@@ -356,16 +349,8 @@ class Fitted:
         With several sets of seeds it is what the sum differs by between them. If all sets have the same points, this is the variance
         of the mean of one estimate for each set, with a degree of freedom less than there are sets. Else the part of each set is scaled so
         that it has the right mean if runs scatter alike, and degrees of freedom are those of the same case, after R. M. Bell and D. F.
-        McCaffrey, Survey Methodology 28, 169-181 (2002). With one set of seeds the error is the residual.
-
-        Parameters
-        ----------
-        weights : numpy.ndarray
-            A row for each sum, a column for each run.
-
-        Returns
-        -------
-        tuple of numpy.ndarray
+        McCaffrey, Survey Methodology 28, 169-181 (2002). With one set of seeds the error is the residual. ``weights`` have a row for each
+        sum and a column for each run.
         """
         if self.seeds < 2 or np.isnan(self.error):
             variances = self.error * np.square(weights).sum(axis=1)
@@ -430,18 +415,10 @@ class Fitted:
         return float(self.leverage(self.runs).max())
 
     def variances(self, points: pandas.DataFrame) -> pandas.DataFrame:
-        """Means of the model at points and their variances, on the scale of the fit.
+        """Means of the model at points (a column for each factor, SI units or words) and their variances, on the scale of the fit.
 
-        Parameters
-        ----------
-        points : pandas.DataFrame
-            A column for each factor, SI units or words.
-
-        Returns
-        -------
-        pandas.DataFrame
-            ``value``; ``mean`` and ``mean_freedom``, variance of the mean over all seeds and its degrees of freedom; ``run`` and
-            ``run_freedom``, those of one more run; ``leverage``. NaN where the runs do not tell the response.
+        ``value``; ``mean`` and ``mean_freedom``, variance of the mean over all seeds and its degrees of freedom; ``run`` and ``run_freedom``,
+        those of one more run; ``leverage``. NaN where the runs do not tell the response.
         """
         rows, leverage, pure = self.matrix(points), self.leverage(points), self.scatter[0]
         if self.seeds > 1:
@@ -490,16 +467,19 @@ class Fitted:
         said = []
         if (missed := misfit(self)) is not None:
             p = "p < 0.0001" if missed["p"] < 1e-4 else f"p = {missed['p']:.2g}"
-            better = "no other --model explains more; narrow the ranges, or try scale = \"logarithmic\" for a factor"
+            better = 'no other --model explains more; narrow the ranges, or try scale = "logarithmic" for a factor'
             if missed["model_to_try"]:
                 share = f"R² {missed['r_squared']:.4f} instead of {1.0 - self.residual.sum / self.total.sum:.4f}"
                 better = f"try --model {missed['model_to_try']}, which explains more, {share}"
             how = ": points differ from the model by more than replicates from each other" if missed["by_replicates"] else ""
             said.append(f"lack of fit{how} ({p}); {better}")
         if (freedom := self.point_count - len(self.own)) <= 0:
-            said.append("as many coefficients as points: the runs cannot show what the model misses; more points or a smaller --model would")
+            said.append("as many coefficients as points: runs cannot show what the model misses; more points or a smaller --model would")
         elif freedom < LEAST_FREEDOM:
-            said.append(f"few points: {self.point_count} for {len(self.own)} coefficients, so that the fit hardly shows what the model misses")
+            few = f"few points: {self.point_count} for {len(self.own)} coefficients"
+            said.append(f"{few}, so that the fit hardly shows what the model misses")
+        if self.seeds == 1 and self.response.series:
+            said.append("one set of seeds: intervals hold for these seeds alone; [replicates] with several tell of others")
         if self.seeds == 2:
             wide = "two sets of seeds leave one degree of freedom for the error, and intervals are wide"
             said.append(f"{wide}; a third makes them about 3.6 times as narrow")
@@ -608,9 +588,8 @@ def no_squares(fit: Fitted) -> str:
     if not any(fit.is_curved):
         return "no factor that is a number has more than two values"
     # Squares of numbers with two values are part of the mean.
-    straight = {
-        columns.start for term, columns in zip(fit.terms, fit.columns[2:], strict=True) if len(term) == 2 and term[0] == term[1] and not fit.is_curved[term[0]]
-    }  # fmt: skip
+    squares = {columns.start: term[0] for term, columns in zip(fit.terms, fit.columns[2:], strict=True) if len({*term}) < len(term)}
+    straight = {column for column, at in squares.items() if not fit.is_curved[at]}
     coefficients = fit.design.shape[1] - len(straight)
     if (needed := coefficients - fit.seeds + 1) > fit.point_count:
         return f"{fit.point_count} different points are too few for {needed} coefficients"
@@ -656,17 +635,16 @@ def _selected(whole: Fitted) -> Fitted:
 
     everything = frozenset(at - 2 for at in map(whole.owner, whole.fit.kept) if at > 1)
     aicc, kept = min((improved(everything), improved(frozenset())), key=lambda found: found[0])
-    chosen = Fitted(
-        whole.study, whole.response, whole.model, whole.runs, whole.values, [terms[at] for at in sorted(kept)], whole.reason, whole.confidence,
-        bool(whole.centre), whole.missing, whole.repeated,
-    )  # fmt: skip
-    chosen.left_out, chosen.aicc, chosen.aicc_of_all = [term for at, term in enumerate(terms) if at not in kept], aicc, criterion(everything)
+    options = whole.reason, whole.confidence, bool(whole.centre), whole.missing, whole.repeated
+    own = whole.study, whole.response, whole.model, whole.runs, whole.values
+    chosen = Fitted(*own, [terms[at] for at in sorted(kept)], *options)
+    chosen.left_out = [term for at, term in enumerate(terms) if at not in kept]
+    chosen.aicc, chosen.aicc_of_all = aicc, criterion(everything)
     return chosen
 
 
 def misfit(fit: Fitted) -> dict[str, object] | None:
-    """Finds what a model misses, if that is significant at the confidence level: ``f``, ``p``, ``by_replicates``, ``model_to_try``,
-    ``r_squared`` of that.
+    """Finds what a model misses, if that is significant at the confidence level, and the model to try, with its share.
 
     Replicates tell it, or a model that has all terms of this one and more: with several such models the level is divided by their
     number, after Bonferroni.
@@ -686,8 +664,8 @@ def misfit(fit: Fitted) -> dict[str, object] | None:
         better = [other for other in others if other.residual.mean < own.mean and other.residual.sum < own.sum]
         return said(f, p, True, min(better, key=lambda other: other.residual.mean, default=None))
     # That terms which were left out explain something is no news.
-    larger = [other for other in others if other.residual_freedom < own.freedom and _contains(other, fit)] if fit.left_out is None else []
-    tested = []
+    larger = [other for other in others if other.residual_freedom < own.freedom and _contains(other, fit)]
+    larger, tested = larger if fit.left_out is None else [], []
     for other in larger:
         added = Squares(own.freedom - other.residual_freedom, max(own.sum - other.residual.sum, 0.0))
         f, p = f_test(added, other.residual) if other.residual.sum > 0 else (np.inf, 0.0)

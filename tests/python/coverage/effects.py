@@ -23,6 +23,7 @@ from scipy import stats
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[3] / "python"))
 
+from plateau.study.level_differences import levels
 from plateau.study.model import Fitted, fitted
 from plateau.study.results import Factor, Response, Study, analysed
 
@@ -86,6 +87,18 @@ def simulated(seeds: int, ratio: float, count: int, missing: float = 0.0, terms:
     return np.mean(found, axis=0)
 
 
+def levels_simulated(seeds: int, ratio: float, count: int, control: str | None = None) -> float:
+    """Share of simulations in which the intervals of all differences of three levels hold together (Tukey, or Dunnett)."""
+    random, factors, found = np.random.default_rng([seeds, round(10 * ratio)]), [word("pad", "a", "b", "c"), number("B", -1.0, 1.0)], []
+    for _ in range(count):
+        runs = pandas.DataFrame(list(itertools.product("abc", (-1.0, 1.0), range(1, seeds + 1))), columns=["pad", "B", "replicate"])
+        of_level = ratio * random.normal(size=(seeds, 3))
+        runs["y"] = of_level[runs["replicate"] - 1, runs["pad"].map({"a": 0, "b": 1, "c": 2})] + random.normal(size=len(runs))
+        table = levels(study_of(factors, runs), control).table
+        found.append(((table["low"] <= 0.0) & (table["high"] >= 0.0)).all())
+    return float(np.mean(found))
+
+
 def mixed(seeds: int, ratio: float, count: int, missing: float = 0.0) -> float:
     """The same of A alone by a mixed model with random slopes (statsmodels, REML, t with a degree of freedom less than sets)."""
     import statsmodels.formula.api as formulas
@@ -118,7 +131,8 @@ def of_runs(path: Path, count: int) -> pandas.DataFrame:
     random = np.random.default_rng(1)
     for response in study.responses:
         whole = fitted(study, response, "interactions")
-        wanted = {whole.label(term): 2.0 * whole.coefficients[columns.start] for term, columns in zip(whole.terms, whole.columns[2:], strict=True)}
+        places = [columns.start for columns in whole.columns[2:]]
+        wanted = {whole.label(term): 2.0 * whole.coefficients[at] for term, at in zip(whole.terms, places, strict=True)}
         for seeds in SEEDS:
             subsets = list(itertools.combinations(range(1, study.seeds + 1), 2))
             if seeds > 2 or len(subsets) > count:
@@ -149,6 +163,10 @@ def main() -> None:
             cells = "".join(f"     {own:5.1f} ({old:5.1f})" for own, old in shares)
             more = f"     {100 * mixed(seeds, ratio, asked.simulations // 10, missing):5.1f}" if asked.mixed else ""
             print(f"{seeds:5d}  {ratio:21.1f} {cells}{more}", flush=True)
+    print("Differences of three levels, all together, seed x level 0, 0.5, 1 and 2 of the noise: Tukey (Dunnett), %")
+    for seeds in SEEDS:
+        shares = [[100 * levels_simulated(seeds, ratio, asked.simulations // 8, control) for control in (None, "a")] for ratio in RATIOS]
+        print(f"{seeds:5d}", "".join(f"     {own:5.1f} ({other:5.1f})" for own, other in shares), flush=True)
     if asked.study:
         found = of_runs(asked.study, asked.simulations // 4)
         found[["over all seeds", "from the residual"]] *= 100
