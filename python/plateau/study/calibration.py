@@ -3,18 +3,16 @@
 import itertools
 import math
 import os
-import warnings
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pandas
 from scipy import optimize, stats
 
-from plateau.errors import InputError, PlateauWarning, RunFailed
+from plateau.errors import InputError, RunFailed
 from plateau.program import call
 from plateau.study.likelihood import NEAR, SETTLED, Likelihood, Runs, Target
 from plateau.study.measured import measurements
@@ -98,7 +96,7 @@ def calibrated(target: Target, runs: Runs, make: Callable[[Numbers], Runs], seed
                 return Outcome(likelihood, rounds, ended, checks)
         left = (most - len(runs.x)) // seeds if asked.any() else 0
         free = left - min(RESERVE, left)
-        places, then = likelihood.next_places(min(AT_A_TIME, free), seeds, can_run)
+        places, _ = likelihood.next_places(min(AT_A_TIME, free), seeds, can_run)
         share = float(likelihood.share_by_term()[asked].max()) if asked.any() else 0.0
         if not asked.any():
             ended = "no runs"
@@ -254,7 +252,7 @@ class Fit:
                 rises = np.empty((side, side))
                 for row, column in np.ndindex(side, side):
                     held = {one: float(axes[0][column]), other: float(axes[1][row])}
-                    rises[row, column] = _best_with(likelihood, held, likelihood.best)[1] - likelihood.least
+                    rises[row, column] = best_with(likelihood, held, likelihood.best)[1] - likelihood.least
             values = [factors[at].value(axis) for at, axis in zip((one, other), axes, strict=True)]
             found.append((factors[one].name, factors[other].name, *values, rises))
         return found
@@ -577,7 +575,7 @@ def _observed(study: Study, factors: Sequence[Factor], target: Target) -> Runs:
     return Runs(x[is_first], study.runs["replicate"].to_numpy()[is_first], values)
 
 
-def _best_with(likelihood: Likelihood, held: dict[int, float], start: Numbers) -> tuple[Numbers, float]:
+def best_with(likelihood: Likelihood, held: dict[int, float], start: Numbers) -> tuple[Numbers, float]:
     """The most likely place with some keys held: from a start, and from the most likely known place nearby."""
     starts = [start]
     is_near = np.all([np.abs(likelihood.places[:, key] - value) <= 1.5 * NEAR for key, value in held.items()], axis=0)
@@ -607,13 +605,13 @@ def profile(likelihood: Likelihood, key: int, threshold: float) -> tuple[Numbers
     for steps in (range(middle, len(values)), range(middle - 1, -1, -1)):
         last = best
         for at in steps:
-            last, value = _best_with(likelihood, {key: float(values[at])}, last)
+            last, value = best_with(likelihood, {key: float(values[at])}, last)
             rises[at], places[at] = value - likelihood.least, last
 
     def crossing(at: int) -> float:
         def above(value: float) -> float:
             start = places[at if abs(value - values[at]) < abs(value - values[at + 1]) else at + 1]
-            return _best_with(likelihood, {key: value}, start)[1] - likelihood.least - threshold
+            return best_with(likelihood, {key: value}, start)[1] - likelihood.least - threshold
 
         ends = above(values[at]), above(values[at + 1])
         return float(optimize.brentq(above, values[at], values[at + 1], xtol=1e-4) if ends[0] * ends[1] < 0.0 else values[at])
@@ -691,7 +689,7 @@ def told(study: Study, target: Target, outcome: Outcome, confidence: float, most
         study=study,
         keys=pandas.DataFrame(keys),
         responses=pandas.DataFrame(responses, columns=names),
-        series=pandas.concat(series, ignore_index=True) if series else pandas.DataFrame(),
+        series=pandas.concat(series, ignore_index=True) if series else pandas.DataFrame(columns=["response"]),
         profiles=pandas.concat(profiles, ignore_index=True),
         checks=pandas.DataFrame(checks),
         runs=runs,
