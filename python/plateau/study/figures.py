@@ -138,7 +138,7 @@ def _unit(response: Response, values: Any) -> Unit:
     return unit_for(response.unit, float(np.nanmax(np.abs(np.asarray(values, float)), initial=0.0)))
 
 
-def _positions(factor: Factor, values: Sequence[Any]) -> Any:
+def _positions(factor: Factor, values: Any) -> Any:
     """Where values of a factor are on its axis: numbers in the unit of the study, words side by side."""
     return factor.in_study_unit(np.asarray(values, float)) if factor.is_number else np.array([factor.levels.index(value) for value in values])
 
@@ -371,15 +371,13 @@ def _surface(one: "ResponseEffects", fit: "Fitted") -> Any:
     pair = sorted((at for at in weights if goes_between(at)), key=lambda at: -weights[at])[:2]
     if len(pair) < 2:
         return None
-    others = {}
+    others: dict[str, Any] = {}
     for at, factor in enumerate(factors):
         classes = codings[at].classes
         others[factor.name] = factor.value(0.0).item() if goes_between(at) or classes is None else classes[0]
     grid = [factors[at].value(np.linspace(-1.0, 1.0, STEPS)) for at in sorted(pair)]
     x, y = (factors[at] for at in sorted(pair))
-    points = pandas.DataFrame(list(itertools.product(*grid)), columns=[x.name, y.name]).assign(
-        **{name: value for name, value in others.items() if name not in (x.name, y.name)}
-    )
+    points = _grid_points(x, y, grid, others)
     rows = fit.matrix(points)
     values = np.where(fit.fit.tells(rows), one.response.back(rows @ fit.coefficients), np.nan).reshape(STEPS, STEPS)
     if not np.isfinite(values).any():
@@ -393,6 +391,12 @@ def _surface(one: "ResponseEffects", fit: "Fitted") -> Any:
 
 def _of(term: Any) -> tuple[int, ...]:
     return term if isinstance(term, tuple) else ()
+
+
+def _grid_points(x: Factor, y: Factor, grid: Sequence[Numbers], others: dict[str, Any]) -> pandas.DataFrame:
+    """Points of a grid over two factors, those of the first one after each other; the others are held."""
+    columns = dict(zip((x.name, y.name), (part.ravel() for part in np.meshgrid(*grid, indexing="ij")), strict=True))
+    return pandas.DataFrame({**others, **columns})
 
 
 def _map(
@@ -468,23 +472,23 @@ def optimum_figures(found: "Optimum", contour: str | None = None) -> Figures:
         levels = factors[factor.name]
         values = factor.value(np.linspace(-1.0, 1.0, STEPS)) if levels is None else np.array(levels)
         points = pandas.concat([best] * len(values), ignore_index=True).assign(**{factor.name: values})
-        forecasts, x = problem.forecasts(points, with_intervals=True), _positions(factor, list(values))
+        forecasts, places = problem.forecasts(points, with_intervals=True), _positions(factor, values)
         style = {"color": LINES[0], "linestyle": "-" if levels is None else "none", "marker": "" if levels is None else "o"}
         for row, name in enumerate(shown):
-            response, y = problem.surrogates[name].response, forecasts[name]
+            response, ends = problem.surrogates[name].response, forecasts[name]
             unit, axis = _unit(response, problem.study.runs[name]), axes[row, column]
-            low, middle, high = (unit.value(y[end].to_numpy()) for end in ("mean_low", "value", "mean_high"))
-            axis.plot(x, middle, **style)
+            low, middle, high = (unit.value(ends[end].to_numpy()) for end in ("mean_low", "value", "mean_high"))
+            axis.plot(places, middle, **style)
             if levels is None:
-                axis.fill_between(x, low, high, color=LINES[0], alpha=0.18, linewidth=0)
+                axis.fill_between(places, low, high, color=LINES[0], alpha=0.18, linewidth=0)
             else:
-                axis.vlines(x, low, high, color=LINES[0], linewidth=1.0)
+                axis.vlines(places, low, high, color=LINES[0], linewidth=1.0)
             for limit in (limit for limit in problem.limits if limit.response == name):
                 axis.axhline(unit.value(limit.value), color=LINES[1], linestyle=":")
             axes[row, 0].set_ylabel(_labelled(name, unit.symbol))
         desirability = np.nan_to_num(worth(points))
         spans[factor.name] = float(np.ptp(desirability))
-        axes[-1, column].plot(x, desirability, **style)
+        axes[-1, column].plot(places, desirability, **style)
         _axis(axes[-1, column], factor)
         for axis in axes[:, column]:
             axis.axvline(float(_positions(factor, [best[factor.name].iloc[0]])[0]), color=CHOSEN, linewidth=0.8)
@@ -493,9 +497,9 @@ def optimum_figures(found: "Optimum", contour: str | None = None) -> Figures:
     ranges = sorted((factor for factor in own if factors[factor.name] is None), key=lambda factor: -spans[factor.name])
     if pair or len(ranges) > 1:
         x, y = pair or sorted(ranges[:2], key=problem.study.factors.index)
+        settings = {str(name): best[name].iloc[0] for name in best}
         grid = [factor.value(np.linspace(-1.0, 1.0, 2 * STEPS)) for factor in (x, y)]
-        points = pandas.DataFrame(list(itertools.product(*grid)), columns=[x.name, y.name])
-        points = points.assign(**{name: best[name].iloc[0] for name in best if name not in (x.name, y.name)})
+        points = _grid_points(x, y, grid, settings)
         values = worth(points).reshape(2 * STEPS, 2 * STEPS)
         if np.isfinite(values).any() and np.nanmax(values) > np.nanmin(values):
             held = [f"{row.factor} = {row.text}" for row in found.settings.itertuples() if row.factor not in (x.name, y.name)]
