@@ -91,7 +91,7 @@ def calibrated(target: Target, runs: Runs, make: Callable[[Numbers], Runs], seed
             # What the runs say themselves: the place that they were made at is still the most likely one, or nearly.
             last = checks[-1]
             last["rise"] = float(likelihood.rise(last["place"])[0])
-            last["held"] = last["held"] and last["rise"] <= SAME
+            last["held"] = last["held"] and last["rise"] <= SAME and not likelihood.agrees_by_ignorance
             if last["held"]:
                 return Outcome(likelihood, rounds, ended, checks)
         left = (most - len(runs.x)) // seeds if asked.any() else 0
@@ -683,8 +683,7 @@ def told(study: Study, target: Target, outcome: Outcome, confidence: float, most
             unit = "uncertainties, of a component" if target.measured[of].is_series else one.unit
             line = {"check": number, **at_keys, "response": one.name, "unit": unit}
             checks.append({**line, **{what: float(check[what][at]) for what in ("forecast", "deviation", "runs")}, "held": check["held"]})
-    misfit = float(likelihood.misfit(likelihood.best[None], with_processes=False)[0]) + sum(each.rest for each in likelihood.components.values())
-    freedom = max(sum(len(one.values) for one in target.measured) - len(study.factors), 0)
+    misfit, freedom = float(likelihood.misfit(likelihood.best[None], with_processes=False)[0]), likelihood.freedom
     found = Fit(
         study=study,
         keys=pandas.DataFrame(keys),

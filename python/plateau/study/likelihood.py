@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from scipy import linalg, optimize, stats
+from scipy import linalg, optimize, special, stats
 
 from plateau.study.measured import Measurement
 from plateau.study.process import Equations, Process
@@ -149,7 +149,26 @@ class Likelihood:
     def misfit(self, places: Numbers, *, with_processes: bool) -> Numbers:
         """Squares of forecast less measured over the variances of measurement, model, seeds, and if asked to of the processes."""
         means, own, seeds = self.moments(places)
-        return self._squares(means, own * with_processes + seeds)[0]
+        rest = sum(each.rest for each in self.components.values())
+        return np.asarray(self._squares(means, self._added(own * with_processes, seeds))[0] + rest)
+
+    @property
+    def freedom(self) -> int:
+        """Measurements, each point of a series one of them, less keys."""
+        return max(sum(len(one.values) for one in self.target.measured) - self.keys, 0)
+
+    @property
+    def agrees_by_ignorance(self) -> bool:
+        """Whether what was measured is likely at the most likely place only because little is known there."""
+        known, all_in_all = (stats.chi2.sf(self.misfit(self.best[None], with_processes=each)[0], max(self.freedom, 1)) for each in (False, True))
+        return bool(known < 0.01 and all_in_all > 10.0 * known)
+
+    def _added(self, own: Numbers, seeds: Numbers) -> Numbers:
+        """Variances of processes and seeds; few sets of seeds tell theirs badly, by so much as quantiles of t exceed normal ones (Satterthwaite)."""
+        total = np.diag(self.covariance) + own + seeds
+        freedom = np.array([(term.process.freedom, max(term.process.seeds - 1, 1)) for term in self.terms]).T
+        freedom = total**2 / np.maximum(own**2 / freedom[0] + seeds**2 / freedom[1], 1e-9 * total**2)
+        return np.asarray(own + seeds + total * ((special.stdtrit(freedom, 0.975) / special.ndtri(0.975)) ** 2 - 1.0))
 
     def _squares(self, means: Numbers, added: Numbers) -> tuple[Numbers, Numbers]:
         covariance = self.covariance + added[:, :, None] * np.eye(len(self.terms))
@@ -159,7 +178,7 @@ class Likelihood:
     def value(self, places: Numbers) -> Numbers:
         """-2 ln L at places, but for a constant."""
         means, own, seeds = self.moments(places)
-        squares, logarithm = self._squares(means, own + seeds)
+        squares, logarithm = self._squares(means, self._added(own, seeds))
         value = squares + logarithm - np.linalg.slogdet(self.covariance)[1]
         return np.where(np.isfinite(value), value, np.inf)
 
@@ -190,7 +209,7 @@ class Likelihood:
         means = self.moments(at)[0]
         differences = (means[: self.keys] - means[self.keys :]).T / (at[: self.keys] - at[self.keys :]).sum(axis=1)
         _, own, seeds = self.moments(place[None])
-        return np.asarray(linalg.solve_triangular(linalg.cholesky(self.covariance + np.diag((own + seeds)[0]), lower=True), differences, lower=True))
+        return np.asarray(linalg.solve_triangular(linalg.cholesky(self.covariance + np.diag(self._added(own, seeds)[0]), lower=True), differences, lower=True))
 
     def shape(self, place: Numbers) -> tuple[Numbers, Numbers]:
         """Axes and deviations of the normal distribution that the likelihood is near a place; no wider than the ranges."""

@@ -232,33 +232,29 @@ def _forecast(
     bounds = [bound for bound in (response.low, response.high) if np.isfinite(bound)]
     is_cut = found[["value", *INTERVALS]].isin(bounds).any(axis=1)
     advice = "" if response.transform != "none" else f'; transform = "{"logit" if response.high == 1.0 else "log"}" keeps to what can be'
-    for marks, short, long in (
-        (found["leverage"] > most * (1.0 + SAME), "extrapolation", f"leverage is above {most:.3g}, the largest of the runs"),
-        (
-            found["mean_low"].isna() & (one.fit is not None),
-            "no interval",
-            "the runs do not tell it there, or leave no error; terms that cannot be told from others count as nothing",
-        ),
-        (is_cut, "cut", f"intervals are cut at {' and '.join(f'{bound:g}' for bound in bounds)}, for less or more cannot be{advice}"),
-    ):
+    is_far, is_untold = found["leverage"] > most * (1.0 + SAME), found["mean_low"].isna() & (one.fit is not None)
+    marked = {
+        f"extrapolation: leverage is above {most:.3g}, the largest of the runs": is_far,
+        "no interval: the runs do not tell it there, or leave no error; terms that cannot be told from others count as nothing": is_untold,
+        f"cut: intervals are cut at {' and '.join(f'{bound:g}' for bound in bounds)}, for less or more cannot be{advice}": is_cut,
+    }
+    for long, marks in marked.items():
         if marks.any():
-            notes.append(f"{short}: {long}" + (f" ({int(marks.sum())} of {len(places)} places)" if len(places) > 1 else ""))
+            notes.append(long + (f" ({int(marks.sum())} of {len(places)} places)" if len(places) > 1 else ""))
         for at in np.flatnonzero(marks):
-            said[at].append(short)
+            said[at].append(long.split(":")[0])
     cautions = [_joined([*(caution.split(":")[0].split(" (")[0] for caution in one.cautions), *own]) for own in said]
     table = places.assign(response=response.name, unit=response.unit, **found, beyond=beyond, cautions=cautions)
-    runs = made.groupby("point")[response.name] if made is not None else None
-    counts = runs.count().reindex(range(1, len(places) + 1), fill_value=0).to_numpy() if runs is not None else np.zeros(len(places), int)
-    mean, error = (
-        ((of.reindex(range(1, len(places) + 1)).to_numpy() for of in (runs.mean(), runs.sem()))) if runs is not None else (np.nan, np.nan)
+    runs = (
+        made.groupby("point")[response.name].agg(["mean", "sem", "count"])
+        if made is not None
+        else pandas.DataFrame(columns=["mean", "sem", "count"])
     )
-    within = [
-        None if np.isnan(low) or not count else bool(low <= value <= high)
-        for low, high, value, count in zip(table["run_low"], table["run_high"], np.broadcast_to(mean, len(places)), counts, strict=True)
-    ]
-    table = table.assign(
-        confirmed=mean, confirmed_error=error, confirmed_runs=counts, is_within=pandas.Series(within, index=places.index, dtype=object)
-    )
+    runs = runs.reindex(range(1, len(places) + 1)).astype(float).set_axis(places.index)
+    is_known = runs["count"].gt(0) & table["run_low"].notna()
+    within = (table["run_low"].le(runs["mean"]) & table["run_high"].ge(runs["mean"])).astype(object).where(is_known, None)
+    counts = runs["count"].fillna(0).astype(int)
+    table = table.assign(confirmed=runs["mean"], confirmed_error=runs["sem"], confirmed_runs=counts, is_within=within)
     table.insert(0, "place", np.arange(1, len(places) + 1))
     table.attrs["cautions"] = notes
     return table
