@@ -28,7 +28,7 @@ body { margin: 2rem auto; padding: 0 1rem; max-width: 60rem; font: 16px/1.5 syst
 h1 { font-size: 1.6rem } h2 { font-size: 1.25rem; margin-top: 2.5rem; border-bottom: 1px solid var(--line) }
 .wide { overflow-x: auto }
 table { border-collapse: collapse; font-size: .875rem; font-variant-numeric: tabular-nums }
-th, td { padding: .2rem .7rem; text-align: right; border-bottom: 1px solid var(--line); white-space: nowrap }
+th, td { padding: .2rem .5rem; text-align: right; border-bottom: 1px solid var(--line); white-space: nowrap }
 th:first-child, td:first-child, .words td, .words th { text-align: left }
 pre { white-space: pre-wrap; font-size: .8125rem }
 figure { margin: 1.5rem 0; break-inside: avoid }

@@ -1,6 +1,5 @@
 """Comparison of scenes: the same seeds in all, differences of each response with intervals."""
 
-import json
 import os
 import re
 import tomllib
@@ -17,7 +16,7 @@ from scipy import stats
 from plateau.commands import _toml
 from plateau.errors import InputError, PlateauWarning
 from plateau.program import call, file_name
-from plateau.study.results import Numbers, Study
+from plateau.study.results import Numbers, Response, Study
 from plateau.study.runs import finished
 from plateau.study.units import unit_for
 
@@ -105,7 +104,7 @@ class Comparison:
     def document(self) -> dict[str, Any]:
         """The JSON of ``plateau compare --json``; None where there is no number."""
         tables = {"differences": self.table, "means": self.means, "runs": self.runs}
-        rows = {name: json.loads(table.to_json(orient="records", double_precision=15)) for name, table in tables.items()}
+        rows = {name: table.astype(object).where(table.notna(), None).to_dict("records") for name, table in tables.items()}
         scenes = [{"name": name, "file": file} for name, file in self.scenes.items()]
         return {"scenes": scenes, "reference": scenes[0]["name"], "confidence": self.confidence, **rows, "cautions": self.cautions}
 
@@ -225,7 +224,7 @@ def _compared(
             rows.append({**common, "scene": scene, **found, "words": _words(f"{scene}: {name}", response.unit, found, confidence)})
     table = pandas.concat(runs, names=["scene"])[[one.name for one in asked]].reset_index()
     return Comparison(
-        pandas.DataFrame(rows), pandas.DataFrame(means), table, _curves(made, confidence), scenes, confidence, cautions, directory
+        pandas.DataFrame(rows), pandas.DataFrame(means), table, _curves(made, asked, confidence), scenes, confidence, cautions, directory
     )
 
 
@@ -295,11 +294,9 @@ def _ratio(row: Any) -> str:
 ENDS = ["difference", "low", "high"]
 
 
-def _curves(made: dict[str, Study], confidence: float) -> pandas.DataFrame:
-    first, parts = next(iter(made.values())), []
-    for name in dict.fromkeys(
-        one.series.replace("contact_area", "contact_area_mean") if one.series == "contact_area" else one.series for one in first.responses
-    ):
+def _curves(made: dict[str, Study], asked: Sequence[Response], confidence: float) -> pandas.DataFrame:
+    parts = []
+    for name in dict.fromkeys("contact_area_mean" if one.series == "contact_area" else one.series for one in asked):
         data = {scene: study.data[name] for scene, study in made.items() if name in study.data and "time" in study.data[name].dims}
         for scene, values in data.items():
             y, reference = values.transpose("run", "time"), next(iter(data.values())).transpose("run", "time")
@@ -311,8 +308,11 @@ def _curves(made: dict[str, Study], confidence: float) -> pandas.DataFrame:
                 "mean": y.values.mean(0),
             }
             part |= {"deviation": y.values.std(0, ddof=1) if len(y) > 1 else np.nan, **dict.fromkeys(ENDS, np.nan)}
-            if scene != next(iter(made)) and np.array_equal(reference["time"], y["time"]):
-                d = y.values - reference.values
+            if scene != next(iter(made)) and (len(y) == len(reference) or min(len(y), len(reference)) == 1):
+                # Samples of the reference may be at other times.
+                options = {"left": np.nan, "right": np.nan}
+                others = [np.interp(y["time"].values, reference["time"].values, run, **options) for run in reference.values]
+                d = y.values - np.array(others)
                 half = stats.t.ppf(0.5 + confidence / 2.0, len(d) - 1) * stats.sem(d) if len(d) > 1 else np.nan
                 part |= dict(zip(ENDS, (d.mean(0), d.mean(0) - half, d.mean(0) + half), strict=True))
             parts.append(pandas.DataFrame(part))
