@@ -2,6 +2,7 @@
 fit`` and ``plateau compare``. Each is a thin layer on a function of `plateau.study`."""
 
 import argparse
+import io
 import json
 import math
 import os
@@ -64,7 +65,8 @@ def main(arguments: Sequence[str]) -> int:
     int
         Exit status: 0, 1 for a failed run, 2 for a wrong command line or input.
     """
-    sys.stdout.reconfigure(errors="backslashreplace")  # type: ignore[union-attr]
+    if isinstance(sys.stdout, io.TextIOWrapper):
+        sys.stdout.reconfigure(errors="backslashreplace")
     try:
         with in_program_words(), warnings.catch_warnings():
             given = _parser().parse_args(arguments)
@@ -97,7 +99,7 @@ def _quiet(*_: Any, **__: Any) -> None:
 
 def _print(text: str) -> None:
     try:
-        print(shown(text), end="")
+        print(shown(text), end="" if text.endswith("\n") else "\n")
         sys.stdout.flush()
     except BrokenPipeError:
         raise
@@ -156,12 +158,12 @@ def _parser() -> Parser:
         made.add_argument("--workers", type=_count, default=1, metavar="N", help="Threads of each run [default: 1]")
 
     made = word(study, "effects", "Tell what the factors do: effects, analysis of variance, figures", _effects)
-    made.add_argument("study", type=Path, help="Study file (TOML)")
+    made.add_argument("study", type=Path, metavar="STUDY", help="Study file (TOML)")
     model(made)
     common(made, output='Folder for tables, figures and the page; "effects" in the study\'s own unless given')
 
     made = word(study, "predict", "Tell what responses are expected to be where no run was made", _predict)
-    made.add_argument("study", type=Path, help="Study file (TOML)")
+    made.add_argument("study", type=Path, metavar="STUDY", help="Study file (TOML)")
     made.add_argument("--at", action="append", default=[], metavar="FACTOR=VALUE", help='Set a factor, such as load="7 N"; may be repeated')
     made.add_argument("--grid", type=_count, metavar="N", help="Predict at so many values of each range and at all levels")
     made.add_argument("--points", type=Path, metavar="FILE", help="Predict at the points of a table in CSV, a column for each factor")
@@ -173,7 +175,7 @@ def _parser() -> Parser:
     common(made, force="Replace that file if it exists")
 
     made = word(study, "optimize", "Find the settings at which responses are best", _optimize)
-    made.add_argument("study", type=Path, help="Study file (TOML)")
+    made.add_argument("study", type=Path, metavar="STUDY", help="Study file (TOML)")
     for flag, example in (("maximize", "contact area=1 mm2..2 mm2"), ("minimize", "worn=0..1 mm3"), ("target", "filled=0.5..0.7..0.8")):
         made.add_argument(f"--{flag}", action="append", default=[], metavar="RESPONSE", help=f'A goal, such as "{example}"; may be repeated')
     made.add_argument("--limit", action="append", default=[], metavar="RESPONSE<=VALUE", help='Keep a response below or above a value: "filled<=0.9"')
@@ -188,17 +190,17 @@ def _parser() -> Parser:
     common(made, output='Folder for figures and table; "optimum" in the study\'s own unless given')
 
     made = word(study, "sensitivity", "Tell which part of a response's variation each factor has", _sensitivity)
-    made.add_argument("study", type=Path, help="Study file (TOML)")
+    made.add_argument("study", type=Path, metavar="STUDY", help="Study file (TOML)")
     confidence(made)
     common(made, output='Folder for table and figures; "sensitivity" in the study\'s own unless given')
 
     made = word(study, "import", "Take in responses that were measured or computed elsewhere", _import)
-    made.add_argument("study", type=Path, help="Study file (TOML)")
-    made.add_argument("table", type=Path, help="Table (CSV) with a column for each factor and for each response with imported = true")
+    made.add_argument("study", type=Path, metavar="STUDY", help="Study file (TOML)")
+    made.add_argument("table", type=Path, metavar="TABLE", help="Table (CSV) with a column for each factor and for each response with imported = true")
     common(made, force="Replace values that were imported before")
 
     made = word(words, "fit", "Find the values of keys with which runs give what was measured", _fit)
-    made.add_argument("study", type=Path, help="Study file (TOML) with measured values in its responses")
+    made.add_argument("study", type=Path, metavar="STUDY", help="Study file (TOML) with measured values in its responses")
     made.add_argument("--plan", action="store_true", help="Say what is fitted to what and what it will cost, without running any")
     made.add_argument("--retry", action="store_true", help="Make runs again that failed before")
     cores(made)
@@ -235,14 +237,15 @@ def _share(text: str) -> float:
 # Answers ---------------------------------------------------------------------------------------------------------------------------
 
 
-def _told(given: argparse.Namespace, found: Any, folder: Path, files: list[str], title: str, text: str | None = None) -> str:
-    """A document, or a text with the files."""
+def _told(given: argparse.Namespace, found: Any, folder: Path, files: list[str], title: str = "") -> str:
+    """A document, or a text with the files, under a heading where the text does not end with one."""
     if given.json:
         return _json({**found.document(), "files": files})
     figures = sum(file.endswith(".png") for file in files)
     lines = [file for file in files if not file.endswith((".png", ".svg", ".pdf"))]
     lines += [f"{figures} figure{'s' if figures > 1 else ''} as PNG, SVG and PDF in {folder}"] if figures else []
-    return (found.text() if text is None else text).rstrip("\n") + f"\n\n{title}\n" + "".join(f"  written  {line}\n" for line in lines)
+    heading = [f"\n{title}"] if title else []
+    return "\n".join([found.text().rstrip("\n"), *heading, *(f"  written  {line}" for line in lines), ""])
 
 
 def _json(document: Mapping[str, Any]) -> str:
@@ -353,7 +356,7 @@ def _optimize(given: argparse.Namespace) -> str:
     asked = _options(given, "maximize", "minimize", "target", "limit", "limit_on", "hold", "importance", "model", "terms", "confidence")
     found = optimize(study, **asked, runs=given.runs or 0, **_options(given, "confirm", "jobs", "workers"), progress=_progress(given))
     files = {"optimum.csv": csv_of(found.table), **saved(optimum_figures(found, given.contour))}
-    said = _told(given, found, folder, write(folder, files, force=given.force, inputs=_inputs(study)), study.title)
+    said = _told(given, found, folder, write(folder, files, force=given.force, inputs=_inputs(study)))
     if found.keeps_limits:
         return said
     _print(said)
@@ -387,7 +390,7 @@ def _fit(given: argparse.Namespace) -> str:
     study, folder, of = _opened(given, "fit", "fit")
     found = fit(study, **_options(given, "jobs", "workers", "retry"), progress=_progress(given))
     files = {**{name: csv_of(table) for name, table in found.tables.items()}, **saved(fit_figures(found))}
-    return _told(given, found, folder, write(folder, files, of=of, force=given.force, inputs=_inputs(study)), study.title)
+    return _told(given, found, folder, write(folder, files, of=of, force=given.force, inputs=_inputs(study)))
 
 
 def _compare(given: argparse.Namespace) -> str:
@@ -404,7 +407,7 @@ def _compare(given: argparse.Namespace) -> str:
     drawn = saved(figures)
     files = {"comparison.html": comparison_page(found, figures, drawn).encode(), "comparison.csv": csv_of(found.table)}
     files |= {"means.csv": csv_of(found.means), "runs.csv": csv_of(found.runs), "curves.csv": csv_of(found.curves), **drawn}
-    return _told(given, found, folder, write(folder, files, of=of, force=given.force, inputs=tuple(given.scenes)), found.title)
+    return _told(given, found, folder, write(folder, files, of=of, force=given.force, inputs=tuple(given.scenes)))
 
 
 if __name__ == "__main__":
