@@ -135,10 +135,10 @@ class PredictionTest(unittest.TestCase):
         x = random.uniform(-1.0, 1.0, (20, 2))
         x = x[np.abs(x.sum(1)) < 1.0]
         study = forecasts.study_of(x, x.sum(1) + 0.1 * random.standard_normal(len(x)))
-        with self.assertRaisesRegex(InputError, "x1 is beyond -1 to 1"):
+        with self.assertRaisesRegex(InputError, "x1 is beyond −1 to 1"):
             predict(study, ["x1=1.5"])
         far = predict(study, {"x1": 1.5}, extrapolate=True)
-        self.assertEqual(far.table["beyond"].tolist(), ["x1 is beyond -1 to 1"])
+        self.assertEqual(far.table["beyond"].tolist(), ["x1 is beyond −1 to 1"])
         # A corner is in the box, and far from all runs.
         corner = predict(study, {"x1": 1.0, "x2": 1.0}, model="main")
         self.assertIn("extrapolation", corner.table["cautions"][0])
@@ -160,7 +160,7 @@ class PredictionTest(unittest.TestCase):
         for wrong, message in (
             ({"w": "rough"}, "expected one of coarse, fine"),
             ({"load": 1}, "not a factor"),
-            (["x1=a lot"], "x1|number"),
+            (["x1=a lot"], "expected a plain number"),
         ):
             with self.assertRaisesRegex(InputError, message):
                 predict(study, wrong)
