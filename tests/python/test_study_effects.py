@@ -148,6 +148,16 @@ class Seeds(unittest.TestCase):
             self.assertLess(shares[0, 1], 0.75)  # From the residual: 52 %.
             self.assertTrue((np.abs(shares[:, 0] - 0.95) < 0.045).all(), shares)
 
+    def test_what_one_set_of_seeds_tells_alone_has_no_test(self) -> None:
+        runs = cube(2, 2)
+        runs["y"] = np.random.default_rng(5).normal(size=8)
+        # The second set has one level of A: it tells nothing of its effect.
+        runs.loc[(runs["replicate"] == 2) & (runs["A"] > 0), "y"] = np.nan
+        table = effects(study_of([number("A", -1.0, 1.0), number("B", -1.0, 1.0)], runs), "main").table.set_index("term")
+        self.assertTrue(np.isnan(table.loc["A", "p"]))
+        self.assertAlmostEqual(table.loc["B", "error_freedom"], 1.0, places=9)
+        self.assertGreater(table.loc["B", "p"], 0.0)
+
     def test_forecasts_of_the_mean_are_those_of_one_fit_for_each_set(self) -> None:
         random = np.random.default_rng(3)
         runs = cube(5, 2)

@@ -11,7 +11,7 @@ import numpy as np
 import pandas
 from scipy import optimize, stats
 
-from plateau.errors import InputError, PlateauWarning, RunFailed
+from plateau.errors import InputError, PlateauWarning, RunFailed, UnknownNameError
 from plateau.study.model import (
     MODELS,
     ROUNDING,
@@ -225,9 +225,10 @@ def _table(fit: Fitted) -> pandas.DataFrame:
             # The error over all seeds is what the term differs by between them, not what the model leaves.
             variances, freedoms = fit.errors(directions)
             error, freedom = float(variances.mean()), float(freedoms.sum())
-            rest = Squares(round(fit.residual_freedom - freedom), max(fit.residual.sum - error * freedom, 0.0))
-            ratio, _ = f_test(Squares(1, error), rest)
-            row |= {"seed_ratio": ratio, "seed_p": float(stats.f.sf(ratio, freedom, rest.freedom))}
+            if error > 0:
+                rest = Squares(round(fit.residual_freedom - freedom), max(fit.residual.sum - error * freedom, 0.0))
+                ratio, _ = f_test(Squares(1, error), rest)
+                row |= {"seed_ratio": ratio, "seed_p": float(stats.f.sf(ratio, freedom, rest.freedom))}
         if is_told and error > 0:
             f = own.mean / error
             row |= {"error_freedom": freedom, "f": f, "p": float(stats.f.sf(f, own.freedom, freedom))}
@@ -403,7 +404,10 @@ class Effects:
     confidence: float
 
     def __getitem__(self, name: str) -> ResponseEffects:
-        return next(response for response in self.responses if response.response.name == name)
+        names = [one.response.name for one in self.responses]
+        if name not in names:
+            raise UnknownNameError(f"{name!r}: no response of {self.study.title!r}; there are {', '.join(names)}")
+        return self.responses[names.index(name)]
 
     @property
     def table(self) -> pandas.DataFrame:

@@ -89,7 +89,9 @@ def levels(
         for at in range(len(fit.codings)):
             if fit.codings[at].classes is not None and len(fit.codings[at].classes or ()) > 2:
                 rows.append(_of_factor(fit, at, control))
-    if not any(len(part) for part in rows):
+    if rows and all(part is None for part in rows):
+        raise InputError(f"{opened.title}: nothing tells the error of differences between levels; give [replicates] of seeds")
+    if not any(part is not None and len(part) for part in rows):
         named = f" has a level {control!r} and" if control is not None else ""
         raise InputError(f"no factor{named} has three levels or more in the model: effects says the difference between two")
     return LevelDifferences(opened, pandas.concat(rows, ignore_index=True), "Tukey" if control is None else "Dunnett", confidence)
@@ -101,8 +103,8 @@ def _tukey(confidence: float, levels: int, freedom: float) -> float:
     return float(stats.studentized_range.ppf(confidence, levels, freedom) / np.sqrt(2.0))
 
 
-def _of_factor(fit: Fitted, at: int, control: str | None) -> pandas.DataFrame:
-    """Differences of one factor."""
+def _of_factor(fit: Fitted, at: int, control: str | None) -> pandas.DataFrame | None:
+    """Differences of one factor, none if it has no such level; None where nothing tells the error."""
     coding = fit.codings[at]
     classes = list(coding.classes or ())
     names = [coding.factor.text(level) for level in classes]
@@ -123,7 +125,7 @@ def _of_factor(fit: Fitted, at: int, control: str | None) -> pandas.DataFrame:
     differences = rows @ fit.coefficients
     differences[~(fit.fit.tells(means)[pairs].all(axis=1)) | np.isnan(errors)] = np.nan
     if np.isnan(freedom):
-        return pandas.DataFrame()
+        return None
     if control is None:
         reach = _tukey(fit.confidence, len(classes), round(freedom, 6))
         chances = stats.studentized_range.sf(np.sqrt(2.0) * np.abs(differences) / errors, len(classes), freedom)

@@ -554,7 +554,7 @@ def _whole(study: Study, response: Response, model: str, reason: str = "", confi
         takes = {"log": "more than 0", "square root": "of at least 0", "logit": "more than 0 and less than 1"}[response.transform]
         found = f"run {runs.index[beyond][0]} has the response {runs[response.name][beyond].iloc[0]:.6g} {response.unit}"
         advice = f'transform = "{response.transform}" takes values {takes}: leave the transform out, or ask for another response'
-        raise InputError(f'response "{response.name}": {found}, and {advice}')
+        raise InputError(f'{study.path or study.directory}: response "{response.name}": {found}, and {advice}')
     has = own & np.isfinite(values)
     missing, values = int((own & ~has).sum()), values[has]
     if not len(values):

@@ -4,8 +4,8 @@
 
 Simulates 2^3 designs with two to five sets of seeds, in which the effect of one factor differs between sets of seeds by 0, 0.5, 1 and 2
 of the noise: all runs there, and with a tenth of them missing. With a study of many sets of seeds (data/studies/seeds.toml), it takes
-all pairs, or as many subsets of three, four and five, and compares with the mean of all sets. The intervals from the residual, as
-they were before, stand beside.
+as many subsets of two to five and compares with the mean of all sets; subsets of 30 normal numbers are held in 91 to 98 %. The
+intervals from the residual, as they were before, stand beside.
 """
 
 import argparse
@@ -137,7 +137,6 @@ def of_runs(path: Path, count: int) -> pandas.DataFrame:
             subsets = list(itertools.combinations(range(1, study.seeds + 1), 2))
             if seeds > 2 or len(subsets) > count:
                 subsets = [tuple(random.permutation(study.seeds)[:seeds] + 1) for _ in range(count)]
-            # A part of all sets is nearer to their mean than to that of all seeds.
             found = []
             for subset in subsets:
                 runs = study.runs[study.runs["replicate"].isin(subset)]
