@@ -14,19 +14,36 @@ make_venv() {
         die "no pip for Python: install python3-venv or python3-pip"
 }
 
-# fill_venv DIR LIST: a virtual environment with the packages of a list, which are installed when the list is another one than before.
+# fill_venv DIR LIST...: a virtual environment with the packages of the lists, which are installed when the lists are others than before.
 # To be called with a lock.
 fill_venv() {
     make_venv "$1"
-    cmp -s "$2" "$1/installed.txt" && return 0
-    say "installing the packages of $2 into $1"
-    run_quietly "$1/bin/python" -m pip install --quiet -r "$2" && cp "$2" "$1/installed.txt"
+    folder=$1
+    shift
+    cat "$@" | cmp -s - "$folder/installed.txt" && return 0
+    say "installing the packages of $* into $folder"
+    for list; do
+        run_quietly "$folder/bin/python" -m pip install --quiet -r "$list" || return 1
+    done
+    cat "$@" >"$folder/installed.txt"
 }
 
-# The environment .venv of the checkout, `root`, where the run files are read as users read them. To be called with its lock,
-# .venv.lock.
+# What the package needs for all that it answers.
+answers=python/requirements.txt
+
+# Whether the environment .venv of the checkout, `root`, has these packages, and maybe more.
+has_answers() {
+    [ -f "$root/.venv/installed.txt" ] && head -c "$(($(wc -c <"$root/$answers")))" "$root/.venv/installed.txt" | cmp -s - "$root/$answers"
+}
+
+# Those packages, in .venv. To be called with its lock, .venv.lock.
+install_answers() {
+    has_answers || (cd "$root" && fill_venv "$root/.venv" "$answers")
+}
+
+# The same with what the checks read run files and surfaces with. To be called with that lock.
 install_readers() {
-    fill_venv "$root/.venv" "$root/tests/python/requirements.txt"
+    (cd "$root" && fill_venv "$root/.venv" "$answers" tests/python/requirements.txt)
 }
 
 pip_from_ensurepip() {

@@ -118,8 +118,8 @@ def mean_between(time: Array, integral: Array, revolutions: Array | None, start:
     """Mean between two times, from the integral over time: exact if these are times of samples.
 
     For the error, the part is divided into blocks of equal length: one for each interval between samples, but none shorter than a
-    simulated revolution; `standard_error` takes into account that blocks are correlated. Blocks in which the quantity has no value
-    are left out.
+    simulated revolution; `standard_error` takes into account that blocks are correlated. Time in which the quantity has no value is
+    taken out before.
 
     Parameters
     ----------
@@ -141,25 +141,29 @@ def mean_between(time: Array, integral: Array, revolutions: Array | None, start:
     """
     if not 0 <= start < end <= time[-1] * (1 + ROUNDING):
         raise InputError(f"from {start:g} to {end:g} s: expected times in order, between 0 and {time[-1]:g} s")
+
     def cumulative(values: Array) -> Array:
         return np.concatenate([[0.0], values])
 
+    first, last = start, end
+    if known_time is not None:
+        first, last = (float(moment) for moment in np.interp([start, end], cumulative(time), cumulative(known_time)))
+        # On the axis of that time, without the samples at which it stands still.
+        moves = np.diff(np.maximum.accumulate(cumulative(known_time))) > 0
+        time, integral = known_time[moves], integral[moves]
+        revolutions = None if revolutions is None else revolutions[moves]
+    # What is left of a difference of nothing is no time.
+    if not last - first > ROUNDING * (end - start):
+        return Mean(float("nan"), float("nan"), start, end, 0.0 if revolutions is not None else float("nan"))
+
     known, sums = cumulative(time), cumulative(integral)
-    durations = known if known_time is None else cumulative(known_time)
-    blocks, turns = 1 + int(((start < time) & (time < end)).sum()), float("nan")
+    blocks, turns = 1 + int(((first < time) & (time < last)).sum()), float("nan")
     if revolutions is not None:
-        turned = np.interp([start, end], known, cumulative(revolutions))
+        turned = np.interp([first, last], known, cumulative(revolutions))
         turns = float(turned[1] - turned[0])
         blocks = min(blocks, int(turns * (1 + ROUNDING)))
-
-    def means(edges: Array) -> Array:
-        parts, lengths = (np.diff(np.interp(edges, known, values)) for values in (sums, durations))
-        # A difference of sums is rounded: what is left of nothing is no time.
-        there = lengths > ROUNDING * np.diff(edges)
-        return parts[there] / lengths[there]
-
-    whole, error = means(np.array([start, end])), float("nan")
+    error = float("nan")
     if blocks >= LEAST_PARTS:
-        values = means(np.linspace(start, end, blocks + 1))
-        error = standard_error(values) if len(values) >= LEAST_PARTS else error
-    return Mean(float(whole[0]) if len(whole) else float("nan"), error, start, end, turns)
+        error = standard_error(np.diff(np.interp(np.linspace(first, last, blocks + 1), known, sums)) * blocks / (last - first))
+    value = np.diff(np.interp([first, last], known, sums))[0] / (last - first)
+    return Mean(float(value), error, start, end, turns)

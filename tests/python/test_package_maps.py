@@ -8,6 +8,7 @@ import subprocess
 import time
 import unittest
 import unittest.mock
+import warnings
 
 import h5py
 import numpy as np
@@ -151,6 +152,28 @@ class Runs(InFolder):
             # Samples lie whole steps apart, so that their distances differ a little.
             self.assertAlmostEqual(pressure.value / values[inside].mean(), 1.0, delta=2e-3)
             self.assertGreater(pressure.error, 0)
+
+    def test_the_mean_of_a_cycle_is_the_one_that_the_program_prints(self):
+        # Standing before the first step, then two brakes, lifted and standing between; once, and three times so that the part begins later.
+        rows = [(0, 5, 0), (3, 5, 0), (3, 5, 850), (13, 8, 300), (13, 0, 300), (20, 0, 850), (20, 5, 850), (31, 5, 0), (35, 5, 0)]
+        points = [[f"{time} s", f"{load} N", f"{speed} rpm"] for time, load, speed in rows]
+        scene = pathlib.Path("quick.toml").read_text(encoding="utf-8").splitlines()
+        scene = "\n".join(line for line in scene if not line.startswith(("normal_force", "rotational_speed", "duration")))
+        numbers = {"numerics.time_acceleration": 25, "output.sample_every": "0.5 s"}
+        for repeat in (1, 3):
+            cycle = f"[operation.cycle]\nrepeat = {repeat}\npoints = {points}"
+            pathlib.Path("cycle.toml").write_text(scene.replace("[operation]", cycle), encoding="utf-8")
+            with warnings.catch_warnings():
+                # Of brakes that have few revolutions.
+                warnings.simplefilter("ignore")
+                run = plateau.run("cycle.toml", f"cycle-{repeat}.h5", set=numbers)
+            expected, found = run.attrs["summary"]["contact_area_last_tenth"], run.plateau.mean()
+            np.testing.assert_allclose(
+                [found.value, found.error, found.start, found.end, found.revolutions],
+                [expected[key] for key in ("mean", "standard_error", "from", "to", "revolutions")],
+                rtol=1e-9,
+            )
+            self.assertLess(expected["contact_time"], found.end - found.start - 3)
 
     def test_build_up_and_coverage(self):
         for run in (self.run_, self.round_):

@@ -1,13 +1,25 @@
 """Forecasts of studies: the Gaussian process, which surrogate is taken, predictions, and parts of the variance."""
 
+import dataclasses
+import itertools
 import json
+import math
 import sys
+import tempfile
 import unittest
+import warnings
 from pathlib import Path
 
 import numpy as np
+import pandas
+from scipy import stats
 
+from plateau.errors import InputError
+from plateau.study.prediction import predict
 from plateau.study.process import Equations, Process
+from plateau.study.results import Factor, Response
+from plateau.study.surrogate import surrogates
+from plateau.study.variance_parts import sensitivity, sobol
 
 HERE = Path(__file__).parent
 sys.path.insert(0, str(HERE / "coverage"))
@@ -88,6 +100,160 @@ class ProcessTest(unittest.TestCase):
         for study in (("very smooth", 2, 10, 2), ("comes to an end", 4, 20, 2), ("smooth", 3, 15, 1)):
             means, runs = forecasts.process_coverage(*study, 40)
             self.assertTrue(0.915 < means < 0.985 and 0.915 < runs < 0.985, (study, means, runs))
+
+
+class PredictionTest(unittest.TestCase):
+    def test_values_are_those_of_the_program_before(self):
+        for case in json.loads((HERE / "expected" / "predictions.json").read_text(encoding="utf-8")):
+            study = stored(case)
+            for call in case["calls"]:
+                with self.subTest(case["name"], arguments=call["arguments"]):
+                    found = quietly(predict, study, **options(call["arguments"])).document()
+                    self.assertEqual(found["models"], call["models"])
+                    for place, expected in zip(found["places"], call["places"], strict=False):
+                        numbers = [setting["number"] for setting in place["settings"]]
+                        self.assertEqual([number is None for number in numbers], [number is None for number in expected["numbers"]])
+                        values = [response["value"] for response in place["responses"]]
+                        same = [
+                            (a, b) for a, b in zip(numbers + values, expected["numbers"] + expected["values"], strict=True) if b is not None
+                        ]
+                        np.testing.assert_allclose(*zip(*same, strict=True), rtol=1e-8)
+                        self.assertEqual(bool(place["beyond"]), bool(expected["beyond"]))
+
+    def test_intervals_of_a_straight_line_by_hand(self):
+        # Two replicates at -1, 0 and 1, without sets of seeds: the line is exact but for +-1, so that the error of the mean at 0 is
+        # the pure error, 2, over 6, with what points differ from the line beyond that: nothing.
+        x = np.repeat([-1.0, 0.0, 1.0], 2)[:, None]
+        study = forecasts.study_of(x, 5.0 + 3.0 * x[:, 0] + np.tile([-1.0, 1.0], 3), design="full-factorial")
+        (row,) = quietly(predict, study, {"x1": 0.0}, model="main").table.to_dict("records")
+        self.assertAlmostEqual(row["value"], 5.0)
+        self.assertAlmostEqual(row["mean_high"] - 5.0, stats.t.ppf(0.975, 3) * (2.0 / 6.0) ** 0.5, places=9)
+        self.assertAlmostEqual(row["leverage"], 1.0 / 3.0)
+
+    def test_extrapolation_is_refused_and_cautioned(self):
+        random = np.random.default_rng(0)
+        x = random.uniform(-1.0, 1.0, (20, 2))
+        x = x[np.abs(x.sum(1)) < 1.0]
+        study = forecasts.study_of(x, x.sum(1) + 0.1 * random.standard_normal(len(x)))
+        with self.assertRaisesRegex(InputError, "x1 is beyond −1 to 1"):
+            predict(study, ["x1=1.5"])
+        far = predict(study, {"x1": 1.5}, extrapolate=True)
+        self.assertEqual(far.table["beyond"].tolist(), ["x1 is beyond −1 to 1"])
+        # A corner is in the box, and far from all runs.
+        corner = predict(study, {"x1": 1.0, "x2": 1.0}, model="main")
+        self.assertIn("extrapolation", corner.table["cautions"][0])
+        for said in (corner.text(), json.dumps(corner.document()), corner.wide.to_csv(), corner.table.to_csv()):
+            self.assertIn("extrapolation", said)
+
+    def test_tables_words_and_units(self):
+        random = np.random.default_rng(1)
+        x, words = random.uniform(-1.0, 1.0, (30, 1)), random.choice(["fine", "coarse"], 30)
+        study = forecasts.study_of(x, x[:, 0] + (words == "fine") + 0.1 * random.standard_normal(30), words=words)
+        by_frame = predict(study, points=pandas.DataFrame({"x1": [0.5, -0.5], "w": ["fine", "coarse"]}))
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "points.csv"
+            path.write_text("x1,w\n0.5,fine\n-0.5,coarse\n", encoding="utf-8")
+            by_file = predict(study, points=path)
+        pandas.testing.assert_frame_equal(by_frame.table, by_file.table)
+        self.assertLess(np.abs(by_frame.table["value"] - [1.5, -0.5]).max(), 0.2)
+        self.assertEqual(len(predict(study, ["w=fine"], grid=3).places), 3)
+        for wrong, message in (
+            ({"w": "rough"}, "expected one of coarse, fine"),
+            ({"load": 1}, "not a factor"),
+            (["x1=a lot"], "expected a plain number"),
+        ):
+            with self.assertRaisesRegex(InputError, message):
+                predict(study, wrong)
+
+    def test_the_better_one_is_taken(self):
+        random = np.random.default_rng(2)
+        x = random.uniform(-1.0, 1.0, (30, 2))
+        noise = 0.05 * random.standard_normal(30)
+        for response, is_process in ((x[:, 0] - x[:, 1] ** 2, False), (np.sin(4.0 * x[:, 0]) * np.exp(x[:, 1]), True)):
+            (found,) = surrogates(forecasts.study_of(x, response + noise))
+            self.assertEqual(found.takes_process, is_process)
+            self.assertIn("the smaller one is taken", found.reason)
+            points = pandas.DataFrame({"x1": [0.1, 0.9], "x2": [0.2, -0.4]})
+            told = found.forecast(points)
+            self.assertTrue((told["mean_low"] < told["value"]).all() and (told["run_high"] >= told["mean_high"]).all())
+            np.testing.assert_allclose(found.response.back(found.mean(points)), told["value"])
+
+    def test_intervals_cover_where_the_polynomial_cannot_represent_the_function(self):
+        (polynomial, _), (count, _) = forecasts.surrogate_coverage("product of powers", 2, 12, 3, 24)
+        # Some 250 places of 10 functions: a standard error of 2 to 3 %.
+        self.assertGreater(count, 5)
+        self.assertGreater(polynomial.min(), 0.89)
+
+
+class SensitivityTest(unittest.TestCase):
+    def test_indices_agree_with_salib(self):
+        case = REFERENCES["sobol"]
+        first, total, _ = sobol(np.array([case["a"]]), np.array([case["b"]]), np.array([case["mixed"]]))
+        np.testing.assert_allclose(first[0], case["first"], rtol=1e-8, atol=1e-11)
+        np.testing.assert_allclose(total[0], case["total"], rtol=1e-8)
+
+    def test_elementary_effects_agree_with_salib(self):
+        case = REFERENCES["morris"]
+        study = forecasts.study_of(2.0 * np.array(case["points"]) - 1.0, np.array(case["responses"]), design="morris")
+        study.runs["point"] = np.arange(1, len(study.runs) + 1)
+        table = sensitivity(study).table
+        for name, expected in (("mean_size", "mean_sizes"), ("mean", "means"), ("deviation", "deviations")):
+            np.testing.assert_allclose(table[name], case[expected], rtol=1e-8)
+
+    def test_a_straight_line_in_closed_form(self):
+        # Parts of the variance of 3 a + b are 9/10 and 1/10; the word adds a quarter of the square of its step to 10/3.
+        random = np.random.default_rng(4)
+        x, words = random.uniform(-1.0, 1.0, (40, 2)), np.array(["a", "b"] * 20)
+        y = 3.0 * x[:, 0] + x[:, 1] + 2.0 * (words == "b") + 0.01 * random.standard_normal(40)
+        found = sensitivity(forecasts.study_of(x, y, words=words))
+        expected = np.array([3.0, 1.0 / 3.0, 1.0]) / (10.0 / 3.0 + 1.0)
+        np.testing.assert_allclose(found.table["total"], expected, atol=0.02)
+        self.assertAlmostEqual(found.variances["y"], 10.0 / 3.0 + 1.0, delta=0.1)
+
+    def test_what_the_runs_do_not_tell_is_wide(self):
+        # Pure chance: no factor is ruled out.
+        random = np.random.default_rng(5)
+        table = sensitivity(forecasts.study_of(random.uniform(-1.0, 1.0, (12, 3)), random.standard_normal(12))).table
+        self.assertTrue((table["total_high"] - table["total_low"] > 0.3).all(), table)
+
+    def test_seeds_have_a_part(self):
+        # The function has a variance of 1/3, chance 0.25: seeds have 0.43 of the variance of a run.
+        random = np.random.default_rng(6)
+        x = np.repeat(np.linspace(-1.0, 1.0, 12), 4)[:, None]
+        found = sensitivity(forecasts.study_of(x, x[:, 0] + 0.5 * random.standard_normal(48), np.tile([1, 2, 3, 4], 12)))
+        seeds = found.table[found.table["factor"] == "seeds"].iloc[0]
+        self.assertTrue(seeds["total_low"] < 0.4286 < seeds["total_high"] < seeds["total_low"] + 0.5)
+        self.assertIn("seeds (of single runs)", found.text())
+        self.assertEqual(found.document()["responses"][0]["seeds"]["value"], seeds["total"])
+
+
+def stored(case):
+    """A study as it is kept beside the answers of the program."""
+    study = forecasts.study_of(np.zeros((len(case["runs"]["point"]), 1)), 0.0, design=case["design"])
+    factors = [Factor(**{**factor, "levels": tuple(factor["levels"])}) for factor in case["factors"]]
+    ends = {"low": -math.inf, "high": math.inf}
+    given = [{name: value for name, value in one.items() if value is not None} for one in case["responses"]]
+    runs = pandas.DataFrame(case["runs"], index=study.runs.index)
+    return dataclasses.replace(study, factors=factors, responses=[Response(**{**ends, **one}) for one in given], runs=runs)
+
+
+def options(arguments):
+    """Options of the command line as arguments of the function."""
+    found = {"at": []}
+    for name, value in itertools.pairwise([*arguments, ""]):
+        if name == "--at":
+            found["at"].append(value)
+        elif name.startswith("--"):
+            value = {"--grid": int, "--confidence": float, "--extrapolate": bool}.get(name, str)(value or True)
+            found[name[2:]] = True if name == "--extrapolate" else value
+    return found
+
+
+def quietly(function, *arguments, **options):
+    """Calls a function without its warnings."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        return function(*arguments, **options)
 
 
 if __name__ == "__main__":

@@ -68,18 +68,6 @@ fn of_many_mistakes_in_a_study_the_first_are_told() {
 }
 
 #[test]
-fn of_many_names_in_a_study_some_are_told() {
-    let directory = WorkingDirectory::new();
-    let name = |number: usize| format!("{}{number}", "r".repeat(190));
-    let response = |number| format!("[[response]]\nname = \"{}\"\nimported = true\n", name(number));
-    let responses: String = (0..500).map(response).collect();
-    let factor = "[[factor]]\nname = \"grade\"\nlevels = [\"a\", \"b\"]\n";
-    directory.write("study.toml", format!("version = 1\ndesign = \"full-factorial\"\n{factor}{responses}"));
-    directory.write("table.csv", format!("grade,{}\na,1\n", "h".repeat(300)));
-    refused(&directory, &["sweep", "import", "study.toml", "table.csv"], " more\n");
-}
-
-#[test]
 fn the_state_of_a_strangers_run_is_cut_where_it_is_shown() {
     let directory = WorkingDirectory::new();
     let short = ["--set", "operation.duration=1 s"];

@@ -457,9 +457,55 @@ fn the_contact_area_of_a_cycle_is_its_mean_over_the_time_in_contact() {
     let mean = (integral[to] - integral[from]) / in_contact;
     assert!((number("mean") / mean - 1.0).abs() < 1e-12, "{window}, expected {mean}");
     let text = directory.plateau(arguments).quiet_success();
-    assert!(text.contains("in contact: the time in which the pin is lifted does not count"), "{text}");
+    assert!(
+        text.contains("in contact: the time in which the pin is lifted, and before the first step, does not count"),
+        "{text}"
+    );
     assert_eq!(directory.plateau(["report", "run.h5", "-o", "run.html"]).status, Some(0));
     assert!(fs::read_to_string(directory.path("run.html")).unwrap().contains("s in contact"));
+}
+
+#[test]
+fn a_pin_that_stands_before_the_first_step_counts_for_nothing_in_the_mean() {
+    let directory = WorkingDirectory::new();
+    // The same brake after 5 s of standing under its load: the same steps, so the same mean.
+    let summary = |name: &str, stands: f64| {
+        let row = |time: f64, speed: u32| format!("[\"{} s\", \"5 N\", \"{speed} rpm\"]", time + stands);
+        let begins = if stands > 0.0 { "[\"0 s\", \"5 N\", \"0 rpm\"], " } else { "" };
+        let rows = [row(0.0, 0), row(0.0, 850), row(10.0, 850), row(10.0, 0), row(12.0, 0)].join(", ");
+        let lines = format!("[operation.cycle]\npoints = [{begins}{rows}]\n");
+        directory.write(&format!("{name}.toml"), quick_with_operation(&lines));
+        // A sample every 0.5 s; 7.08 revolutions, so the window is the whole run.
+        let arguments = ["--json", "--set", "numerics.time_acceleration=20", "--set", "output.sample_every=0.5 s"];
+        let outcome = directory
+            .plateau([&["run", &format!("{name}.toml"), "-o", &format!("{name}.h5")][..], &arguments].concat());
+        assert_eq!(outcome.status, Some(0), "{outcome:?}");
+        let found: serde_json::Value = serde_json::from_str(&outcome.stdout).unwrap();
+        found["contact_area_last_tenth"].clone()
+    };
+    let (stands, moves) = (summary("stands", 5.0), summary("moves", 0.0));
+    for name in ["mean", "standard_error"] {
+        let (found, expected) = (stands[name].as_f64().unwrap(), moves[name].as_f64().unwrap());
+        assert!((found / expected - 1.0).abs() < 1e-9, "{name}: {found:e}, expected {expected:e}");
+    }
+    assert_eq!((stands["from"].as_f64(), stands["to"].as_f64()), (Some(0.0), Some(17.0)));
+    assert!((stands["contact_time"].as_f64().unwrap() - 12.0).abs() < 1e-9, "{stands}");
+    let times = RunFile::open(directory.path("stands.h5")).floats("/series/contact_time");
+    assert!(times[..9].iter().all(|time| *time == 0.0), "{times:?}");
+}
+
+#[test]
+fn a_run_with_a_cycle_says_why_its_running_in_is_not_told() {
+    let directory = WorkingDirectory::new();
+    let text = directory.plateau(["run", &scene("stops.toml"), "-o", "run.h5"]).quiet_success();
+    let line = |name: &str| text.lines().find_map(|line| line.trim().strip_prefix(name)).unwrap().trim().to_owned();
+    assert_eq!(line("running in "), "cannot be told: with a cycle the contact area follows load and speed");
+    assert!(line("running-in time ").starts_with("not defined: "), "{text}");
+    directory.plateau(["report", "run.h5", "-o", "run.html"]).quiet_success();
+    let page = fs::read_to_string(directory.path("run.html")).unwrap();
+    for (name, label) in [("running in ", "Running in"), ("running-in time ", "Running-in time")] {
+        assert!(page.contains(&format!("{label}</th><td>{}</td>", line(name))), "{name}");
+    }
 }
 
 #[test]

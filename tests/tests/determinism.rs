@@ -61,7 +61,7 @@ impl Scene {
     }
 
     /// Holds every number of workers with every instruction set against the reference, after a look whether what the
-    /// scene is for really happens in it. In short, each with some of the others.
+    /// scene is for really happens in it. In short, each with some of the others, in a long scene with one.
     fn agrees_for_all(self, happens: impl Fn(&Sample) -> bool) {
         let mut reference = self.reference();
         reference.advance_to(self.steps).expect("the reference");
@@ -70,7 +70,8 @@ impl Scene {
         // Sectors alone with every instruction set, and the best grid of sectors and bands.
         let best = InstructionSet::best();
         let grids = InstructionSet::available().map(|each| (each, Some(1))).chain([(best, None)]).collect::<Vec<_>>();
-        let stride = few_or_all(3, 1);
+        let is_long = self.steps > 10_000;
+        let stride = few_or_all(if is_long { grids.len() } else { 3 }, 1);
         for (place, workers) in WORKERS.into_iter().enumerate() {
             for (instructions, bands) in grids.iter().copied().skip(place % stride).step_by(stride) {
                 let grid = if bands.is_some() { "in one band" } else { "in the best bands" };

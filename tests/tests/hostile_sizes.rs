@@ -62,7 +62,7 @@ fn files_that_are_too_large_are_refused_with_both_numbers() {
     let directory = WorkingDirectory::new();
     let most = "expected at most";
     huge(&directory, "study.toml", b"version = 1\n", HUGE);
-    for command in ["plan", "run", "collect", "effects", "slurm"] {
+    for command in ["plan", "run", "collect", "slurm"] {
         assert_refused(&limited(&directory, &["sweep", command, "study.toml"]), most);
     }
     huge(&directory, "big.toml", b"version = 1\n", HUGE);
@@ -177,7 +177,6 @@ fn commands(directory: &WorkingDirectory) -> Vec<Vec<String>> {
         "sweep plan study.toml",
         "sweep run study.toml --jobs 2",
         "sweep collect study.toml",
-        "sweep effects study.toml --force",
     ];
     let words = |line: &str| {
         line.split(' ').map(|word| word.replace("SCENE", &scene("quick.toml")).replace('\u{a0}', " ")).collect()

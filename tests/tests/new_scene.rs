@@ -168,6 +168,16 @@ fn a_lay_is_told_and_rotate_offered() {
         let (said, told, turned) = rotated("turned.toml");
         assert!(told.contains(&format!("rotate = \"{rotate}\"")) && told.contains(runs), "{degrees}: {told}");
         assert!(said.contains(&format!("its lay runs {runs}")) && said.contains("Str"), "{degrees}: {said}");
+        // Its Str is the bound that `plateau surface` gives, which is not below what is meant.
+        let table = directory.plateau(["surface", "lay.txt"]).quiet_success();
+        let bound =
+            table.lines().find(|line| line.starts_with("Str ")).and_then(|line| line.split_once("< ")).unwrap().1;
+        assert!(said.contains(&format!("(Str < {bound}, Std ")), "{degrees}: {bound} in {said}");
+        let json = directory.plateau(["surface", "lay.txt", "--json"]);
+        let surface: serde_json::Value = serde_json::from_str(&json.stdout).unwrap();
+        let exact = surface["Str_below"].as_f64().unwrap();
+        assert!((exact..exact + 1e-3).contains(&bound.parse().unwrap()), "{degrees}: {bound}, exactly {exact}");
+        assert!(degrees != 0.0 || said.contains("Std 0 deg"), "{said}");
         let off = (turned - then).rem_euclid(180.0);
         assert!(off.min(180.0 - off) < 1.0, "{degrees}: turned by {rotate} it runs at {turned} deg");
     }

@@ -298,38 +298,6 @@ fn a_rank_takes_over_what_another_is_late_with() {
     assert_eq!(runs, (1..=seeds.len()).collect::<Vec<_>>());
 }
 
-#[test]
-#[ignore = "needs MPI"]
-fn a_fit_on_ranks_finds_what_one_process_finds() {
-    let study = format!(
-        "version = 1\nbase = \"{}\"\nset = [\"operation.duration = '2 s'\", \"plateaus.debris = 'contact'\"]\n\
-         design = \"sobol\"\npoints = 5\ndirectory = \"results\"\n[fit]\nruns = 20\n\
-         [replicates]\nkeys = [\"pin.base.synthetic.seed\"]\nseeds = [1, 2]\n\
-         [[factor]]\nname = \"captured\"\nkey = \"plateaus.captured_fraction\"\nrange = [0.01, 1.0]\nscale = \"logarithmic\"\n\
-         [[response]]\nname = \"filled\"\ndataset = \"/series/filled_fraction\"\nat = \"end\"\nmeasured = 0.001\nuncertainty = 0.00002\n",
-        scene("quick.toml")
-    );
-    let [alone, ranks] = [(); 2].map(|()| {
-        let directory = WorkingDirectory::new();
-        directory.write("fit.toml", &study);
-        directory
-    });
-    let outcome = alone.plateau(["fit", "fit.toml"]);
-    assert_eq!(outcome.status, Some(0), "{outcome:?}");
-    let together = on_ranks(&ranks, 3, &["fit", "fit.toml"].map(str::to_owned));
-    assert_eq!(together.status, Some(0), "{together:?}");
-    assert_eq!(together.stdout, outcome.stdout);
-    for file in ["keys.csv", "responses.csv", "profiles.csv", "runs.csv"] {
-        let read =
-            |directory: &WorkingDirectory| fs::read_to_string(directory.path(&format!("results/fit/{file}"))).unwrap();
-        assert_eq!(read(&alone), read(&ranks), "{file}");
-    }
-    // More than one rank made runs, of which some came after the design.
-    let shards = fs::read_dir(ranks.path("results/journal")).unwrap().count();
-    assert!(shards >= 2, "{shards} ranks made runs");
-    assert!(fs::read_to_string(ranks.path("results/fit/runs.csv")).unwrap().lines().count() > 11);
-}
-
 /// Every rank leaves its process number in a file that is named by its rank.
 const LEAVE_PROCESS_NUMBER: &str = "echo $$ >$OMPI_COMM_WORLD_RANK; exec \"$0\" \"$@\"";
 

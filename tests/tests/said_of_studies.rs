@@ -7,26 +7,12 @@ use plateau_tests::program::{Outcome, WorkingDirectory, scene};
 const FACTORS: &str = "[[factor]]\nname = \"load\"\nkey = \"operation.normal_force\"\nrange = [\"5 N\", \"15 N\"]\n\
                        [[factor]]\nname = \"fibres\"\nkey = \"pin.base.synthetic.fibre_fraction\"\nrange = [0.2, 0.4]\n";
 
-/// A study of imported responses of these names, with values of all.
-fn lab(names: &[&str], more: &str, value: fn(f64, f64) -> f64) -> WorkingDirectory {
+/// A study of an imported response.
+fn lab() -> WorkingDirectory {
     let directory = WorkingDirectory::new();
-    let responses: String =
-        names.iter().map(|name| format!("[[response]]\nname = \"{name}\"\nimported = true\n{more}")).collect();
-    let head =
-        "version = 1\ntitle = \"Lab\"\ndesign = \"central-composite\"\ncentre_points = 3\ndirectory = \"results\"\n";
-    directory.write("study.toml", format!("{head}{FACTORS}{responses}"));
-    let places = [[5.0, 0.2], [15.0, 0.2], [5.0, 0.4], [15.0, 0.4], [5.0, 0.3], [15.0, 0.3], [10.0, 0.2], [10.0, 0.4]];
-    let mut table = format!("load [N],fibres,{}\n", names.join(","));
-    for (line, [load, fibres]) in places.into_iter().chain([[10.0, 0.3]; 3]).enumerate() {
-        let cells = vec![format!("{:e}", value(load, fibres) * (1.0 + 0.001 * line as f64)); names.len()];
-        table.push_str(&format!("{load},{fibres},{}\n", cells.join(",")));
-    }
-    directory.write("table.csv", table);
+    let head = "version = 1\ntitle = \"Lab\"\ndesign = \"central-composite\"\ndirectory = \"results\"\n";
+    directory.write("study.toml", format!("{head}{FACTORS}[[response]]\nname = \"y\"\nimported = true\n"));
     directory
-}
-
-fn import(directory: &WorkingDirectory) {
-    directory.plateau(["sweep", "import", "study.toml", "table.csv"]).quiet_success();
 }
 
 fn ask(directory: &WorkingDirectory, arguments: &[&str]) -> Outcome {
@@ -39,40 +25,14 @@ fn said(outcome: &Outcome, status: i32, words: &str) {
 }
 
 #[test]
-fn names_with_signs_are_goals_as_others() {
-    let directory = lab(&["a", "a=b", "x<=1", "c>=d"], "", |load, fibres| load * fibres);
-    import(&directory);
-    for goal in [
-        &["--maximize", "a=b"][..],
-        &["--target", "a=b=2"],
-        &["--maximize", "x<=1", "--limit", "x<=1<=4"],
-        &["--minimize", "a", "--limit", "c>=d>=2", "--importance", "a=2"],
-        &["--maximize", "a=b", "--maximize", "a=1..3", "--weight", "a=b=2"],
-    ] {
-        let outcome = ask(&directory, &[&["optimize", "--force"], goal].concat());
-        assert_eq!(outcome.status, Some(0), "{goal:?}: {outcome:?}");
-    }
-    said(&ask(&directory, &["optimize", "--force", "--maximize", "e=1..2"]), 2, "\"e\" is not a response of the study");
-}
-
-#[test]
 fn what_to_do_without_results_depends_on_where_they_come_from() {
-    let directory = lab(&["y"], "", |load, fibres| load * fibres);
+    let directory = lab();
     said(&ask(&directory, &["collect"]), 0, "plateau sweep import takes in their responses");
 }
 
 #[test]
 fn numbers_beyond_all_measure_are_told_as_such() {
-    let directory = lab(&["y"], "", |load, fibres| load * fibres);
-    import(&directory);
-    let far = ask(&directory, &["predict", "--at", "load=1e308 N", "--extrapolate"]);
-    said(&far, 2, "too far from the range, 5 N … 15 N");
-    said(&ask(&directory, &["predict", "--confidence", "0.9999999999999999"]), 0, "99.99999999999999 % of means");
-    let directory = lab(&["y"], "transform = \"log\"\n", |load, fibres| 1e300 * 10.0_f64.powf(load / 3.0) * fibres);
-    import(&directory);
-    let beyond = ask(&directory, &["predict", "--at", "load=100 N", "--extrapolate"]);
-    said(&beyond, 0, "∞");
-    assert!(!beyond.stdout.contains("inf"), "{beyond:?}");
+    let directory = WorkingDirectory::new();
     let quick = scene("quick.toml");
     for set in ["mesh.inner_radius=1e300 m", "output.maps_at=[\"1e300 s\"]"] {
         let outcome = directory.plateau(["check", &quick, "--set", set]);
@@ -81,103 +41,8 @@ fn numbers_beyond_all_measure_are_told_as_such() {
 }
 
 #[test]
-fn a_measurement_that_no_number_fits_is_named() {
-    let directory = WorkingDirectory::new();
-    let study = |response: &str| {
-        format!(
-            "version = 1\ntitle = \"A fit\"\nbase = \"{}\"\ndesign = \"sobol\"\npoints = 5\ndirectory = \"results\"\n\
-             set = [\"operation.duration = '1 s'\", \"output.sample_every = '0.1 s'\"]\n{FACTORS}\
-             [[response]]\nname = \"worn\"\ndataset = \"/series/worn_pin\"\n{response}[fit]\nruns = 5\n",
-            scene("quick.toml")
-        )
-    };
-    for measured in
-        ["at = \"end\"\nmeasured = 1e-13\nuncertainty = 1e-300\n", "at = \"end\"\nmeasured = 1e300\nuncertainty = 1\n"]
-    {
-        directory.write("study.toml", study(measured));
-        let refused = directory.plateau(["fit", "study.toml"]);
-        said(&refused, 2, "response \"worn\" was measured as");
-        said(&refused, 2, "look at the units and the uncertainties");
-    }
-    directory.write("worn.csv", "time [s],worn [m3],uncertainty [m3]\n0.5,1e-14,1e-300\n1,2e-14,1e-300\n");
-    directory.write("study.toml", study("measured_file = \"worn.csv\"\n"));
-    said(
-        &directory.plateau(["fit", "study.toml"]),
-        2,
-        "response \"worn\": what was measured and what runs give differ",
-    );
-}
-
-/// A study of a rig with two values of each factor and two sets of specimens, and its table.
-fn two_values() -> WorkingDirectory {
-    let directory = WorkingDirectory::new();
-    let seeds = "[replicates]\nkeys = [\"disc.surface.synthetic.seed\"]\nseeds = [1, 2]\n";
-    let response = "[[response]]\nname = \"y\"\nimported = true\n";
-    let head = "version = 1\ntitle = \"Two\"\ndesign = \"full-factorial\"\ndirectory = \"results\"\n";
-    directory.write("study.toml", format!("{head}{seeds}{FACTORS}{response}"));
-    let values = [[1.0, 1.3], [2.0, 1.95], [3.0, 3.25], [4.0, 3.95]];
-    let mut table = "load [N],fibres,replicate,y\n".to_owned();
-    for ([load, fibres], own) in [[5.0, 0.2], [15.0, 0.2], [5.0, 0.4], [15.0, 0.4]].into_iter().zip(values) {
-        for (replicate, value) in own.into_iter().enumerate() {
-            table.push_str(&format!("{load},{fibres},{},{value}\n", replicate + 1));
-        }
-    }
-    directory.write("table.csv", table);
-    import(&directory);
-    directory
-}
-
-#[test]
-fn two_values_of_a_factor_are_said_to_show_no_curve() {
-    let directory = two_values();
-    let both = "load, fibres: the runs have two values of each, so that they show no curve";
-    said(&ask(&directory, &["predict"]), 0, both);
-    said(&ask(&directory, &["predict", "--at", "load=5 N"]), 0, "warning: fibres: the runs have two values of it");
-    let at_a_run = ask(&directory, &["predict", "--at", "load=5 N", "--at", "fibres=0.4"]);
-    assert!(at_a_run.status == Some(0) && at_a_run.stderr.is_empty(), "{at_a_run:?}");
-    said(&ask(&directory, &["optimize", "--maximize", "y", "--force"]), 0, both);
-    let held = ask(&directory, &["optimize", "--maximize", "y", "--hold", "fibres=0.2", "--force"]);
-    said(&held, 0, "warning: load: the runs have two values of it");
-    let three = lab(&["y"], "", |load, fibres| load * fibres);
-    import(&three);
-    assert_eq!(ask(&three, &["predict", "--at", "load=7 N"]).stderr, "");
-}
-
-#[test]
-fn an_interval_of_means_as_wide_as_that_of_runs_is_explained() {
-    let found = ask(&two_values(), &["predict"]);
-    said(&found, 0, "y: so few sets of seeds hardly tell by how much others would differ");
-    let many = lab(&["y"], "", |load, fibres| load * fibres);
-    import(&many);
-    assert!(!ask(&many, &["predict"]).stdout.contains("sets of seeds"));
-}
-
-#[test]
-fn levels_in_quotes_are_words_and_others_numbers() {
-    let directory = WorkingDirectory::new();
-    let factor = "[[factor]]\nname = \"grade\"\nlevels = [1, 2, 10]\n";
-    let response = "[[response]]\nname = \"y\"\nimported = true\n";
-    let head = "version = 1\ndesign = \"full-factorial\"\ndirectory = \"results\"\n";
-    let load = &FACTORS[..FACTORS.rfind("[[factor]]").unwrap()];
-    directory.write("study.toml", format!("{head}{factor}{load}{response}"));
-    directory.write("table.csv", "grade,load [N],y\n1,5,1\n2,5,1.9\n10,5,10.3\n1,15,2.1\n2,15,3.2\n10,15,11\n");
-    import(&directory);
-    said(&ask(&directory, &["predict", "--at", "grade=2"]), 0, "grade = 2");
-    let between = ask(&directory, &["predict", "--at", "grade=5"]);
-    said(&between, 2, "the model knows the levels 1, 2, 10 alone; --model quadratic tells what lies between them");
-    said(&ask(&directory, &["predict", "--at", "grade=5", "--model", "quadratic"]), 0, "grade = 5");
-    // As words they are three that have nothing between them.
-    let words =
-        fs::read_to_string(directory.path("study.toml")).unwrap().replace("[1, 2, 10]", "[\"1\", \"2\", \"10\"]");
-    directory.write("study.toml", words);
-    import(&directory);
-    said(&ask(&directory, &["predict", "--at", "grade=2"]), 0, "grade = 2");
-    said(&ask(&directory, &["predict", "--at", "grade=5"]), 2, "grade = 5: expected one of 1, 2, 10");
-}
-
-#[test]
 fn keys_and_names_that_nobody_would_find_again_are_told() {
-    let directory = lab(&["y"], "", |load, fibres| load * fibres);
+    let directory = lab();
     let text = fs::read_to_string(directory.path("study.toml")).unwrap();
     for (from, to, words) in [
         ("[[factor]]", "[[factors]]", "unknown key `factors`, expected one of `version`"),
@@ -269,16 +134,4 @@ fn a_time_after_the_end_of_runs_is_warned_of() {
     let longer = "[[factor]]\nname = \"time\"\nkey = \"operation.duration\"\nlevels = [\"2 s\", \"4 s\"]\n[[response]]";
     change(&directory, "[[response]]", longer);
     said(&ask(&directory, &["plan"]), 0, "and the shortest run ends at 2 s: runs that end before have no value of it");
-}
-
-#[test]
-fn a_place_that_is_a_point_of_the_study_confirms_nothing() {
-    let directory = loads("dataset = \"/series/contact_area\"\nat = \"end\"");
-    change(&directory, "levels = [\"5 N\", \"10 N\"]", "range = [\"5 N\", \"10 N\"]");
-    said(&ask(&directory, &["run"]), 0, "finished now");
-    let known = ask(&directory, &["predict", "--at", "load=10 N", "--confirm"]);
-    said(&known, 0, "the fit has used them, so they confirm nothing");
-    said(&known, 0, "Compared with one extra run, which tells no error");
-    let between = ask(&directory, &["predict", "--at", "load=7 N", "--confirm"]);
-    assert!(between.status == Some(0) && !between.stderr.contains("confirm nothing"), "{between:?}");
 }

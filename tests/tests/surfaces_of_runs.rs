@@ -54,6 +54,20 @@ fn the_last_map_or_one_at_a_time_is_the_surface_of_the_next_run() {
     for dataset in ["disc/height", "pin/height"] {
         assert_eq!(map(&directory, "next.h5", dataset, 0), map(&directory, "run.h5", dataset, 1), "{dataset}");
     }
+    // What the first run has done is done once more only with a warning.
+    let recess =
+        "pin.surface: resin_recess is applied to the map of a run, which has already been prepared: leave it out";
+    let cut = "disc.prepare: cutoff is applied to the map of a run, which has already been prepared: leave it out";
+    for (set, warnings) in [
+        (None, [false, false]),
+        (Some("pin.surface.resin_recess=8 um"), [true, false]),
+        (Some("disc.prepare.cutoff=1 um"), [false, true]),
+    ] {
+        let set = set.into_iter().flat_map(|value| ["--set", value]);
+        let checked = directory.plateau(["check", "next.toml"].into_iter().chain(set));
+        assert_eq!(checked.status, Some(0), "{checked:?}");
+        assert_eq!([recess, cut].map(|warning| checked.stderr.contains(warning)), warnings, "{checked:?}");
+    }
     // Where the map comes from is in the report.
     let checked = directory.plateau(["check", "next.toml"]);
     assert!(checked.stdout.contains("dataset /disc/height, recorded by a run at 1."), "{checked:?}");

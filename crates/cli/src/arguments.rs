@@ -1,10 +1,8 @@
 //! The command line.
 
 mod accuracy;
-mod answers;
 mod cores;
-mod fit;
-mod model;
+mod handed;
 mod new;
 mod plot;
 mod quantity;
@@ -25,20 +23,14 @@ use crate::failure::Failure;
 use crate::version;
 
 pub use accuracy::AccuracyArguments;
-pub use answers::{ImportArguments, LimitOn, OptimizeArguments, PredictArguments};
-pub use cores::CoresArguments;
-pub use fit::FitArguments;
-pub use model::Terms;
+pub use handed::HandedArguments;
 pub use new::NewArguments;
 pub use plot::PlotArguments;
 pub use reading::{ReadArguments, as_options};
 pub use run::{CheckArguments, RunArguments, SceneArguments};
 pub use run_files::{ExportArguments, ExportFormat, RepairArguments, ReportArguments, VerifyArguments, WatchArguments};
 pub use surface::SurfaceArguments;
-pub use sweep::{
-    CollectArguments, EffectsArguments, PlanArguments, SensitivityArguments, SlurmArguments, SweepCommand,
-    SweepRunArguments,
-};
+pub use sweep::{CollectArguments, PlanArguments, SlurmArguments, SweepCommand, SweepRunArguments};
 
 /// How a pin of friction material and a rough, coated brake disc wear into each other.
 #[derive(Debug, Parser)]
@@ -116,9 +108,11 @@ pub enum Command {
     #[command(subcommand, after_help = "Example:\n  plateau sweep plan data/studies/pad-properties.toml")]
     Sweep(SweepCommand),
     /// Find the values of keys with which runs give what was measured
-    #[command(after_help = "Example:\n  plateau fit data/studies/fit-captured-fraction.toml --plan\n\n\
-                      Without --plan the fit is made. It can be stopped and started again at any time: runs that are there are not made again.")]
-    Fit(FitArguments),
+    #[command(disable_help_flag = true)]
+    Fit(HandedArguments),
+    /// Tell what differs between scenes, and how sure that is: runs of each with the same seeds
+    #[command(disable_help_flag = true)]
+    Compare(HandedArguments),
     /// Describe surfaces by the parameters of ISO 25178-2, draw and convert them
     #[command(after_help = "Examples:\n  plateau surface data/surfaces/afm_256x256.sdf --plot afm.png\n  \
                       plateau surface --prepare data/scenes/quick.toml")]

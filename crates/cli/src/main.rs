@@ -8,11 +8,11 @@ mod commands;
 mod environment;
 mod excerpt;
 mod failure;
+mod hand_over;
 mod interrupt;
 mod little_memory;
 mod message;
 mod output;
-mod output_folder;
 mod panic;
 mod progress;
 mod screen;
@@ -24,11 +24,13 @@ mod version;
 
 use std::process::ExitCode;
 
-use clap::Parser;
+use clap::{CommandFactory as _, Parser};
 use plateau_io::number;
 use plateau_io::process::report_file_size_limit;
 use plateau_present::csv_table;
 use plateau_run::machine;
+
+use failure::Failure;
 
 fn main() -> ExitCode {
     environment::fit();
@@ -39,6 +41,15 @@ fn main() -> ExitCode {
     panic::told(answer)
 }
 
+/// Hands a first word that is none of this program's to the program of its name, if there is one.
+fn elsewhere() -> Option<ExitCode> {
+    let mut arguments = std::env::args_os().skip(1);
+    let word = arguments.next().filter(|word| hand_over::is_word(word))?.into_string().ok()?;
+    let is_own = arguments::Arguments::command().find_subcommand(&word).is_some();
+    let handed = !is_own && hand_over::answering(&word).is_some();
+    handed.then(|| hand_over::hand_over(&word, arguments).map_or_else(Failure::report, |()| ExitCode::SUCCESS))
+}
+
 /// Does what the command line asks for.
 fn answer() -> ExitCode {
     if let Err(failure) = arguments::refuse_odd_characters(std::env::args_os()) {
@@ -46,7 +57,7 @@ fn answer() -> ExitCode {
     }
     let arguments = match arguments::Arguments::try_parse() {
         Ok(arguments) => arguments,
-        Err(answer) => return answer::answered(answer),
+        Err(answer) => return elsewhere().unwrap_or_else(|| answer::answered(answer)),
     };
     // Where the system takes no handler, what writes beyond the file size limit ends by a signal; no reason not to begin.
     let _ = report_file_size_limit();

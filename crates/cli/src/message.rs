@@ -17,6 +17,11 @@ pub fn set_level(quiet: bool, verbose: bool) {
     VERBOSE.store(verbose, Ordering::Relaxed);
 }
 
+/// How much is said, as the option that asks for it.
+pub fn level_as_option() -> Option<&'static str> {
+    if is_quiet() { Some("--quiet") } else { is_verbose().then_some("--verbose") }
+}
+
 /// Whether nothing but errors is said.
 pub fn is_quiet() -> bool {
     QUIET.load(Ordering::Relaxed)

@@ -48,8 +48,8 @@ pub fn text(summary: &RunSummary) -> String {
         ("contact area", contact_area),
     ];
     rows.extend(summary.time_acceleration.as_ref().map(|chosen| ("time acceleration", acceleration(chosen))));
-    rows.extend(summary.contact_area_drift.as_ref().map(|found| ("running in", running_in(found))));
-    rows.extend(summary.running_in.as_ref().map(|found| ("running-in time", running_in_time(found))));
+    let (drift, time) = &summary.running_in;
+    rows.extend([("running in", running_in(drift)), ("running-in time", running_in_time(time))]);
     rows.extend([
         (
             "contact pressure",

@@ -56,6 +56,70 @@ fn worn_volume_is_wear_rate_times_load_times_distance() {
     close(simulation.sample().unwrap().worn_pin, WEAR_RATE * force * sliding * 1000.0, ROUNDING, "κ F s");
 }
 
+/// Holds what the first step on a rough disc wears off, with local debris, a pool and no formation, against κ F s: there is
+/// one row. Returns what is deposited of it where debris is local, m³.
+fn worn_of_a_step(change: impl Fn(&mut Parameters), wear_rate: f64) -> f64 {
+    let mut deposited = 0.0;
+    for plateaus in [PlateauRules::LOCAL, PlateauRules::pool(0.06), wear_only(1, 1, 1).plateaus] {
+        let mut parameters = Parameters { plateaus, ..wear_only(1, 97, 31) };
+        change(&mut parameters);
+        let sliding = parameters.mesh.radius()[0] * parameters.mesh.column_angle();
+        let force = parameters.normal_force;
+        let mut stream = Stream(1);
+        let disc = (0..97).map(|_| 4e-6 * stream.uniform()).collect();
+        let mut simulation = all_primary(parameters, disc, vec![0.0; 31]);
+        simulation.advance().unwrap();
+        let sample = simulation.sample().unwrap();
+        close(sample.worn_pin, wear_rate * force * sliding, ROUNDING, "κ F s");
+        deposited = f64::max(deposited, sample.deposited_pin + sample.deposited_disc);
+    }
+    deposited
+}
+
+#[test]
+fn build_up_of_any_stiffness_hides_no_wear_of_the_fibre() {
+    // There is no build-up in the first step: whatever its stiffness would be, nothing depends on it.
+    let deposited = worn_of_a_step(|_| {}, WEAR_RATE);
+    for modulus in [1e20, 1e30, 1e40, 1e60, 1e90] {
+        let change = |parameters: &mut Parameters| {
+            parameters.materials.pin_secondary.youngs_modulus = modulus;
+            parameters.materials.disc_secondary.youngs_modulus = modulus;
+        };
+        close(worn_of_a_step(change, WEAR_RATE), deposited, ROUNDING, "deposited");
+    }
+}
+
+#[test]
+fn the_smallest_wear_rates_keep_their_digits() {
+    for wear_rate in [1e-25, 1e-30, 1e-35, 1e-40, 1e-60, 1e-100] {
+        worn_of_a_step(
+            |parameters| {
+                parameters.materials.pin_primary.specific_wear_rate = wear_rate;
+                parameters.materials.pin_secondary.specific_wear_rate = wear_rate;
+            },
+            wear_rate,
+        );
+    }
+}
+
+#[test]
+fn debris_that_is_compacted_to_the_last_is_never_emitted_less_than_not_at_all() {
+    // Of each row only the second cell touches, and behind it there is room for all that it loses.
+    for modulus in [1e9, 2e9] {
+        let mut parameters = Parameters { plateaus: PlateauRules::LOCAL, ..wear_only(12, 97, 2) };
+        parameters.materials.pin_secondary.youngs_modulus = modulus;
+        let pin = [vec![1e-4; 12], vec![0.0; 12]].concat();
+        let mut simulation = all_primary(parameters, vec![0.0; 12 * 97], pin);
+        for step in 1..=200 {
+            simulation.advance().unwrap();
+            let sample = simulation.sample().unwrap();
+            close(sample.deposited_pin, sample.worn_pin, ROUNDING, "deposited");
+            let emitted = sample.emitted / sample.worn_pin;
+            assert!((0.0..=ROUNDING).contains(&emitted), "step {step}: {:e}", sample.emitted);
+        }
+    }
+}
+
 #[test]
 fn worn_volume_of_many_rows_is_the_sum_over_cells() {
     // κ Σ F_cell ds_i, with the forces of the step from the pressure map.

@@ -74,8 +74,8 @@ fn the_document_tells_of_every_case() {
     let document = fs::read_to_string(DOCUMENT).expect("docs/stability.md");
     let is_told =
         |case: &Case| document.contains(&format!("| {} | {:.1e} |", case.name, case.parameters.stiffness_number()));
-    let cases = cases::all(1_000_000_000);
+    let cases = cases::all(100_000_000);
     assert!(cases.len() > 90, "{}", cases.len());
     let missing: Vec<String> = cases.into_iter().filter(|case| !is_told(case)).map(|case| case.name).collect();
-    assert_eq!(missing, [""; 0], "UPDATE_DOCS=1 PLATEAU_EXTREME_STEPS=1000000000 writes the table anew");
+    assert_eq!(missing, [""; 0], "UPDATE_DOCS=1 PLATEAU_EXTREME_STEPS=100000000 writes the table anew");
 }

@@ -1,6 +1,7 @@
 //! Small simulations whose outcome is known, and random ones whose outcome must obey the model's laws.
 
 use std::f64::consts::TAU;
+use std::fmt::Debug;
 use std::sync::Arc;
 
 use plateau_core::model::cycle::{Cycle, Interpolation, Node};
@@ -16,8 +17,12 @@ use plateau_core::observe::Sample;
 use plateau_core::simulation::Simulation;
 
 /// How much of a test that repeats itself is done: `few` as it goes without saying, `all` with `PLATEAU_LONG=1`.
-pub fn few_or_all<T>(few: T, all: T) -> T {
-    if std::env::var_os("PLATEAU_LONG").is_some() { all } else { few }
+pub fn few_or_all<T: Debug>(few: T, all: T) -> T {
+    if std::env::var_os("PLATEAU_LONG").is_some() {
+        return all;
+    }
+    println!("{few:?}, with PLATEAU_LONG=1 {all:?}");
+    few
 }
 
 /// κ of the pin's plateaus in the paper, 1/Pa.

@@ -71,6 +71,13 @@ pub fn not_above(number: f64, digits: usize) -> f64 {
     cut.and_then(|text| text.parse().ok()).unwrap_or(number)
 }
 
+/// What a positive number is less than, in words: with so many significant digits, rounded up.
+pub fn less_than(bound: f64, digits: usize) -> String {
+    let nearest = significant(bound, digits).parse().unwrap_or(bound);
+    let last = 10_f64.powi(bound.log10().floor() as i32 + 1 - digits as i32);
+    format!("< {}", significant(if nearest < bound { nearest + last } else { nearest }, digits))
+}
+
 /// The number to fifteen significant digits: what is left of one that was stated with fewer, without what arithmetic added.
 pub fn to_fifteen_digits(number: f64) -> f64 {
     format!("{number:.14e}").parse().unwrap_or(number)
@@ -157,6 +164,12 @@ mod tests {
     fn a_limit_is_rounded_down() {
         let found = [1.41652, 2.0, 3.0 - 1e-15, 0.9999999, 12345.67, 1e-7].map(|number| not_above(number, 4));
         assert_eq!(found, [1.416, 2.0, 3.0, 0.9999, 12340.0, 1e-7]);
+    }
+
+    #[test]
+    fn an_upper_bound_is_rounded_up() {
+        let found = [0.304, 0.3, 0.30001, 0.037_39, 0.9991, 9.991, 1e-9 / 3.0].map(|bound| less_than(bound, 2));
+        assert_eq!(found, ["< 0.31", "< 0.30", "< 0.31", "< 0.038", "< 1.0", "< 10", "< 3.4e-10"]);
     }
 
     #[test]

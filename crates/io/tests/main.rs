@@ -25,6 +25,10 @@ mod writing;
 mod x3p;
 
 /// How much of a test that repeats itself is done: `few` as it goes without saying, `all` with `PLATEAU_LONG=1`.
-fn few_or_all<T>(few: T, all: T) -> T {
-    if std::env::var_os("PLATEAU_LONG").is_some() { all } else { few }
+fn few_or_all<T: std::fmt::Debug>(few: T, all: T) -> T {
+    if std::env::var_os("PLATEAU_LONG").is_some() {
+        return all;
+    }
+    println!("{few:?}, with PLATEAU_LONG=1 {all:?}");
+    few
 }

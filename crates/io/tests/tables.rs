@@ -351,6 +351,126 @@ fn packed_numbers_are_what_netcdf_says_also_of_coordinates() {
     drop((x, file));
     let pitch = read(&path, &options()).unwrap().pitch.unwrap();
     assert!((pitch[0] - 1e-6).abs() < 1e-18, "{pitch:?}");
+    // An offset takes no part in the distance, and what is a mark is no coordinate.
+    let file = ::hdf5::File::open_rw(&path).unwrap();
+    let x = file.dataset("x").unwrap();
+    x.new_attr::<f64>().create("add_offset").unwrap().write_scalar(&-3.0).unwrap();
+    drop((x, file));
+    let pitch = read(&path, &options()).unwrap().pitch.unwrap();
+    assert!((pitch[0] - 1e-6).abs() < 1e-18, "{pitch:?}");
+    let file = ::hdf5::File::open_rw(&path).unwrap();
+    let x = file.dataset("x").unwrap();
+    let second = x.read_raw::<f64>().unwrap()[1];
+    x.new_attr::<f64>().create("missing_value").unwrap().write_scalar(&second).unwrap();
+    drop((x, file));
+    let found = message(&path, &options());
+    assert!(found.contains("its dimension /x are not equidistant: number 1 is NaN"), "{found}");
+}
+
+/// A file with the packed heights `z` of one row, and attributes that `attributes` writes.
+fn packed<T: ::hdf5::H5Type>(folder: &Path, stored: &[T], attributes: impl Fn(&::hdf5::Dataset)) -> PathBuf {
+    let path = folder.join("packed.h5");
+    let file = ::hdf5::File::create(&path).unwrap();
+    let dataset = file.new_dataset::<T>().shape((stored.len(), 1)).create("z").unwrap();
+    dataset.write_raw(stored).unwrap();
+    dataset.new_attr::<f64>().create("scale_factor").unwrap().write_scalar(&1e-9).unwrap();
+    attributes(&dataset);
+    path
+}
+
+fn attribute<T: ::hdf5::H5Type>(dataset: &::hdf5::Dataset, name: &str, values: &[T]) {
+    dataset.new_attr::<T>().shape(values.len()).create(name).unwrap().write_raw(values).unwrap();
+}
+
+#[test]
+fn stored_numbers_that_are_not_valid_are_missing_points() {
+    let folder = tempfile::tempdir().unwrap();
+    let heights = |path: &Path| -> Vec<Option<f64>> {
+        let heights = read(path, &options()).unwrap().heights;
+        heights.iter().map(|height| Some((height * 1e9).round()).filter(|height| !height.is_nan())).collect()
+    };
+    let stored = [-300_i16, -200, 0, 100, 101];
+    let path = packed(folder.path(), &stored, |dataset| attribute(dataset, "valid_range", &[-200_i16, 100]));
+    assert_eq!(heights(&path), [None, Some(-200.0), Some(0.0), Some(100.0), None]);
+    assert!(
+        read(&path, &options()).unwrap().notes[1].ends_with("below -200 or above 100 are not valid and missing points")
+    );
+    let path = packed(folder.path(), &stored, |dataset| attribute(dataset, "valid_min", &[-200_i64]));
+    assert_eq!(heights(&path), [None, Some(-200.0), Some(0.0), Some(100.0), Some(101.0)]);
+    let path = packed(folder.path(), &stored, |dataset| attribute(dataset, "valid_max", &[100_i16]));
+    assert_eq!(heights(&path), [Some(-300.0), Some(-200.0), Some(0.0), Some(100.0), None]);
+    // As bytes without a sign, -56 is 200; what no byte means is beyond all of them.
+    for largest in [&[0_i16, 200], &[0, -56]] {
+        let path = packed(folder.path(), &[0_i8, 127, -128, -56, -55], |dataset| {
+            let text: ::hdf5::types::VarLenUnicode = "true".parse().unwrap();
+            attribute(dataset, "_Unsigned", &[text]);
+            attribute(dataset, "valid_range", largest);
+        });
+        assert_eq!(heights(&path), [Some(0.0), Some(127.0), Some(128.0), Some(200.0), None]);
+    }
+    // With a sign, though the type has none: 65535 is -1 and 32768 is -32768, which is the mark.
+    let path = packed(folder.path(), &[0_u16, 32767, 32768, 65535], |dataset| {
+        let text: ::hdf5::types::VarLenUnicode = "false".parse().unwrap();
+        attribute(dataset, "_Unsigned", &[text]);
+        attribute(dataset, "_FillValue", &[32768_u16]);
+    });
+    assert_eq!(heights(&path), [Some(0.0), Some(32767.0), None, Some(-1.0)]);
+    // A mark that was written with more digits than the heights have.
+    let path = packed(folder.path(), &[1.0_f32, -999.9], |dataset| attribute(dataset, "missing_value", &[-999.9_f64]));
+    assert_eq!(heights(&path), [Some(1.0), None]);
+
+    let text = |text: &str| text.parse::<::hdf5::types::VarLenUnicode>().unwrap();
+    let found =
+        |attributes: &dyn Fn(&::hdf5::Dataset)| message(&packed(folder.path(), &stored, attributes), &options());
+    let known = found(&|dataset| attribute(dataset, "valid_range", &[1_i16]));
+    assert!(known.contains("valid_range = [1.0], expected the least and the largest number"), "{known}");
+    let known = found(&|dataset| attribute(dataset, "valid_min", &[text("0")]));
+    assert!(known.contains("valid_min, which is no number, expected one number: correct or delete it"), "{known}");
+    let known = found(&|dataset| attribute(dataset, "valid_max", &[1e-7]));
+    assert!(known.contains("valid_max = [1e-7], expected integers, as the numbers that are stored"), "{known}");
+    let known = found(&|dataset| attribute(dataset, "valid_range", &[5_i16, -5]));
+    assert!(known.contains("of [5.0, -5.0], expected the least number first"), "{known}");
+}
+
+#[test]
+fn units_and_labels_that_are_no_texts_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let found =
+        |attributes: &dyn Fn(&::hdf5::Dataset)| message(&packed(folder.path(), &[1.0, 2.0], attributes), &options());
+    let known = found(&|dataset| attribute(dataset, "units", &[1e-6]));
+    assert_eq!(
+        known,
+        "dataset /z has the attribute units = [1e-6], expected the name of a unit as one text: correct it, or delete it where the \
+         numbers are in m"
+    );
+    let two: [::hdf5::types::VarLenUnicode; 2] = ["m", "m"].map(|text| text.parse().unwrap());
+    let known = found(&|dataset| attribute(dataset, "units", &two));
+    assert!(known.contains("has the attribute units, which is not one text, expected the name of a unit"), "{known}");
+    let known = found(&|dataset| attribute(dataset, "DIMENSION_LABELS", &[1_i32, 2]));
+    assert!(
+        known.contains("DIMENSION_LABELS of 2 values of type int32, expected one text for each dimension"),
+        "{known}"
+    );
+    let known = found(&|dataset| attribute(dataset, "DIMENSION_LABELS", &two[..1]));
+    assert!(known.contains("DIMENSION_LABELS of 1 values of type"), "{known}");
+    let path = folder.path().join("a.nc");
+    fs::copy(corpus("packed.nc"), &path).unwrap();
+    let file = ::hdf5::File::open_rw(&path).unwrap();
+    let x = file.dataset("x").unwrap();
+    x.delete_attr("units").unwrap();
+    attribute(&x, "units", &[1e-3]);
+    drop((x, file));
+    let known = message(&path, &options());
+    assert!(known.starts_with("dataset /x has the attribute units = [0.001], expected the name of a unit"), "{known}");
+}
+
+#[test]
+fn a_file_of_an_instrument_is_to_be_converted_whatever_is_said_of_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.al3d");
+    fs::write(&path, b"AliconaImaging\0\r\n").unwrap();
+    let found = message(&path, &ReadOptions { dataset: Some("a".to_owned()), ..um() });
+    assert!(found.starts_with("this is an Alicona file (.al3d), which is not read; convert it to SDF"), "{found}");
 }
 
 #[test]

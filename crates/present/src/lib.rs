@@ -1,11 +1,10 @@
-//! What runs, studies and surfaces look like: nothing here reads arguments or talks to a terminal.
+//! What runs and surfaces look like: nothing here reads arguments or talks to a terminal.
 //!
 //! | what | where |
 //! |---|---|
 //! | figures as PNG, SVG and PDF | [`figure`] |
 //! | HTML pages | [`report`] |
 //! | a run that goes on, as lines and as a page of text | [`watch`] |
-//! | what a study shows | [`study`] |
 //! | tables as text and as CSV | [`table`], [`csv_table`] |
 //! | what is shown: titles, units, signs, colour maps | [`quantity`], [`colour`] |
 //! | numbers as people read them | [`plateau_io::number`] |
@@ -27,7 +26,6 @@ pub mod label;
 mod quantity;
 pub mod report;
 pub mod running_in;
-pub mod study;
 pub mod table;
 pub mod watch;
 

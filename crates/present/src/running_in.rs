@@ -4,9 +4,14 @@ use plateau_core::observe::drift::{Drift, LEAST_PULSES, Trend};
 use plateau_core::observe::running_in::{NotDefined, RUN_IN};
 use plateau_core::observe::window_mean::WindowMean;
 use plateau_io::number;
+use plateau_io::run_file::NoDrift;
 
-/// Whether the mean contact area still changes, in words.
-pub fn running_in(drift: &Drift) -> String {
+/// Whether the mean contact area still changes, in words, or why that cannot be told.
+pub fn running_in(found: &Result<Drift, NoDrift>) -> String {
+    let drift = match found {
+        Ok(drift) => drift,
+        Err(reason) => return reason.to_string(),
+    };
     let Drift { third_quarter, last_quarter, change, standard_error, pulses } = drift;
     if let (Trend::TooShort, Some(pulses)) = (drift.trend(), pulses) {
         let pulses = number::rounded(*pulses, 2);
@@ -41,7 +46,7 @@ pub fn running_in_time(found: &Result<f64, NotDefined>) -> String {
 pub fn in_contact(window: &WindowMean) -> String {
     window.contact_time.map_or(String::new(), |time| {
         format!(
-            ", of which {} s in contact: the time in which the pin is lifted does not count",
+            ", of which {} s in contact: the time in which the pin is lifted, and before the first step, does not count",
             number::rounded(time, 4)
         )
     })
@@ -64,13 +69,13 @@ mod tests {
             standard_error: Some(0.02e-6),
         };
         let with = |change: f64, standard_error: f64, pulses: Option<f64>| {
-            running_in(&Drift {
+            running_in(&Ok(Drift {
                 third_quarter: quarter(30.0, 45.0, 1e-6),
                 last_quarter: quarter(45.0, 60.0, (1.0 + change) * 1e-6),
                 change,
                 standard_error,
                 pulses,
-            })
+            }))
         };
         let of = |change: f64, standard_error: f64| with(change, standard_error, Some(3.0));
         assert_eq!(
@@ -83,6 +88,10 @@ mod tests {
         assert_eq!(
             of(0.05, 0.03),
             "cannot be told from a run of this length: +5.0 ± 3.0 % from 30 … 45 s to 45 … 60 s"
+        );
+        assert_eq!(
+            running_in(&Err(NoDrift::Cycle)),
+            "cannot be told: with a cycle the contact area follows load and speed"
         );
         assert_eq!(of(0.01, 0.01), "contact area is steady: +1.0 ± 1.0 % from 30 … 45 s to 45 … 60 s");
     }

@@ -9,7 +9,7 @@ use plateau_core::observe::drift::Drift;
 use plateau_core::observe::running_in::NotDefined;
 use plateau_core::observe::window_mean::WindowMean;
 use plateau_core::simulation::Course;
-use plateau_io::run_file::{ContactArea, WriterReport};
+use plateau_io::run_file::{ContactArea, NoDrift, WriterReport};
 use plateau_io::scene::Scene;
 use plateau_io::scene::Warning;
 use serde::Serialize;
@@ -51,9 +51,9 @@ pub struct RunSummary {
     pub contact_area_drift: Option<Drift>,
     /// When the contact area has come to 90 % of its value at the end of the run, s, where that is defined.
     pub running_in_time: Option<f64>,
-    /// The same, or why it is not defined; none of a run with a cycle.
+    /// The same two, or why there are none.
     #[serde(skip)]
-    pub running_in: Option<Result<f64, NotDefined>>,
+    pub running_in: (Result<Drift, NoDrift>, Result<f64, NotDefined>),
     /// What the time acceleration was like, where the run chose it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub time_acceleration: Option<Chosen>,
@@ -159,7 +159,9 @@ impl RunSummary {
         report: WriterReport,
         wall_time: f64,
     ) -> Self {
-        let work = scene.parameters.mean_load(last.step) * last.sliding_distance;
+        // With a cycle, the distance at the end counts also what of the last pause's angle no step has turned.
+        let distance = scene.parameters.angle_turned(last.step, last.time) * scene.parameters.mesh.mean_radius();
+        let work = scene.parameters.mean_load(last.step) * distance;
         Self {
             title: scene.title.clone(),
             surfaces,
@@ -175,9 +177,9 @@ impl RunSummary {
             contact_area: last.contact_area,
             contact_area_mean: last.contact_area_mean,
             contact_area_last_tenth: ended.last_tenth,
-            contact_area_drift: ended.drift,
-            running_in_time: ended.running_in.and_then(Result::ok),
-            running_in: ended.running_in,
+            contact_area_drift: ended.drift.ok(),
+            running_in_time: ended.running_in.ok(),
+            running_in: (ended.drift, ended.running_in),
             time_acceleration: chosen,
             contact_ratio: last.contact_ratio,
             mean_pressure: last.mean_pressure,

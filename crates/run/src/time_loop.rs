@@ -116,7 +116,7 @@ impl Assembly {
         if let Some(cycle) = &self.cycle {
             let angle = self.simulation.parameters().step_angle();
             let [force, speed] = cycle.operation_at(moment.step, angle, moment.time, moment.pause);
-            CYCLE.record(&mut sample, [force, speed, cycle.loaded_until(moment.time)]);
+            CYCLE.record(&mut sample, [force, speed, cycle.contact_time_until(moment.time)]);
             ROAD.record(&mut sample, [cycle.road_distance_at(moment.time)]);
         }
         if let Some(choice) = self.scout.as_ref().map(Scout::choice) {

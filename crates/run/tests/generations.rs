@@ -14,7 +14,7 @@ use plateau_run::{Assembly, Sink};
 
 /// Series of which the bits are looked at, as far as a scene has them. A new series changes no number of those that there are, so it
 /// need not be here.
-const SERIES: [&str; 39] = [
+const SERIES: [&str; 40] = [
     "acceleration_error",
     "balance_residual",
     "contact_area",
@@ -22,6 +22,7 @@ const SERIES: [&str; 39] = [
     "contact_area_mean",
     "contact_ratio",
     "contact_temperature",
+    "contact_time",
     "deposited_disc",
     "deposited_pin",
     "disc_secondary",
@@ -70,7 +71,7 @@ const EVENTS: [&str; 9] = [
 
 /// The vectors, and scenes with what these do not have: synthetic surfaces of each kind, measured ones, pictures, cycles, pools, rules and
 /// an acceleration that a run chooses.
-const SCENES: [(&str, &[&str]); 12] = [
+const SCENES: [(&str, &[&str]); 13] = [
     ("tests/vectors/flat/scene.toml", &[]),
     ("tests/vectors/rough/scene.toml", &[]),
     ("tests/vectors/track/scene.toml", &[]),
@@ -87,6 +88,8 @@ const SCENES: [(&str, &[&str]); 12] = [
         &["operation.duration=20 s", "numerics.time_acceleration={ max = 50, tolerance = 0.05 }"],
     ),
     ("data/scenes/stops.toml", &["operation.duration=24 s", "output.sample_every=0.5 s"]),
+    // The pin stands under load before the first step.
+    ("data/scenes/drive.toml", &["operation.duration=60 s", "numerics.time_acceleration=100"]),
     ("data/scenes/measured.toml", &["operation.duration=0.3 s", "numerics.time_acceleration=20"]),
     ("data/scenes/micrograph.toml", &["operation.duration=0.3 s", "numerics.time_acceleration=20"]),
 ];

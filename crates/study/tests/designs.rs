@@ -73,7 +73,7 @@ fn full_and_fractional_factorials_have_the_points_of_pydoe() {
 
 #[test]
 fn plackett_burman_designs_have_the_points_of_frf2() {
-    for points in [12, 16, 20, 28, 32, 36, 40] {
+    for points in [12, 16, 20] {
         assert_same(&format!("burman-{points}"), Kind::PlackettBurman, &vec![Factor::Range; points - 1]);
     }
 }

@@ -4,14 +4,14 @@ import itertools
 import os
 import warnings
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 import pandas
 from scipy import optimize, stats
 
-from plateau.errors import InputError, PlateauWarning, RunFailed
+from plateau.errors import InputError, PlateauWarning, RunFailed, UnknownNameError
 from plateau.study.model import (
     MODELS,
     ROUNDING,
@@ -20,11 +20,12 @@ from plateau.study.model import (
     NothingToFit,
     Squares,
     Term,
+    contrasts,
     f_test,
     fitted,
+    is_same,
     misfit,
     named,
-    owner,
 )
 from plateau.study.results import Numbers, Response, Study, analysed
 from plateau.study.units import Unit, unit_for
@@ -32,12 +33,17 @@ from plateau.study.units import Unit, unit_for
 # Powers of a response between which the best is looked for, and distance of those at which the search begins.
 POWERS, STEP = (-5.0, 5.0), 0.05
 TRANSFORMS = {"none": 1.0, "square root": 0.5, "log": 0.0}
-# Inflation of variances above which terms are said to be correlated.
-MOST_INFLATION = 10.0
-# Values of a range up to which means are given at each.
-MOST_VALUES = 10
-# Terms of an equation beyond which nobody reads it.
-MOST_TERMS = 4096
+# Inflation of variances above which terms are said to be correlated, and shares whose sum differs by more from R² of which it is said.
+MOST_INFLATION, SHARES_DIFFER = 10.0, 0.02
+# Values of a range up to which means are given at each, and terms of an equation beyond which nobody reads it.
+MOST_VALUES, MOST_TERMS = 10, 4096
+COLUMNS = ["response", "term", "factors", "degrees_of_freedom", "sum_of_squares", "mean_square", "f", "p", "share", "variance_inflation"]
+COLUMNS += ["effect", "coefficient", "standard_error", "t", "low", "high", "error_freedom", "seed_ratio", "seed_p"]
+COLUMNS += ["margin_of_error", "simultaneous_margin_of_error", "aliased_with", "unit"]
+# Members of the document of a response, null where nothing could be fitted.
+MEMBERS = ["model", "model_reason", "runs", "missing", "mean", "middle", "r_squared", "adjusted_r_squared", "predicted_r_squared"]
+MEMBERS += ["residual_standard_deviation", "error_from", "residual", "lack_of_fit", "pure_error", "misfit", "curvature", "box_cox"]
+MEMBERS += ["terms_left_out", "aicc", "equations", "lenth", "terms", "cautions"]
 
 
 @dataclass(frozen=True, repr=False)
@@ -62,7 +68,7 @@ class ResponseEffects:
     advice : str
         What that says of the transform; empty where there is nothing to say.
     equations : dict
-        By ``"coded"`` and ``"of the study"``, the factors of each product and its coefficient.
+        By ``"coded"`` and ``"of the study"``, the ``variables`` of each product and its ``coefficient``.
     cautions : list of str
     """
 
@@ -78,9 +84,8 @@ class ResponseEffects:
     @property
     def title(self) -> str:
         """What is fitted, such as ``log(contact area, m2)``."""
-        response = self.response
-        unit = "" if response.unit == "1" else f", {response.unit}"
-        return response.name if response.transform == "none" else f"{response.transform}({response.name}{unit})"
+        unit = "" if self.response.unit == "1" else f", {self.response.unit}"
+        return self.response.name if self.response.transform == "none" else f"{self.response.transform}({self.response.name}{unit})"
 
     @property
     def unit(self) -> str:
@@ -88,32 +93,31 @@ class ResponseEffects:
         return self.response.unit if self.response.transform == "none" else "1"
 
     @property
+    def terms(self) -> pandas.DataFrame:
+        """The rows of sets of seeds and terms."""
+        return self.table[self.table["factors"].notna()]
+
+    @property
     def summary(self) -> dict[str, Any]:
         """How well the model fits: shares of the variance that it explains, error, numbers of runs."""
-        if self.fit is None:
+        if (fit := self.fit) is None:
             return {}
-        fit, residual, total = self.fit, self.fit.residual, self.fit.total
-        has_sole = bool((fit.leverages > 1.0 - SOLE).any())
-        press = np.nan if has_sole or residual.freedom < 1 else float(((fit.residuals / (1.0 - fit.leverages)) ** 2).sum())
-        return {
-            "runs": len(fit.values),
-            "missing": fit.missing,
-            "mean": fit.mean,
-            "middle": float(fit.coefficients[0]),
-            "r_squared": 1.0 - residual.sum / total.sum,
-            "adjusted_r_squared": 1.0 - residual.mean / total.mean,
-            "predicted_r_squared": 1.0 - press / total.sum,
-            "residual_standard_deviation": float(np.sqrt(fit.error)),
-            "error_from": error_from(fit),
-        }
+        residual, total = fit.residual, fit.total
+        is_free = residual.freedom > 0 and (fit.leverages <= 1.0 - SOLE).all()
+        press = float(np.square(fit.residuals / (1.0 - fit.leverages)).sum()) if is_free else np.nan
+        shares = 1.0 - residual.sum / total.sum, 1.0 - residual.mean / total.mean, 1.0 - press / total.sum
+        values = [len(fit.values), fit.missing, fit.mean, float(fit.coefficients[0]), *shares, fit.error**0.5, error_from(fit)]
+        return dict(zip(MEMBERS[2:11], values, strict=True))
 
-    def means(self, *factors: str) -> pandas.DataFrame:
+    def means(self, *factors: str, steps: int = 0) -> pandas.DataFrame:
         """Means of the model at the levels of one factor or two, over all levels of the others and their middles.
 
         Parameters
         ----------
         *factors : str
             Names.
+        steps : int
+            Number of values of the first factor, if it has a range; those of the runs unless given.
 
         Returns
         -------
@@ -121,64 +125,40 @@ class ResponseEffects:
             A row for each level, or pair of levels: the factors (SI or words), ``mean``, ``low``, ``high`` (over all seeds), ``observed``
             (the mean of the runs there; NaN without), ``runs``, ``unit``; on the scale of the fit.
         """
-        fit = self.fit
-        if fit is None:
+        if (fit := self.fit) is None:
             return pandas.DataFrame(columns=[*factors, "mean", "low", "high", "observed", "runs", "unit"])
-        names = [factor.name for factor in fit.study.factors]
-        places = [names.index(name) for name in factors]
-        cells = pandas.DataFrame(list(itertools.product(*(_places(fit, at) for at in places))), columns=list(factors))
-        numbers = [
-            coding.numbers(cells[coding.factor.name]) if at in places else np.zeros((len(cells), coding.width))
-            for at, coding in enumerate(fit.codings)
-        ]
+        codings = {coding.factor.name: coding for coding in fit.codings}
+        places: list[list[Any]] = []
+        for coding in (codings[name] for name in factors):
+            if coding.classes is not None:
+                places.append(list(coding.classes))
+                continue
+            coded = np.unique(np.round(coding.factor.coded(fit.runs[coding.factor.name]), 9))
+            if steps and not places or len(coded) > MOST_VALUES:
+                coded = np.linspace(-1.0, 1.0, 5 if places or not steps else steps)
+            places.append(list(coding.factor.value(coded)))
+        cells = pandas.DataFrame(list(itertools.product(*places)), columns=list(factors))
+        numbers = [one.numbers(cells[name]) if name in factors else np.zeros((len(cells), one.width)) for name, one in codings.items()]
         found = fit.combined(rows := fit.products(numbers))
         reach = stats.t.ppf(0.5 + 0.5 * fit.confidence, found["freedom"]) * found["standard_error"]
-        told = fit.fit.tells(rows)
-        ends = {"mean": found["value"], "low": found["value"] - reach, "high": found["value"] + reach}
-        at_cell = [np.logical_and.reduce([_same(fit.runs[name], row[name]) for name in factors]) for _, row in cells.iterrows()]
-        return cells.assign(
-            **{name: np.where(told, values, np.nan) for name, values in ends.items()},
-            observed=[fit.values[own].mean() if own.any() else np.nan for own in at_cell],
-            runs=[int(own.sum()) for own in at_cell],
-            unit=self.unit,
-        )
+        values = found["value"].where(pandas.Series(fit.fit.tells(rows)))
+        at_cell = [np.logical_and.reduce([is_same(fit.runs[name], row[name]) for name in factors]) for _, row in cells.iterrows()]
+        observed = [fit.values[own].mean() if own.any() else np.nan for own in at_cell]
+        ends = {"mean": values, "low": values - reach, "high": values + reach}
+        return cells.assign(**ends, observed=observed, runs=[int(own.sum()) for own in at_cell], unit=self.unit)
 
     @property
     def residuals(self) -> pandas.DataFrame:
         """Each run beside the model: fitted value, residual (also by its standard deviation), leverage and Cook's distance."""
-        if self.fit is None:
+        if (fit := self.fit) is None:
             return pandas.DataFrame()
-        fit, leverage = self.fit, self.fit.leverages
-        free = np.where(1.0 - leverage > SOLE, 1.0 - leverage, np.nan)
+        free = np.where(1.0 - fit.leverages > SOLE, 1.0 - fit.leverages, np.nan)
         standardised = fit.residuals / np.sqrt(fit.error * free)
-        return pandas.DataFrame(
-            {
-                "response": self.response.name,
-                "run": fit.runs.index,
-                "made_as": fit.study.runs.loc[fit.runs.index, "order"].to_numpy(),
-                "replicate": fit.runs["replicate"].to_numpy(),
-                "fitted": fit.values - fit.residuals,
-                "residual": fit.residuals,
-                "standardised": standardised,
-                "leverage": leverage,
-                # R. D. Cook, Technometrics 19, 15-18 (1977).
-                "cooks_distance": standardised**2 * leverage / (free * len(fit.fit.kept)),
-                "unit": self.unit,
-            }
-        )
-
-
-def _same(values: pandas.Series, value: Any) -> Numbers:
-    return np.asarray(values == value) if isinstance(value, str) else np.isclose(values.to_numpy(float), value, rtol=1e-9, atol=0.0)
-
-
-def _places(fit: Fitted, at: int) -> list[Any]:
-    """Where the means of a factor are given: levels, the values of few, and steps of ranges."""
-    coding = fit.codings[at]
-    if coding.classes is not None:
-        return list(coding.classes)
-    coded = np.unique(np.round(coding.factor.coded(fit.runs[coding.factor.name]), 9))
-    return coding.factor.value(coded if len(coded) <= MOST_VALUES else np.linspace(-1.0, 1.0, 5)).tolist()
+        # R. D. Cook, Technometrics 19, 15-18 (1977).
+        distance = standardised**2 * fit.leverages / (free * len(fit.fit.kept))
+        which = {"response": self.response.name, "run": fit.runs.index, "made_as": fit.runs["order"], "replicate": fit.runs["replicate"]}
+        values = {"fitted": fit.values - fit.residuals, "residual": fit.residuals, "standardised": standardised}
+        return pandas.DataFrame(which | values | {"leverage": fit.leverages, "cooks_distance": distance, "unit": self.unit})
 
 
 def error_from(fit: Fitted) -> str:
@@ -188,116 +168,107 @@ def error_from(fit: Fitted) -> str:
     if np.isnan(fit.error):
         return "none: the model reproduces all responses"
     if fit.seeds > 1:
-        return f"what each effect differs by between {fit.seeds} sets of seeds"
-    interactions = not fit.chosen and all(coding.classes is not None for coding in fit.codings)
-    left_out = {"main": "interactions", "interactions": "interactions of third and higher order"} if interactions else {}
-    said = left_out.get(fit.model, "what the model leaves out")
+        cells = fit.runs.groupby(["point", "replicate"]).size()
+        is_complete = len(cells) == fit.seeds * fit.point_count and cells.nunique() == 1
+        how = "" if is_complete else ", not all at the same points: degrees of freedom after Bell and McCaffrey"
+        return f"what each effect differs by between {fit.seeds} sets of seeds{how}"
+    left_out = {"main": "interactions", "interactions": "interactions of third and higher order"}
+    said = left_out.get(fit.model if fit.left_out is None and not any(fit.is_curved) else "", "what the model leaves out")
     if not fit.scatter[0].freedom:
         return f"pooled: {said}"
-    return "replicates" if fit.lack_of_fit.freedom <= 0 else f"replicates, pooled with {said}"
+    return "replicates" if fit.lack_of_fit[0].freedom <= 0 else f"replicates, pooled with {said}"
 
 
 # The table of variances ------------------------------------------------------------------------------------------------------------
 
 
-def _untold(fit: Fitted) -> set[int]:
-    """Columns that the runs do not tell: all of a combination of several, as an empty cell makes it; not those that repeat one other."""
-    found: set[int] = set()
-    for column, (parts, _) in fit.fit.relations.items():
-        found |= {column, *parts} if len(parts) > 1 else {column}
-    return found
+def _aliases(fit: Fitted) -> tuple[set[int], list[list[str]]]:
+    """Columns that the runs do not tell, and by mean, blocks and terms, the labels of the terms that they cannot be told from.
 
-
-def _aliases(fit: Fitted) -> list[list[str]]:
-    """By mean, blocks and terms, the labels of the terms that they cannot be told from."""
+    Of two columns that are the same but for a factor the first is told, as the sum of both; of a combination of more, which an empty cell
+    makes, none is.
+    """
     labels = ["mean", "replicate", *(fit.label(term) for term in fit.terms)]
-    pairs = [(owner(fit, column), owner(fit, part)) for column, (parts, _) in fit.fit.relations.items() for part in parts or [0]]
+    untold, pairs = set(), []
+    for column, (parts, _) in fit.fit.relations.items():
+        untold |= {column, *parts} if len(parts) > 1 else {column}
+        pairs += [(fit.owner(column), fit.owner(part)) for part in parts or [0]]
     for at, term in enumerate(fit.terms):
-        if fit.widths[at + 2] == 0:
+        if not all(fit.codings[factor].width for factor in term):
             # A factor of which one level was observed has no column, and its interactions are those of the others.
             others = tuple(factor for factor in term if fit.codings[factor].width)
             pairs.append((at + 2, fit.terms.index(others) + 2 if others in fit.terms else 0))
     found: list[set[int]] = [set() for _ in labels]
-    for one, other in pairs:
-        if one != other:
-            found[one].add(other)
-            found[other].add(one)
-    return [[labels[other] for other in sorted(others)] for others in found]
+    for one, other in (pair for pair in pairs if pair[0] != pair[1]):
+        found[one].add(other)
+        found[other].add(one)
+    return untold, [[labels[other] for other in sorted(others)] for others in found]
 
 
-def _table(fit: Fitted, response: str, unit: str) -> pandas.DataFrame:
+def _table(fit: Fitted) -> pandas.DataFrame:
     """The analysis of variance with effects."""
     rows: list[dict[str, Any]] = []
-    aliases, untold, least = _aliases(fit), _untold(fit), fit.fit
-    spread = ((fit.design - fit.design.mean(axis=0)) ** 2).sum(axis=0)
-    values = fit.values - fit.mean
-    for at, (columns, width) in enumerate(zip(fit.columns, fit.widths, strict=True)):
-        if at == 0 or at == 1 and fit.seeds < 2:
-            continue
-        term = fit.terms[at - 2] if at > 1 else None
+    (untold, aliases), least, values = _aliases(fit), fit.fit, fit.values - fit.mean
+    spread = np.square(fit.design - fit.design.mean(axis=0)).sum(axis=0)
+    for at, columns in list(enumerate(fit.columns))[1 if fit.seeds > 1 else 2 :]:
+        is_blocks, term, width = at == 1, () if at == 1 else fit.terms[at - 2], columns.stop - columns.start
         places = [place for place, column in enumerate(least.kept) if columns.start <= column < columns.stop]
-        contrasts = least.root[places] @ least.basis.T
+        weights = least.root[places] @ least.basis.T
         # Orthonormal rows whose products with the responses are what the term explains, all others kept (type III).
-        directions = np.linalg.qr(contrasts.T)[0].T if places else contrasts
-        own = Squares(len(places), float(((directions @ values) ** 2).sum()))
-        row: dict[str, Any] = {"response": response, "term": fit.label(term) if term is not None else "replicate"}
-        row |= {"factors": term, "degrees_of_freedom": own.freedom, "sum_of_squares": own.sum, "mean_square": own.mean}
-        row |= {"share": own.sum / fit.total.sum, "aliased_with": aliases[at]}
+        directions = np.linalg.qr(weights.T)[0].T if places else weights
+        own = Squares(len(places), float(np.square(directions @ values).sum()))
+        row: dict[str, Any] = {"term": "replicate" if is_blocks else fit.label(term), "factors": term, "aliased_with": aliases[at]}
+        row |= {"degrees_of_freedom": own.freedom, "sum_of_squares": own.sum, "mean_square": own.mean, "share": own.sum / fit.total.sum}
         is_told = len(places) == width > 0 and not untold & set(range(columns.start, columns.stop))
-        if term is not None and fit.seeds > 1 and is_told and not np.isnan(fit.error):
+        error, freedom = fit.error, float(fit.residual_freedom)
+        if not is_blocks and fit.seeds > 1 and is_told and not np.isnan(fit.error):
             # The error over all seeds is what the term differs by between them, not what the model leaves.
             variances, freedoms = fit.errors(directions)
             error, freedom = float(variances.mean()), float(freedoms.sum())
-            rest = Squares(round(fit.residual_freedom - freedom), max(fit.residual.sum - error * freedom, 0.0))
-            ratio, _ = f_test(Squares(1, error), rest)
-            row |= {"seed_ratio": ratio, "seed_p": float(stats.f.sf(ratio, freedom, rest.freedom))}
-        else:
-            error, freedom = fit.error, float(fit.residual_freedom)
-        row["error_freedom"] = freedom if error > 0 else np.nan
+            if error > 0:
+                rest = Squares(round(fit.residual_freedom - freedom), max(fit.residual.sum - error * freedom, 0.0))
+                ratio, _ = f_test(Squares(1, error), rest)
+                row |= {"seed_ratio": ratio, "seed_p": float(stats.f.sf(ratio, freedom, rest.freedom))}
         if is_told and error > 0:
-            row["f"] = own.mean / error
-            row["p"] = float(stats.f.sf(row["f"], own.freedom, freedom))
+            f = own.mean / error
+            row |= {"error_freedom": freedom, "f": f, "p": float(stats.f.sf(f, own.freedom, freedom))}
         if width == 1 and places:
-            column = least.kept[places[0]]
-            row["variance_inflation"] = float((contrasts[0] @ contrasts[0]) * spread[column]) or np.nan
-            if term is not None:
+            column, variance = least.kept[places[0]], float(weights[0] @ weights[0])
+            row["variance_inflation"] = variance * spread[column] or np.nan
+            if not is_blocks:
                 # Of centre points the coefficient is the difference.
-                double = 2.0 if term else 1.0
-                row |= {"coefficient": fit.coefficients[column], "effect": double * fit.coefficients[column]}
+                double, coefficient = 2.0 if term else 1.0, float(fit.coefficients[column])
+                row |= {"coefficient": coefficient, "effect": double * coefficient}
                 if "f" in row:
-                    row["standard_error"] = double * float(np.sqrt(error * (contrasts[0] @ contrasts[0])))
-                    row["t"] = row["effect"] / row["standard_error"]
-                    reach = float(stats.t.ppf(0.5 + 0.5 * fit.confidence, freedom)) * row["standard_error"]
+                    deviation = double * (error * variance) ** 0.5
+                    reach = float(stats.t.ppf(0.5 + 0.5 * fit.confidence, freedom)) * deviation
+                    row |= {"standard_error": deviation, "t": row["effect"] / deviation}
                     row |= {"low": row["effect"] - reach, "high": row["effect"] + reach}
         rows.append(row)
-    others = [("residual", fit.residual, (np.nan, np.nan))]
-    if fit.scatter[0].freedom > 0:
-        others += [("lack of fit", fit.lack_of_fit, fit.lack_of_fit_test), ("pure error", fit.scatter[0], (np.nan, np.nan))]
-    for name, squares, (f, p) in [*others, ("total", fit.total, (np.nan, np.nan))]:
-        row = {"response": response, "term": name, "degrees_of_freedom": squares.freedom, "sum_of_squares": squares.sum}
-        rows.append(row | {"mean_square": squares.mean, "share": squares.sum / fit.total.sum, "f": f, "p": p, "aliased_with": []})
+    nothing, (missed, *test) = [np.nan, np.nan], fit.lack_of_fit
+    parts = [("lack of fit", missed, test), ("pure error", fit.scatter[0], nothing)] if fit.scatter[0].freedom > 0 else []
+    for name, squares, (f, p) in [("residual", fit.residual, nothing), *parts, ("total", fit.total, nothing)]:
+        row = {"term": name, "degrees_of_freedom": squares.freedom, "sum_of_squares": squares.sum, "mean_square": squares.mean}
+        rows.append(row | {"share": squares.sum / fit.total.sum, "f": f, "p": p, "aliased_with": []})
     table = pandas.DataFrame(rows).reindex(columns=COLUMNS)
-    sizes = table.loc[[bool(term) for term in table["factors"]], "effect"].dropna().abs().to_numpy()
-    table["margin_of_error"], table["simultaneous_margin_of_error"] = np.nan, np.nan
-    if np.isnan(fit.error) and (judged := lenth(sizes, fit.confidence)) is not None:
+    table["response"], table["unit"] = fit.response.name, fit.response.unit if fit.response.transform == "none" else "1"
+    if np.isnan(fit.error) and (judged := lenth(table.loc[table["factors"].str.len() > 0, "effect"], fit.confidence)) is not None:
         table.loc[table["effect"].notna(), ["margin_of_error", "simultaneous_margin_of_error"]] = judged[1:]
-    return table.assign(unit=unit)
+    return table
 
 
-COLUMNS = ["response", "term", "factors", "degrees_of_freedom", "sum_of_squares", "mean_square", "f", "p", "share", "variance_inflation"]
-COLUMNS += ["effect", "coefficient", "standard_error", "t", "low", "high", "error_freedom", "seed_ratio", "seed_p", "aliased_with"]
-
-
-def lenth(sizes: Numbers, confidence: float) -> tuple[float, float, float] | None:
+def lenth(effects: pandas.Series, confidence: float) -> tuple[float, float, float] | None:
     """Pseudo standard error and margins of effects that have no error; None of fewer than six.
 
     R. V. Lenth, Technometrics 31, 469-473 (1989).
     """
+    sizes = effects.dropna().abs().to_numpy(float)
     if len(sizes) < 6 or (first := 1.5 * float(np.median(sizes))) <= 1e-12 * sizes.max():
         return None
     error, freedom = 1.5 * float(np.median(sizes[sizes < 2.5 * first])), len(sizes) / 3.0
     tails = 0.5 + 0.5 * confidence, 0.5 + 0.5 * confidence ** (1.0 / len(sizes))
-    return error, *(float(stats.t.ppf(tail, freedom)) * error for tail in tails)
+    margin, simultaneous = (float(stats.t.ppf(tail, freedom)) * error for tail in tails)
+    return error, margin, simultaneous
 
 
 # Powers ----------------------------------------------------------------------------------------------------------------------------
@@ -309,8 +280,7 @@ def box_cox(fit: Fitted) -> tuple[float, float, float] | None:
     G. E. P. Box and D. R. Cox, J. R. Stat. Soc. B 26, 211-252 (1964): the likelihood of a power at its best is that of the residual sum
     of squares of (u^power - 1)/power, with u the response by its geometric mean.
     """
-    scale, basis = fit.response, fit.fit.basis
-    responses = scale.back(fit.values)
+    responses, basis = fit.response.back(fit.values), fit.fit.basis
     if np.isnan(fit.error) or not (responses > 0).all() or len(basis) < basis.shape[1] + 3:
         return None
     logarithms = np.log(responses) - np.log(responses).mean()
@@ -321,8 +291,7 @@ def box_cox(fit: Fitted) -> tuple[float, float, float] | None:
         return -0.5 * len(left) * float(np.log(left @ left))
 
     grid = np.linspace(*POWERS, round((POWERS[1] - POWERS[0]) / STEP) + 1)
-    values = np.array([likelihood(power) for power in grid])
-    near = float(grid[values.argmax()])
+    near = float(grid[np.argmax([likelihood(power) for power in grid])])
     bounds = max(near - STEP, POWERS[0]), min(near + STEP, POWERS[1])
     best = float(optimize.minimize_scalar(lambda power: -likelihood(power), bounds=bounds, method="bounded", options={"xatol": 1e-9}).x)
     least = likelihood(best) - 0.5 * float(stats.chi2.ppf(fit.confidence, 1))
@@ -339,104 +308,80 @@ def box_cox(fit: Fitted) -> tuple[float, float, float] | None:
 
 
 def _advice(fit: Fitted, found: tuple[float, float, float] | None) -> str:
-    """What the best power says of the transform: none where another one would not forecast points better that it does not know."""
+    """What the best power says of the transform: nothing where another one would not forecast points better that it does not know."""
     power = TRANSFORMS.get(fit.response.transform)
     if found is None or power is None or found[1] <= power <= found[2]:
         return ""
-    left = fit.residuals / np.maximum(1.0 - fit.leverages, SOLE)
+    left, (best, low, high) = fit.residuals / np.maximum(1.0 - fit.leverages, SOLE), found
     if 1.0 - float(left @ left) / fit.total.sum > 0.999 and misfit(fit) is None:
+        # Nobody would see what is to be gained.
         return ""
-    best, low, high = found
-    if low <= 1.0 <= high:
-        name, said = "none", "try it without transform"
-    else:
-        allowed = [name for name in ("log", "square root") if low <= TRANSFORMS[name] <= high]
-        name = min(allowed, key=lambda name: abs(TRANSFORMS[name] - best), default="")
-        said = f'try transform = "{name}"'
+    allowed = ["none"] if low <= 1.0 <= high else [name for name in ("log", "square root") if low <= TRANSFORMS[name] <= high]
+    name = min(allowed, key=lambda name: abs(TRANSFORMS[name] - best), default="")
+    said = "try it without transform" if name == "none" else f'try transform = "{name}"'
     if not name:
         said = "none of the transforms is this power; keep the response as it is, and look for a bend in the residuals, "
         said += "which another --model may explain"
-    else:
-        other = Response(**{**vars(fit.response), "transform": name})
-        own, others = fit.loo_error, fitted(fit.study, other, fit.model, confidence=fit.confidence).loo_error
-        if others > 0.95 * own:
-            return ""
+    elif fitted(fit.study, replace(fit.response, transform=name), fit.model, confidence=fit.confidence).loo_error > 0.95 * fit.loo_error:
+        return ""
     at_end = ", looked for between −5 and 5 alone" if low <= POWERS[0] or high >= POWERS[1] else ""
     return f"Box-Cox: lambda = {best:.2g} ({low:.2g} to {high:.2g}{at_end}): {said}"
 
 
 # Equations -------------------------------------------------------------------------------------------------------------------------
 
-# What a coefficient is multiplied by: numbers (0, factor), levels (1, factor, level) and centre points (2,), with sizes for rounding.
-Products = dict[tuple[tuple[int, ...], ...], list[float]]
+# What a coefficient is multiplied by: numbers (0, factor), levels (1, factor, level) and centre points (2,), in this order.
+Product = tuple[tuple[int, ...], ...]
 
 
 def equations(fit: Fitted) -> dict[str, pandas.DataFrame]:
     """The fitted model in coded units and in the units of the study; nothing where it is too long to be read."""
     found = {}
-    for name in ("coded", "of the study"):
-        products: Products = {(): [fit.coefficients[0]]}
+    for units in ("coded", "of the study"):
+        sums: dict[Product, list[float]] = {(): [fit.coefficients[0]]}
         for term, columns in zip(fit.terms, fit.columns[2:], strict=True):
-            _add(products, fit, term, np.where(np.abs(fit.coefficients[columns]) <= fit.rounding, 0.0, fit.coefficients[columns]), name)
-            if len(products) > MOST_TERMS:
+            coefficients = np.where(np.abs(fit.coefficients[columns]) <= fit.rounding, 0.0, fit.coefficients[columns])
+            for product, value in _multiplied(fit, term, coefficients, units):
+                sums.setdefault(product, []).append(value)
+            if len(sums) > MOST_TERMS:
                 return {}
-        sums = {key: (sum(parts), sum(map(abs, parts))) for key, parts in sorted(products.items(), key=lambda one: (len(one[0]), one[0]))}
-        kept = {key: value for key, (value, size) in sums.items() if abs(value) > 0.25 * ROUNDING * size or not key}
-        rows = [{"variables": _product(fit, key), "coefficient": value} for key, value in kept.items()]
-        found[name] = pandas.DataFrame(rows, columns=["variables", "coefficient"])
+        # What is smaller than the rounding of its parts is nothing.
+        kept = {key: sum(parts) for key, parts in sums.items() if not key or abs(sum(parts)) > 0.25 * ROUNDING * sum(map(abs, parts))}
+        rows = [(_words(fit, key), kept[key]) for key in sorted(kept, key=lambda key: (len(key), key))]
+        found[units] = pandas.DataFrame(rows, columns=["variables", "coefficient"])
     return found
 
 
-def _is_number(fit: Fitted, at: int) -> bool:
-    coding = fit.codings[at]
-    return coding.classes is None or coding.factor.is_number and len(coding.factor.levels) == len(coding.classes) == 2
-
-
-def _add(products: Products, fit: Fitted, term: Term, coefficients: Numbers, units: str) -> None:
-    """Adds a term, with the products of its numbers multiplied out."""
-    classes = [at for at in term if not _is_number(fit, at)]
+def _multiplied(fit: Fitted, term: Term, coefficients: Numbers, units: str) -> list[tuple[Product, float]]:
+    """A term at each combination of levels, with the products of its numbers multiplied out."""
+    classes = [at for at in term if not fit.codings[at].is_straight]
     grid = coefficients.reshape([fit.codings[at].width for at in classes])
     for place, at in enumerate(classes):
-        contrasts = np.vstack([-np.ones(fit.codings[at].width), np.eye(fit.codings[at].width)])
-        grid = np.moveaxis(np.tensordot(contrasts, grid, axes=(1, place)), 0, place)
+        grid = np.moveaxis(np.tensordot(contrasts(fit.codings[at].width + 1), grid, axes=(1, place)), 0, place)
+    products = []
     for index, coefficient in np.ndenumerate(grid):
-        levels = [fit.codings[at].classes for at in classes]
         # By the place among all levels of the study.
-        parts = [
-            ((1, at, fit.study.factors[at].levels.index(found[own])),)
-            for at, own, found in zip(classes, index, levels, strict=True)
-            if found is not None
-        ]
-        begun = tuple(itertools.chain(*parts)) if term else ((2,),)
+        levels = [fit.study.factors[at].levels.index((fit.codings[at].classes or ())[own]) for at, own in zip(classes, index, strict=True)]
+        begun: Product = tuple((1, at, level) for at, level in zip(classes, levels, strict=True)) if term else ((2,),)
         multiplied = [(begun, float(coefficient))]
-        for at in (at for at in term if _is_number(fit, at)):
-            slope, shift = 1.0, 0.0
+        for at in (at for at in term if fit.codings[at].is_straight):
+            slope, shift, factor = 1.0, 0.0, fit.study.factors[at]
             if units == "of the study":
-                factor = fit.study.factors[at]
-                low, high = factor.in_study_unit(np.array(factor.ends))
-                if factor.logarithmic:
-                    low, high = np.log10(low), np.log10(high)
+                low, high = (np.log10 if factor.logarithmic else np.asarray)(factor.in_study_unit(np.array(factor.ends)))
                 slope, shift = 2.0 / (high - low), -(low + high) / (high - low)
-            multiplied = [
-                new
-                for key, value in multiplied
-                for new in (((*key, (0, at)), value * slope), (key, value * shift))
-                if slope != 1.0 or new[1]
-            ]
-        for key, value in multiplied:
-            products.setdefault(tuple(sorted(key)), []).append(value)
+            longer = [((*key, (0, at)), value * slope) for key, value in multiplied]
+            multiplied = longer + [(key, value * shift) for key, value in multiplied if shift]
+        products += [(tuple(sorted(key)), value) for key, value in multiplied]
+    return products
 
 
-def _product(fit: Fitted, key: tuple[tuple[int, ...], ...]) -> str:
+def _words(fit: Fitted, product: Product) -> str:
     """A product in words, such as ``load·speed``, ``load²`` or ``load·[pool contact]``."""
     parts = []
-    for variable, same in itertools.groupby(key):
-        if variable == (2,):
-            parts.append("[centre points]")
-            continue
-        factor = fit.study.factors[variable[1]]
-        name = named(factor) if variable[0] == 0 else f"[{factor.name} {factor.text(factor.levels[variable[2]])}]"
-        parts.append(name + "²" * (len(list(same)) - 1))
+    for (kind, *which), same in itertools.groupby(product):
+        factor = fit.study.factors[which[0]] if which else None
+        level = f"[{factor.name} {factor.text(factor.levels[which[1]])}]" if factor and kind == 1 else "[centre points]"
+        parts.append((named(factor) if factor and kind == 0 else level) + "²" * (len(list(same)) - 1))
     return "·".join(parts)
 
 
@@ -459,7 +404,10 @@ class Effects:
     confidence: float
 
     def __getitem__(self, name: str) -> ResponseEffects:
-        return next(response for response in self.responses if response.response.name == name)
+        names = [one.response.name for one in self.responses]
+        if name not in names:
+            raise UnknownNameError(f"{name!r}: no response of {self.study.title!r}; there are {', '.join(names)}")
+        return self.responses[names.index(name)]
 
     @property
     def table(self) -> pandas.DataFrame:
@@ -474,10 +422,7 @@ class Effects:
     @property
     def summary(self) -> pandas.DataFrame:
         """How well the models fit, a row for each response, with cautions."""
-        rows = {
-            one.response.name: {**one.summary, "unit": one.unit, "model": one.fit.model if one.fit else "", "cautions": one.cautions}
-            for one in self.responses
-        }
+        rows = {one.response.name: one.summary | {"unit": one.unit, "cautions": one.cautions} for one in self.responses}
         return pandas.DataFrame.from_dict(rows, orient="index")
 
     @property
@@ -485,27 +430,24 @@ class Effects:
         """What holds of all responses."""
         return together(self.study)
 
+    @property
+    def repeats(self) -> int:
+        """Runs that repeat another one and count once with it."""
+        return int(self.study.runs["same_as"].duplicated().sum())
+
     def document(self, files: Sequence[str] = ()) -> dict[str, Any]:
         """What ``plateau sweep effects --json`` prints."""
-        repeats = int(self.study.runs["same_as"].duplicated().sum())
-        return {
-            "study": self.study.title,
-            "repeats": repeats,
-            "cautions": self.cautions,
-            "responses": [_report(one) for one in self.responses],
-            "files": list(files),
-        }
+        responses = [_report(one) for one in self.responses]
+        return {"study": self.study.title, "repeats": self.repeats, "cautions": self.cautions, "responses": responses, "files": list(files)}
 
     def text(self) -> str:
         """What the command prints."""
-        repeats, said = int(self.study.runs["same_as"].duplicated().sum()), []
-        if repeats:
-            verb, counts = ("repeats", "counts") if repeats == 1 else ("repeat", "count")
-            said.append(
-                f"{repeats} of {len(self.study.runs)} runs {verb} another one and {counts} once with it: the same scene with the same seeds "
-                "gives the same result. Only [replicates] with several seeds tell the pure error.\n"
-            )
-        return "\n".join([*said, *(caution + "\n" for caution in self.cautions), *map(_text, self.responses)])
+        said = [caution + "\n" for caution in self.cautions]
+        if self.repeats:
+            verb, counts = ("repeats", "counts") if self.repeats == 1 else ("repeat", "count")
+            why = "the same scene with the same seeds gives the same result. Only [replicates] with several seeds tell the pure error."
+            said.append(f"{self.repeats} of {len(self.study.runs)} runs {verb} another one and {counts} once with it: {why}\n")
+        return "\n".join([*said, *map(_text, self.responses)])
 
     def figures(self) -> Any:
         """Draws main effects, interactions, sizes of effects and residuals."""
@@ -542,41 +484,29 @@ def effects(study: Study | str | os.PathLike[str], model: str | None = None, ter
 
 
 def usable(study: Study) -> Study:
-    """The study, if it has results; runs without are said.
-
-    Raises
-    ------
-    InputError
-        If it asks for no response.
-    RunFailed
-        If no run has a value yet.
-    """
+    """The study, if it has results; runs without are said."""
     path = study.path or study.directory
     if not study.responses:
-        raise InputError(
-            f'{path}: no [[response]], so there is nothing to analyse; name one, such as dataset = "/series/contact_area_mean", at = "end"'
-        )
-    counts = study.runs["state"].value_counts()
+        advice = 'name one, such as dataset = "/series/contact_area_mean", at = "end"'
+        raise InputError(f"{path}: no [[response]], so there is nothing to analyse; {advice}")
+    finished, failed = (int((study.runs["state"] == state).sum()) for state in ("finished", "failed"))
     if not np.isfinite(study.runs[[response.name for response in study.responses]].to_numpy(float)).any():
-        finished, imported = int(counts.get("finished", 0)), not any(response.series for response in study.responses)
-        to_do = f"plateau sweep import {path} TABLE.csv brings them" if imported else f"plateau sweep run {path} makes the runs"
-        to_do = f"the {finished} runs that finished have none: look at the responses" if finished and not imported else to_do
+        to_do = f"the {finished} that finished have none: look at the responses" if finished else f"plateau sweep run {path} makes the runs"
+        if not any(response.series for response in study.responses):
+            to_do = f"plateau sweep import {path} TABLE.csv brings them"
         raise RunFailed(f"{path}: there is no result to analyse yet; {to_do}")
-    if left_out := len(study.runs) - int(counts.get("finished", 0)):
-        failed, missing = int(counts.get("failed", 0)), int(counts.get("missing", 0))
-        said = f"{left_out} of {len(study.runs)} runs have no results and are left out: {failed} failed, {missing} not made yet"
-        warnings.warn(said, PlateauWarning, stacklevel=3)
+    if left_out := len(study.runs) - finished:
+        why = f"{failed} failed, {left_out - failed} not made yet"
+        warnings.warn(f"{left_out} of {len(study.runs)} runs have no results and are left out: {why}", PlateauWarning, stacklevel=3)
     return study
 
 
 def together(study: Study) -> list[str]:
     """Pairs of factors that change together in all runs: a sentence each."""
-    places = {
-        factor.name: [factor.levels.index(v) if not factor.is_number else v for v in study.runs[factor.name]] for factor in study.factors
-    }
+    places = {one.name: study.runs[one.name] if one.is_number else pandas.factorize(study.runs[one.name])[0] for one in study.factors}
     said = []
-    for one, other in itertools.combinations(places, 2):
-        if np.ptp(places[one]) > 0 and np.ptp(places[other]) > 0 and abs(np.corrcoef(places[one], places[other])[0, 1]) > 0.999:
+    for one, other in itertools.combinations([name for name in places if np.ptp(places[name]) > 0], 2):
+        if abs(np.corrcoef(places[one], places[other])[0, 1]) > 0.999:
             what = "what one of them does cannot be told from what the other does"
             said.append(f"{one} and {other} change together in all runs: {what}")
     return said
@@ -587,172 +517,128 @@ def _effects(study: Study, response: Response, model: str | None, terms: str, co
     try:
         fit = fitted(study, response, model, terms, confidence, centre=True)
     except NothingToFit as error:
-        return ResponseEffects(response, None, str(error), pandas.DataFrame(columns=[*COLUMNS, "unit"]), None, "", {}, [])
-    unit = response.unit if response.transform == "none" else "1"
-    table, power = _table(fit, response.name, unit), box_cox(fit)
-    cautions = list(fit.cautions)
-    varied = table[(table["seed_ratio"] > 1.0) & (table["seed_p"] < 1.0 - confidence)]
-    if len(varied):
-        ratios = ", ".join(f"{row['term']} {row['seed_ratio']:.2g}" for _, row in varied.iterrows())
-        said = f"seeds x factor exceeds the residual (ratio of mean squares): {ratios}; these effects differ between sets of seeds, and "
-        said += "intervals tell of the mean over all seeds"
-        cautions.append(said)
-        warnings.warn(f"{response.name}: {said}", PlateauWarning, stacklevel=4)
-    inflated = table[table["variance_inflation"] > MOST_INFLATION]
-    if len(inflated):
-        said = ", ".join(f"{row['term']} {row['variance_inflation']:.2g}" for _, row in inflated.iterrows())
-        cautions.append(
-            f"correlated with other terms, so that their effects are hardly told apart (variance inflation above {MOST_INFLATION:g}): {said}"
-        )
-    rows = table[table["factors"].notna() | (table["term"] == "replicate")]
-    if abs(rows["share"].sum() - (1.0 - fit.residual.sum / fit.total.sum)) > 0.02:
-        cautions.append(
-            f"shares add up to {100 * rows['share'].sum():.0f} %, not to R²: terms are correlated, and a share is what is lost without the "
-            "term and all others kept (type III)"
-        )
+        return ResponseEffects(response, None, str(error), pandas.DataFrame(columns=COLUMNS), None, "", {}, [])
+    table, power, cautions = _table(fit), box_cox(fit), list(fit.cautions)
+
+    def listed(rows: pandas.DataFrame, column: str) -> str:
+        return ", ".join(f"{row['term']} {row[column]:.2g}" for row in rows.to_dict("records"))
+
+    if len(varied := table[(table["seed_ratio"] > 1.0) & (table["seed_p"] < 1.0 - confidence)]):
+        said = f"seeds x factor exceeds the residual (ratio of mean squares): {listed(varied, 'seed_ratio')}; these effects differ between "
+        cautions.append(said + "sets of seeds, and intervals tell of the mean over all seeds")
+        warnings.warn(f"{response.name}: {cautions[-1]}", PlateauWarning, stacklevel=4)
+    if len(inflated := table[table["variance_inflation"] > MOST_INFLATION]):
+        said = f"correlated with other terms, so that their effects are hardly told apart (variance inflation above {MOST_INFLATION:g})"
+        cautions.append(f"{said}: {listed(inflated, 'variance_inflation')}")
+    shares = float(table.loc[table["factors"].notna(), "share"].sum())
+    if abs(shares - 1.0 + fit.residual.sum / fit.total.sum) > SHARES_DIFFER:
+        said = "not to R²: terms are correlated, and a share is what is lost without the term and all others kept (type III)"
+        cautions.append(f"shares add up to {100 * shares:.0f} %, {said}")
     return ResponseEffects(response, fit, "", table, power, _advice(fit, power), equations(fit), cautions)
 
 
-def _or_none(value: Any) -> Any:
+def _plain(value: Any) -> Any:
+    """A value of a document: null where there is none."""
     return None if isinstance(value, float) and not np.isfinite(value) else value
-
-
-def _squares(squares: Squares, f: float = np.nan, p: float = np.nan) -> dict[str, Any]:
-    return {"degrees_of_freedom": squares.freedom, "sum_of_squares": squares.sum, "f": _or_none(f), "p": _or_none(p)}
 
 
 def _report(one: ResponseEffects) -> dict[str, Any]:
     """A response in the document."""
-    fit, response, table = one.fit, one.response, one.table
-    report: dict[str, Any] = {"name": response.name, "unit": response.unit}
-    report |= {"transform": None if response.transform == "none" else response.transform, "fitted": one.title, "error": one.error or None}
+    fit, response, terms = one.fit, one.response, one.terms
+    report: dict[str, Any] = {"name": response.name, "unit": response.unit, "fitted": one.title, "error": one.error or None}
+    report |= {"transform": None if response.transform == "none" else response.transform} | dict.fromkeys(MEMBERS)
     if fit is None:
-        return report | {"runs": 0, "missing": 0, "equations": [], "terms": [], "cautions": []}
-    terms = table[table["factors"].notna() | (table["term"] == "replicate")]
-    centre = terms[terms["factors"] == ()]
-    missed, has_parts = misfit(fit), fit.scatter[0].freedom > 0
-    judged = lenth(terms.loc[[bool(term) for term in terms["factors"]], "effect"].dropna().abs().to_numpy(), fit.confidence)
-    report |= {"model": fit.model, "model_reason": fit.reason, **{key: _or_none(value) for key, value in one.summary.items()}}
-    report |= {
-        "residual": _squares(fit.residual),
-        "lack_of_fit": _squares(fit.lack_of_fit, *fit.lack_of_fit_test) if has_parts else None,
-        "pure_error": _squares(fit.scatter[0]) if has_parts else None,
-        "misfit": missed
-        and {
-            "f": _or_none(missed.f),
-            "p": missed.p,
-            "by_replicates": missed.by_replicates,
-            "model_to_try": missed.model,
-            "r_squared": _or_none(missed.r_squared),
-        },
-        "curvature": None
-        if centre.empty or np.isnan(centre["f"].iloc[0])
-        else {
-            "difference": centre["effect"].iloc[0],
-            "interval": [centre["low"].iloc[0], centre["high"].iloc[0]],
-            "f": centre["f"].iloc[0],
-            "p": centre["p"].iloc[0],
-        },
-        "box_cox": one.box_cox and {"lambda": one.box_cox[0], "interval": list(one.box_cox[1:])},
-        "terms_left_out": [fit.label(term) for term in fit.left_out] if fit.chosen else None,
-        "aicc": _or_none(fit.aicc),
-        "equations": [{"units": name, "terms": terms.to_dict("records")} for name, terms in one.equations.items()],
-        "lenth": dict(zip(("pseudo_standard_error", "margin_of_error", "simultaneous_margin_of_error"), judged, strict=True))
-        if judged and np.isnan(fit.error)
-        else None,
-        "cautions": one.cautions,
-    }
-    names = ["degrees_of_freedom", "sum_of_squares", "share", "variance_inflation", "f", "p", "effect", "standard_error"]
+        return report | {"runs": 0, "missing": 0, "error_from": "", "equations": [], "terms": [], "cautions": []}
+    report |= {"model": fit.model, "model_reason": fit.reason} | {key: _plain(value) for key, value in one.summary.items()}
+    for row in one.table[one.table["factors"].isna() & (one.table["term"] != "total")].to_dict("records"):
+        squares = {name: _plain(row[name]) for name in ("degrees_of_freedom", "sum_of_squares", "f", "p")}
+        report[row["term"].replace(" ", "_")] = squares
+    for row in terms[(terms["term"] == "centre points") & terms["f"].notna()].to_dict("records"):
+        report["curvature"] = {"difference": row["effect"], "interval": [row["low"], row["high"]], "f": row["f"], "p": row["p"]}
+    report |= {"misfit": misfit(fit), "box_cox": one.box_cox and {"lambda": one.box_cox[0], "interval": list(one.box_cox[1:])}}
+    if fit.left_out is not None:
+        report |= {"terms_left_out": [fit.label(term) for term in fit.left_out], "aicc": _plain(fit.aicc)}
+    report["equations"] = [{"units": units, "terms": products.to_dict("records")} for units, products in one.equations.items()]
+    if np.isnan(fit.error) and (judged := lenth(terms.loc[terms["factors"].str.len() > 0, "effect"], fit.confidence)):
+        names = ("pseudo_standard_error", "margin_of_error", "simultaneous_margin_of_error")
+        report["lenth"] = dict(zip(names, judged, strict=True))
+    copied = ["degrees_of_freedom", "sum_of_squares", "share", "variance_inflation", "f", "p", "effect", "standard_error"]
+    copied += ["aliased_with", "seed_ratio"]
     report["terms"] = [
-        {
-            "label": row["term"],
-            **{name: _or_none(row[name]) for name in names},
-            "interval": None if np.isnan(row["low"]) else [row["low"], row["high"]],
-            "aliased_with": row["aliased_with"],
-            "error_degrees_of_freedom": _or_none(row["error_freedom"]),
-            "seed_ratio": _or_none(row["seed_ratio"]),
-        }
+        {"label": row["term"], "interval": None if np.isnan(row["low"]) else [row["low"], row["high"]]}
+        | {name: _plain(row[name]) for name in copied}
+        | {"error_degrees_of_freedom": _plain(row["error_freedom"])}
         for row in terms.to_dict("records")
     ]
-    return report
+    return report | {"cautions": one.cautions}
 
 
 def _digits(value: float, width: float = np.nan) -> str:
-    """A number with as many digits as the width of its interval leaves; four without."""
+    """A number with as many digits as half the width of its interval leaves; four without."""
     if not np.isfinite(value):
         return ""
     if not np.isfinite(width) or width <= 0:
         return f"{value:.4g}".replace("-", "−")
-    places = 1 - int(np.floor(np.log10(width)))
-    if not 1e-3 <= max(abs(value), width) < 1e6:
-        return f"{value:.{max(int(np.floor(np.log10(max(abs(value), width)))) + places, 0)}e}".replace("-", "−")
+    places, largest = 1 - int(np.floor(np.log10(width))), max(abs(value), width)
+    if not 1e-3 <= largest < 1e6:
+        return f"{value:.{max(int(np.floor(np.log10(largest))) + places, 0)}e}".replace("-", "−")
     return f"{round(value, places):.{max(places, 0)}f}".replace("-", "−")
 
 
-def _text(one: ResponseEffects) -> str:
-    """What is said of a response."""
-    fit, table = one.fit, one.table
-    if fit is None:
-        return f"{one.response.name}\n  {one.error}\n"
-    unit = unit_for(one.unit, float(np.abs(fit.values).max()))
+def told(one: ResponseEffects) -> tuple[list[str], list[list[str]], list[str]]:
+    """What is said of a response, the rows of its table with their heads, and what stands below it."""
+    if (fit := one.fit) is None:
+        return [one.response.name, one.error], [], []
+    unit, table, summary = unit_for(one.unit, float(np.abs(fit.values).max())), one.table, one.summary
     unit = Unit(one.unit, 1.0) if unit.offset else unit
-    summary, scale = one.summary, unit.per_si
-    model = f"model: {MODELS[fit.model]}" + (f"; {fit.reason}" if fit.reason else "")
-    if fit.chosen:
-        labels = ", ".join(fit.label(term) for term in fit.terms) or "the mean alone"
-        left_out = ", ".join(fit.label(term) for term in fit.left_out) or "none"
-        model = f"model: {labels}; chosen from {MODELS[fit.model]}\n  terms left out: {left_out}; AICc {fit.aicc:.5g}"
-        model += f" instead of {fit.aicc_of_all:.5g} with all" if np.isfinite(fit.aicc_of_all) else ""
-    shares = {"R²": "r_squared", "adjusted R²": "adjusted_r_squared", "predicted R²": "predicted_r_squared"}
-    quality = [f"{name} {summary[key]:.4f}" for name, key in shares.items() if np.isfinite(summary[key])]
-    p = fit.lack_of_fit_test[1]
-    why = "no point has replicates" if not fit.scatter[0].freedom else "nothing is left for it"
-    quality.append(f"lack of fit not tested: {why}" if np.isnan(p) else f"lack of fit p {_probability(p)}")
-    mean = f"{_digits(fit.mean * scale)} {unit.symbol}".strip()
-    error = f"error from {summary['error_from']}" if not np.isnan(fit.error) else f"error {summary['error_from']}"
-    if np.isfinite(fit.error):
-        error += f"; residual {_digits(np.sqrt(fit.error) * scale)} {unit.symbol}".rstrip()
-    elif fit.residual_freedom == 0:
-        error += (
-            ", so no interval can be told: give [replicates] of seeds, such as those of the disc, or a smaller model such as --model main"
-        )
-    margins = table[["margin_of_error", "simultaneous_margin_of_error"]].dropna()
-    if len(margins):
-        error += ", margin of error {}, simultaneous {} (Lenth)".format(*(_digits(value * scale) for value in margins.iloc[0]))
+    scale, symbol = unit.per_si, f" {unit.symbol}".rstrip()
+    lines = [one.response.name, f"model: {MODELS[fit.model]}" + (f"; {fit.reason}" if fit.reason else "")]
+    if fit.left_out is not None:
+        kept, left = (", ".join(fit.label(term) for term in terms) for terms in (fit.terms, fit.left_out))
+        lines[-1] = f"model: {kept or 'the mean alone'}; chosen from {MODELS[fit.model]}"
+        of_all = f" instead of {fit.aicc_of_all:.5g} with all" if np.isfinite(fit.aicc_of_all) else ""
+        lines.append(f"terms left out: {left or 'none'}; AICc {fit.aicc:.5g}{of_all}")
+    names = {"R²": "r_squared", "adjusted R²": "adjusted_r_squared", "predicted R²": "predicted_r_squared"}
+    quality = [f"{name} {summary[key]:.4f}" for name, key in names.items() if np.isfinite(summary[key])]
+    p, why = fit.lack_of_fit[2], "nothing is left for it" if fit.scatter[0].freedom else "no point has replicates"
+    quality.append(f"lack of fit not tested: {why}" if np.isnan(p) else f"lack of fit p {'< 0.0001' if p < 1e-4 else f'= {p:.2g}'}")
+    error = f"error {'' if np.isnan(fit.error) else 'from '}{summary['error_from']}"
+    error += f"; residual {_digits(fit.error**0.5 * scale)}{symbol}" if np.isfinite(fit.error) else ""
+    if fit.residual_freedom == 0:
+        error += ", so no interval can be told: give [replicates] of seeds, such as those of the disc, or a smaller model, such as "
+        error += "--model main"
+    for _, margins in table[["margin_of_error", "simultaneous_margin_of_error"]].dropna().head(1).iterrows():
+        error += ", margin of error {}, simultaneous {} (Lenth)".format(*(_digits(value * scale) for value in margins))
     missing = f", {fit.missing} without a response" if fit.missing else ""
-    lines = [one.response.name, model, ", ".join(quality), f"{len(fit.values)} runs{missing}, mean {mean}, {error}"]
-    if one.response.transform != "none":
-        lines.append(f"all results are those of {one.title}")
+    lines += [", ".join(quality), f"{len(fit.values)} runs{missing}, mean {_digits(fit.mean * scale)}{symbol}, {error}"]
+    lines += [f"all results are those of {one.title}"] if one.response.transform != "none" else []
     lines += [f"caution: {caution}" for caution in one.cautions] + ([one.advice] if one.advice else [])
-    heads = ["term", f"effect, {unit.symbol}" if unit.symbol else "effect", f"{100 * fit.confidence:.4g} % interval"]
-    rows = [[*heads, "share", "df", "error df", "F", "p"]]
-    own = table["factors"].notna() | (table["term"] == "replicate")
-    left = ["residual", *(["lack of fit", "pure error"] if fit.lack_of_fit.freedom > 0 else [])]
-    shown = pandas.concat([table[own].sort_values("share", ascending=False, kind="stable"), table[table["term"].isin(left) & ~own]])
-    for row in shown.to_dict("records"):
+    interval = f"{100 * fit.confidence:.4g} % interval"
+    rows = [["term", f"effect,{symbol}" if symbol else "effect", interval, "share", "df", "error df", "F", "p"]]
+    parts = ["lack of fit", "pure error"] if fit.lack_of_fit[0].freedom > 0 else []
+    left_over = table[table["factors"].isna() & table["term"].isin(["residual", *parts])]
+    for row in pandas.concat([one.terms.sort_values("share", ascending=False, kind="stable"), left_over]).to_dict("records"):
         width = (row["high"] - row["low"]) / 2 * scale
-        ends = [_digits(row[end] * scale, width) for end in ("low", "high")]
-        name = row["term"] if row["term"] not in left[1:] else f"  {row['term']}"
-        cells = [name, _digits(row["effect"] * scale, width), " … ".join(ends) if np.isfinite(width) else "", f"{100 * row['share']:.1f} %"]
+        interval = " … ".join(_digits(row[end] * scale, width) for end in ("low", "high")) if np.isfinite(width) else ""
         freedom = f"{row['error_freedom']:.3g}" if np.isfinite(row["error_freedom"]) else ""
+        name = ("  " if row["term"] in parts else "") + row["term"]
+        cells = [name, _digits(row["effect"] * scale, width), interval, f"{100 * row['share']:.1f} %"]
         rows.append([*cells, str(row["degrees_of_freedom"]), freedom, _digits(row["f"]), _digits(row["p"])])
-    widths = [max(len(row[at]) for row in rows) for at in range(len(heads) + 5)]
-    body = [
-        "  ".join([row[0].ljust(widths[0]), *(cell.rjust(width) for cell, width in zip(row[1:], widths[1:], strict=True))]) for row in rows
-    ]
-    lines += [line.rstrip() for line in body]
-    aliased = table[[bool(others) for others in table["aliased_with"]]]
-    lines += [f"{row['term']} cannot be told from {', '.join(row['aliased_with'])}" for _, row in aliased.iterrows()]
-    for name, terms in one.equations.items():
-        said = "in coded units, −1 to 1 over each range" if name == "coded" else "in the units of the study"
-        heading = one.title + (f" [{unit.symbol}]" if unit.symbol else "")
-        pieces = [
-            f"{'−' if row['coefficient'] < 0 else '+'} {abs(row['coefficient']) * scale:.6g} {row['variables']}".strip()
-            for row in terms.to_dict("records")
-        ]
-        lines += [f"{said}:", f"  {heading} = {' '.join(pieces).removeprefix('+ ')}"]
-    return "\n  ".join(lines) + "\n"
+    aliased = [(row["term"], ", ".join(row["aliased_with"])) for row in table.to_dict("records") if row["aliased_with"]]
+    below = [f"{term} cannot be told from {others}" for term, others in aliased]
+    for units, products in one.equations.items():
+        said = "in coded units, −1 to 1 over each range" if units == "coded" else "in the units of the study"
+        signed = [("−" if value < 0 else "+", abs(value) * scale, words) for words, value in products.itertuples(index=False)]
+        pieces = [f"{sign} {value:.6g} {words}".strip() for sign, value, words in signed]
+        below += [f"{said}:", f"  {one.title}{f' [{unit.symbol}]' if symbol else ''} = {' '.join(pieces).removeprefix('+ ')}"]
+    return lines, rows, below
 
 
-def _probability(p: float) -> str:
-    return "< 0.0001" if p < 1e-4 else f"= {p:.2g}"
+def _text(one: ResponseEffects) -> str:
+    """The same as text."""
+    lines, rows, below = told(one)
+    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
+    for first, *cells in rows:
+        right = [cell.rjust(width) for cell, width in zip(cells, widths[1:], strict=True)]
+        lines.append("  ".join([first.ljust(widths[0]), *right]).rstrip())
+    return "\n  ".join([*lines, *below]) + "\n"

@@ -6,6 +6,7 @@ import re
 import warnings
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -13,9 +14,12 @@ import pandas
 
 from plateau.errors import InputError, PlateauWarning
 from plateau.study.analysis import _digits, together, usable
+from plateau.study.measured import _factor_value
+from plateau.study.quantities import NUMBER, in_si
 from plateau.study.results import Factor, Study, analysed
 from plateau.study.surrogate import Surrogate, surrogates
-from plateau.study.units import parsed, unit_for
+from plateau.study.text_tables import read_text_table
+from plateau.study.units import unit_for
 
 # Most places of a grid; coded values that differ by less are the same.
 MOST_PLACES, SAME = 1_000_000, 1e-9
@@ -232,33 +236,29 @@ def _forecast(
     bounds = [bound for bound in (response.low, response.high) if np.isfinite(bound)]
     is_cut = found[["value", *INTERVALS]].isin(bounds).any(axis=1)
     advice = "" if response.transform != "none" else f'; transform = "{"logit" if response.high == 1.0 else "log"}" keeps to what can be'
-    for marks, short, long in (
-        (found["leverage"] > most * (1.0 + SAME), "extrapolation", f"leverage is above {most:.3g}, the largest of the runs"),
-        (
-            found["mean_low"].isna() & (one.fit is not None),
-            "no interval",
-            "the runs do not tell it there, or leave no error; terms that cannot be told from others count as nothing",
-        ),
-        (is_cut, "cut", f"intervals are cut at {' and '.join(f'{bound:g}' for bound in bounds)}, for less or more cannot be{advice}"),
-    ):
+    is_far, is_untold = found["leverage"] > most * (1.0 + SAME), found["mean_low"].isna() & (one.fit is not None)
+    marked = {
+        f"extrapolation: leverage is above {most:.3g}, the largest of the runs": is_far,
+        "no interval: the runs do not tell it there, or leave no error; terms that cannot be told from others count as nothing": is_untold,
+        f"cut: intervals are cut at {' and '.join(f'{bound:g}' for bound in bounds)}, for less or more cannot be{advice}": is_cut,
+    }
+    for long, marks in marked.items():
         if marks.any():
-            notes.append(f"{short}: {long}" + (f" ({int(marks.sum())} of {len(places)} places)" if len(places) > 1 else ""))
+            notes.append(long + (f" ({int(marks.sum())} of {len(places)} places)" if len(places) > 1 else ""))
         for at in np.flatnonzero(marks):
-            said[at].append(short)
+            said[at].append(long.split(":")[0])
     cautions = [_joined([*(caution.split(":")[0].split(" (")[0] for caution in one.cautions), *own]) for own in said]
     table = places.assign(response=response.name, unit=response.unit, **found, beyond=beyond, cautions=cautions)
-    runs = made.groupby("point")[response.name] if made is not None else None
-    counts = runs.count().reindex(range(1, len(places) + 1), fill_value=0).to_numpy() if runs is not None else np.zeros(len(places), int)
-    mean, error = (
-        ((of.reindex(range(1, len(places) + 1)).to_numpy() for of in (runs.mean(), runs.sem()))) if runs is not None else (np.nan, np.nan)
+    runs = (
+        made.groupby("point")[response.name].agg(["mean", "sem", "count"])
+        if made is not None
+        else pandas.DataFrame(columns=["mean", "sem", "count"])
     )
-    within = [
-        None if np.isnan(low) or not count else bool(low <= value <= high)
-        for low, high, value, count in zip(table["run_low"], table["run_high"], np.broadcast_to(mean, len(places)), counts, strict=True)
-    ]
-    table = table.assign(
-        confirmed=mean, confirmed_error=error, confirmed_runs=counts, is_within=pandas.Series(within, index=places.index, dtype=object)
-    )
+    runs = runs.reindex(range(1, len(places) + 1)).astype(float).set_axis(places.index)
+    is_known = runs["count"].gt(0) & table["run_low"].notna()
+    within = (table["run_low"].le(runs["mean"]) & table["run_high"].ge(runs["mean"])).astype(object).where(is_known, None)
+    counts = runs["count"].fillna(0).astype(int)
+    table = table.assign(confirmed=runs["mean"], confirmed_error=runs["sem"], confirmed_runs=counts, is_within=within)
     table.insert(0, "place", np.arange(1, len(places) + 1))
     table.attrs["cautions"] = notes
     return table
@@ -286,14 +286,14 @@ def _value(factor: Factor, said: Any, where: str, is_curved: bool) -> Any:
         return str(said)
     value = said
     if isinstance(said, str):
-        number = said.strip().removesuffix(factor.study_unit).strip()
-        is_plain = re.fullmatch(r"[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?", number.replace("−", "-"))
-        if is_plain and (number != said.strip() or not factor.study_unit):
-            value = float(number.replace("−", "-")) * factor.one + factor.zero
-        elif is_plain:
-            raise InputError(f'{where}: {factor.name} = {said}: expected a quantity such as "{factor.text(factor.ends[0])}"')
-        else:
-            value = parsed(factor.unit or "1", said)
+        number = re.match(NUMBER, text := said.strip().replace("−", "-"))
+        unit = text[number.end() :].strip() if number else ""
+        if not number or bool(unit) < bool(factor.study_unit):
+            what = f'a quantity such as "{factor.text(factor.ends[0])}"' if factor.study_unit else "a plain number"
+            raise InputError(f"{where}: {factor.name} = {said}: expected {what}")
+        # What a scene has may be given in any unit that measures the same.
+        is_own = unit == factor.study_unit
+        value = float(number[0]) * factor.one + factor.zero if is_own else in_si(number[0], unit, factor.unit or "1")
     if not np.isfinite(value) or factor.logarithmic and value <= 0:
         raise InputError(f"{where}: {factor.name} = {said}: expected a {'number above 0' if factor.logarithmic else 'number'}")
     if not factor.is_range:
@@ -317,21 +317,20 @@ def _axis(factor: Factor, grid: int | None, is_curved: bool) -> list[Any]:
 
 def _rows(study: Study, points: Any, held: dict[str, Any], is_curved: bool) -> tuple[pandas.DataFrame, list[str]]:
     """The rows of a table, and the factors that they have."""
-    where = "points"
-    if not isinstance(points, pandas.DataFrame):
-        where = os.fspath(points)
-        try:
-            points = pandas.read_csv(points, dtype=str, keep_default_na=False, skipinitialspace=True, sep=None, engine="python")
-        except (OSError, ValueError) as error:
-            raise InputError(f"{where}: cannot be read as a table: {error}") from error
     columns: dict[str, list[Any]] = {}
-    for head in points.columns:
-        name, unit = re.fullmatch(r"(.*?)\s*(?:\[(.*)\])?", str(head)).groups()  # type: ignore[union-attr]
-        factor = _factor(study, name, f"{where}: column {head!r}")
-        said = [f"{value} {unit}" if unit and isinstance(value, str) else value for value in points[head]]
-        columns[factor.name] = [_value(factor, value, f"{where}: line {at + 2}", is_curved) for at, value in enumerate(said)]
+    if isinstance(points, pandas.DataFrame):
+        for head in points.columns:
+            factor = _factor(study, head, f"points: column {head!r}")
+            columns[factor.name] = [_value(factor, value, f"points: row {at}", is_curved) for at, value in enumerate(points[head])]
+        count = len(points)
+    else:
+        table = read_text_table(Path(points))
+        for column, count in enumerate([len(table.rows)] * len(table.heads)):
+            factor = _factor(study, table.named(column)[0], f"{table.path}: column {table.heads[column]!r}")
+            values = ((_factor_value(table, row, column, factor), table.place(row)) for row in range(count))
+            columns[factor.name] = [_value(factor, value, place, is_curved) for value, place in values]
     rest = {one.name: held.get(one.name, _axis(one, None, is_curved)[0]) for one in study.factors}
-    places = pandas.DataFrame({one.name: columns.get(one.name, rest[one.name]) for one in study.factors}, index=range(len(points)))
+    places = pandas.DataFrame({one.name: columns.get(one.name, rest[one.name]) for one in study.factors}, index=range(count))
     return places, [*columns, *held]
 
 
@@ -341,7 +340,7 @@ def _beyond(study: Study, places: pandas.DataFrame) -> list[str]:
     for factor in (factor for factor in study.factors if factor.is_number):
         run = factor.coded(study.runs[factor.name])
         ends, coded = (min(run.min(), -1.0), max(run.max(), 1.0)), factor.coded(places[factor.name].to_numpy(float))
-        low, high = (factor.text(float(factor.value(end))) for end in ends)
+        low, high = (factor.text(float(factor.value(end))).replace("-", "−") for end in ends)
         low = low.removesuffix(factor.study_unit).strip() if factor.study_unit else low
         for at in np.flatnonzero((coded < ends[0] - SAME) | (coded > ends[1] + SAME)):
             said[at].append(f"{factor.name} is beyond {low} to {high}")

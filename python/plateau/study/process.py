@@ -181,7 +181,8 @@ class Process:
 
     def deviation(self, x: npt.ArrayLike) -> Numbers:
         """Standard deviations of the mean of many runs, with what few sets of seeds leave open."""
-        return np.asarray(np.sqrt(self.moments(x)[1] + self.moments(x)[2] / self.seeds))
+        _, own, seeds = self.moments(x)
+        return np.asarray(np.sqrt(own + seeds / self.seeds))
 
     def run_deviation(self, x: npt.ArrayLike) -> Numbers:
         """Standard deviations of the response of one more run."""

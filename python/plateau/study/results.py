@@ -331,7 +331,7 @@ def _opened(folder: Path, study: Path | None, directory: Path) -> Study:
             return {str(values.attrs["name"]): values.values for values in with_role[role]}
 
         asked = {str(table.get("name", table.get("dataset", "").rsplit("/")[-1])): table for table in document.get("response", [])}
-        return Study(
+        study_of = Study(
             title=str(data.attrs["title"]),
             design=str(data.attrs["design"]),
             factors=[_factor(values) for values in with_role["factor"]],
@@ -346,6 +346,25 @@ def _opened(folder: Path, study: Path | None, directory: Path) -> Study:
         )
     except (OSError, ValueError, KeyError) as error:
         raise InputError(f"{folder}: the results cannot be read: {error}; plateau.collect makes them anew") from error
+    return _with_imported(study_of)
+
+
+def _with_imported(study: Study) -> Study:
+    """A study with the values of its imported responses."""
+    if not any(response.asked.get("imported") for response in study.responses):
+        return study
+    from plateau.study.measured import imported_values
+
+    values = imported_values(study)
+    units = {response.name: response.unit for response in study.responses}
+    for name in map(str, values):
+        study.runs[name] = values[name]
+        study.table[name if units[name] == "1" else f"{name} [{units[name]}]"] = values[name].to_numpy()
+    if "base" not in study.document:
+        # Where no runs are made, those with values are finished.
+        state = study.runs["state"].where(~values.notna().any(axis=1), "finished")
+        study.runs["state"] = study.table["state"] = state.to_numpy()
+    return study
 
 
 ROLES = ("factor", "response", "standard error")
@@ -360,7 +379,8 @@ def _factor(values: xarray.DataArray) -> Factor:
     if is_range:
         levels: tuple[Any, ...] = ends
     elif not is_number:
-        levels = tuple(labels or found)
+        # Words of a table in the order in which they appear.
+        levels = tuple(labels or dict.fromkeys(values.values.tolist()))
     else:
         levels = ends if "low" in said else tuple(found)
         if len(levels) == 2 and len(found) > 2 or not labels and len(found) > 2 or len(levels) > MOST_LEVELS:

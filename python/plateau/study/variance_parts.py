@@ -42,7 +42,7 @@ class Sensitivity:
         ``standard_error`` and ``effects`` (their number), per whole range in ``unit``.
     surrogates : list of Surrogate
     variances : dict of float
-        Variance of each response over all ranges, on the scale of the fit squared.
+        Variance of what is expected of each response over all ranges, SI.
     confidence : float
     cautions : list of str
     """
@@ -77,7 +77,7 @@ class Sensitivity:
                 else:
                     indices.append({"factor": row["factor"], **parts})
             said = f"of the {surrogate.words}; {surrogate.reason}" if indices else None
-            report = {"name": response.name, "unit": response.unit, "error": surrogate.error or None, "surrogate": said}
+            report: dict[str, Any] = {"name": response.name, "unit": response.unit, "error": surrogate.error or None, "surrogate": said}
             report |= {"variance": self.variances.get(response.name), "indices": indices, "seeds": seeds, "elementary_effects": effects}
             responses.append(report)
         return {"study": self.study.title, "responses": responses, "cautions": self.cautions, "files": files or []}
@@ -111,6 +111,12 @@ class Sensitivity:
                 shown["factor"] = shown["factor"].where(shown["factor"] != SEEDS, "seeds (of single runs)")
             lines += ["  " + line.rstrip() for line in shown.to_string(index=False).splitlines()] + [""]
         return "\n".join([*lines, *(f"caution: {caution}" for caution in self.cautions), ""])
+
+    def figures(self) -> Any:
+        """A figure for each response."""
+        from plateau.study.figures import sensitivity_figures
+
+        return sensitivity_figures(self)
 
 
 def sensitivity(study: Study | str | os.PathLike[str], confidence: float = 0.95) -> Sensitivity:
@@ -198,21 +204,26 @@ def _indices(study: Study, one: Surrogate, confidence: float) -> tuple[pandas.Da
         for part in (even[:, :count], even[:, count:])
     )
     places = pandas.concat([a, b, *(a.assign(**{name: b[name]}) for name in names)], ignore_index=True)
-    values = _drawn(one, places).reshape(-1, count + 2, ROWS)
-    expected = one.mean(places).reshape(1, count + 2, ROWS)
+    drawn = _drawn(one, places)
+    values = one.response.back(drawn).reshape(-1, count + 2, ROWS)
     first, total, variance = sobol(values[:, 0], values[:, 1], values[:, 2:])
     tail = 50.0 * (1.0 - confidence)
-    rows = {}
+    rows: dict[str, Numbers] = {}
     for name, found in (("first_order", first), ("total", total)):
         low, middle, high = np.nanpercentile(found, [tail, 50.0, 100.0 - tail], axis=0)
         rows |= {name: middle, f"{name}_low": low, f"{name}_high": high}
     table = pandas.DataFrame({"factor": names, **rows})
-    run, freedom = _of_seeds(one)
+    if len(drawn) == 1:
+        table[[f"{name}_{end}" for name in ("first_order", "total") for end in ("low", "high")]] = np.nan
+    run, freedom = one._fit._run_variance
     if np.isfinite(run):
-        of_run = run * freedom / stats.chi2(freedom).rvs(len(variance), random_state=np.random.default_rng(2))
-        low, middle, high = np.percentile(of_run / (of_run + variance), [tail, 50.0, 100.0 - tail])
+        # What other seeds change at a place, where the function is about a straight line.
+        of_run = run * freedom / stats.chi2(freedom).rvs(len(drawn), random_state=np.random.default_rng(2))[:, None]
+        ends = [one.response.back(drawn[:, : 2 * ROWS] + sign * np.sqrt(of_run)) for sign in (1.0, -1.0)]
+        shares = (part := ((ends[0] - ends[1]) ** 2 / 4.0).mean(-1)) / (part + variance)
+        low, middle, high = np.percentile(shares, [tail, 50.0, 100.0 - tail])
         table.loc[len(table), ["factor", "total", "total_low", "total_high"]] = [SEEDS, middle, low, high]
-    return table, float(expected[0, :2].var())
+    return table, float(one.response.back(one.mean(places[: 2 * ROWS])).var())
 
 
 def _values(factor: Any, even: Numbers) -> Any:
@@ -220,11 +231,6 @@ def _values(factor: Any, even: Numbers) -> Any:
     if factor.is_range:
         return factor.value(2.0 * even - 1.0)
     return np.array(factor.levels)[(even * len(factor.levels)).astype(int)]
-
-
-def _of_seeds(one: Surrogate) -> tuple[float, float]:
-    """Variance of runs with other seeds at one place, and its degrees of freedom; NaN where there are no replicates."""
-    return one.fit._run_variance if one.fit is not None else (np.nan, np.nan)
 
 
 def _drawn(one: Surrogate, places: pandas.DataFrame) -> Numbers:
@@ -278,9 +284,9 @@ def drawn_models(one: Surrogate, fit: Fitted, places: pandas.DataFrame, random: 
 def elementary_effects(study: Study, response: str) -> pandas.DataFrame:
     """What a response changes by when one factor does, along the trajectories of a Morris design, per whole range or change of level."""
     # Means over the seeds; a point of which one is missing is left out, for its other seeds would be compared with other ones.
-    points = study.runs.groupby("point").agg(
-        {**{one.name: "first" for one in study.factors}, response: lambda values: values.mean(skipna=False)}
-    )
+    at_point = study.runs.groupby("point")
+    points = at_point[[factor.name for factor in study.factors]].first()
+    points[response] = at_point[response].mean().where(at_point[response].count() == at_point.size())
     effects: dict[str, list[float]] = {factor.name: [] for factor in study.factors}
     for at in range(len(points) - 1):
         before, after = points.iloc[at], points.iloc[at + 1]
@@ -300,7 +306,9 @@ def elementary_effects(study: Study, response: str) -> pandas.DataFrame:
 
 def _part(row: pandas.Series, name: str) -> str:
     value, low, high = (float(np.clip(row[each], 0.0, 1.0)) for each in (name, f"{name}_low", f"{name}_high"))
-    return "" if np.isnan(value) else f"{value:.2f} ({low:.2f} … {high:.2f})"
+    if np.isnan(low):
+        return "" if np.isnan(value) else f"{value:.2f}"
+    return f"{value:.2f} ({low:.2f} … {high:.2f})"
 
 
 def _plain(value: Any) -> Any:

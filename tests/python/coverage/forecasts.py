@@ -17,6 +17,7 @@ from scipy.stats import qmc
 from plateau.study.process import Process
 from plateau.study.results import Factor, Response, Study
 from plateau.study.surrogate import surrogates
+from plateau.study.variance_parts import sensitivity, sobol
 
 NOISE, OF_SEEDS, PLACES = 0.04, 0.02, 25
 # Kind of response, factors, points, sets of seeds.
@@ -96,6 +97,24 @@ def surrogate_coverage(kind, factors, points, seeds, functions, number=20261124)
     return [np.mean(own, axis=0) if own else np.full(2, np.nan) for own in covered], [len(own) for own in covered]
 
 
+def sensitivity_coverage(kind, factors, points, seeds, functions, number=20261124):
+    """Shares of intervals of indices of the first order and of total ones that have the true index in them."""
+    random, covered = np.random.default_rng(number), []
+    for _ in range(functions):
+        response = function(kind, factors, random)
+        x = np.repeat(2.0 * qmc.LatinHypercube(factors, seed=random).random(points) - 1.0, seeds, axis=0)
+        study = study_of(x, response(x) + NOISE * random.standard_normal(len(x)), np.tile(np.arange(seeds), points))
+        table = sensitivity(study).table.iloc[:factors]
+        both = 2.0 * qmc.Sobol(2 * factors, seed=3).random(8192) - 1.0
+        a, b = both[:, :factors], both[:, factors:]
+        mixed = [response(np.where(np.arange(factors) == at, b, a)) for at in range(factors)]
+        truth = dict(zip(("first_order", "total"), sobol(response(a)[None], response(b)[None], np.array(mixed)[None]), strict=False))
+        # The true index has an error of its sample, too.
+        low, high = ({name: table[f"{name}_{end}"] + sign for name in truth} for end, sign in (("low", -0.005), ("high", 0.005)))
+        covered.append([((low[name] <= truth[name][0]) & (truth[name][0] <= high[name])).mean() for name in truth])
+    return np.mean(covered, axis=0)
+
+
 def main():
     functions = int(sys.argv[1]) if len(sys.argv) > 1 else 200
     print("Gaussian process\n\n| response | factors | points | seeds | of means | of runs |\n|---|---|---|---|---|---|", flush=True)
@@ -109,6 +128,10 @@ def main():
         shares, counts = surrogate_coverage(kind, factors, points, seeds, functions)
         cells = [f"{count} | {100 * own[0]:.1f} % | {100 * own[1]:.1f} %" for own, count in zip(shares, counts, strict=True)]
         print(f"| {kind} | {factors} | {points} | {seeds} | {' | '.join(cells)} |", flush=True)
+    print("\nParts of the variance\n\n| response | factors | points | seeds | first order | total |\n|---|---|---|---|---|---|", flush=True)
+    for kind, factors, points, seeds in STUDIES[1:]:
+        first, total = 100.0 * sensitivity_coverage(kind, factors, points, seeds, max(functions // 5, 1))
+        print(f"| {kind} | {factors} | {points} | {seeds} | {first:.1f} % | {total:.1f} % |", flush=True)
 
 
 if __name__ == "__main__":

@@ -1,4 +1,4 @@
-//! What is made of runs: a study, its results, a fit, a report, figures and a table are each there as a whole, or as they were before.
+//! What is made of runs: a study, its results, a report, figures and a table are each there as a whole, or as they were before.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -18,10 +18,9 @@ pub(super) struct Case {
     replaces: bool,
 }
 
-pub(super) const CASES: [Case; 9] = [
+pub(super) const CASES: [Case; 8] = [
     Case { arguments: &["sweep", "run", "study.toml"], makes: "results", replaces: false },
     Case { arguments: &["sweep", "collect", "swept.toml", "--force"], makes: "swept", replaces: false },
-    Case { arguments: &["fit", "fit.toml"], makes: "fitted", replaces: false },
     Case { arguments: &["report", "run.h5", "-o", "report.html", "--force"], makes: "report.html", replaces: true },
     Case { arguments: &["plot", "run.h5", "-o", "figures", "--force"], makes: "figures", replaces: false },
     Case {
@@ -59,9 +58,6 @@ pub(super) fn prepared() -> WorkingDirectory {
     for (file, results) in [("study.toml", "results"), ("swept.toml", "swept")] {
         directory.write(file, study("\"full-factorial\"", results, &levels));
     }
-    let fit = format!("[fit]\nruns = 6\n{}", load("range = [\"5 N\", \"10 N\"]"));
-    let measured = "measured = \"0.2 mm2\"\nuncertainty = \"0.01 mm2\"\n";
-    directory.write("fit.toml", study("\"latin-hypercube\"\npoints = 5", "fitted", &fit) + measured);
     let base = scene("quick.toml");
     let done = |arguments: &[&str]| assert_eq!(directory.plateau(arguments).status, Some(0), "{arguments:?}");
     let sets = SMALL.iter().flat_map(|set| ["--set", set]);

@@ -80,8 +80,8 @@ fn runs_that_did_not_keep_a_series_are_named_and_made_again_when_asked() {
     assert_eq!(records(&directory).len(), 9);
     directory.write("study.toml", format!("{kept}[[response]]{responses}"));
     let said = "was not kept by 9 runs, so that responses to it have no value there";
-    for command in [&["collect", "study.toml"][..], &["run", "study.toml"], &["effects", "study.toml"]] {
-        let outcome = directory.plateau(["sweep"].iter().chain(command));
+    for command in [["collect", "study.toml"], ["run", "study.toml"]] {
+        let outcome = directory.plateau(["sweep"].into_iter().chain(command));
         assert!(outcome.stderr.contains(said), "{command:?}: {outcome:?}");
         assert!(
             outcome.stderr.contains("/series/filled_fraction") && outcome.stderr.contains("1, 2, 3, 4, 5, 6, 7, 8, 9")

@@ -1,6 +1,6 @@
 //! How the cores of a machine are shared among the runs of a study.
 
-use clap::{Arg, Args};
+use clap::Args;
 use plateau_run::execution::cores;
 
 /// Runs at a time and threads of each.
@@ -15,14 +15,6 @@ pub struct CoresArguments {
 }
 
 impl CoresArguments {
-    /// For a command that makes runs only to confirm what it says: without `--confirm` they would do nothing.
-    pub(super) fn for_confirming(argument: Arg) -> Arg {
-        match argument.get_id().as_str() {
-            "jobs" | "workers" => argument.requires("confirm"),
-            _ => argument,
-        }
-    }
-
     /// Runs at a time: as many as are asked for, else as there are cores for their workers.
     pub fn runs_at_a_time(&self) -> usize {
         self.jobs.map_or_else(|| (cores() / self.workers()).max(1), |jobs| jobs as usize)

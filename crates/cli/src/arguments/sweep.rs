@@ -4,9 +4,8 @@ use std::path::PathBuf;
 
 use clap::{Args, Subcommand};
 
-use super::answers::{ImportArguments, OptimizeArguments, PredictArguments};
 use super::cores::CoresArguments;
-use super::model::{Model, Terms, confidence};
+use super::handed::HandedArguments;
 
 /// What to do with a study.
 #[derive(Debug, Subcommand)]
@@ -30,26 +29,20 @@ pub enum SweepCommand {
     #[command(after_help = "Example:\n  plateau sweep collect data/studies/pad-properties.toml")]
     Collect(CollectArguments),
     /// Tell what the factors do: effects, analysis of variance, figures
-    #[command(after_help = "Example:\n  plateau sweep effects data/studies/pad-properties.toml")]
-    Effects(EffectsArguments),
+    #[command(disable_help_flag = true)]
+    Effects(HandedArguments),
     /// Tell what responses are expected to be where no run was made
-    #[command(after_help = "Examples:\n  plateau sweep predict data/studies/pad-properties.toml --at load=\"7 N\"\n  \
-                      plateau sweep predict data/studies/pad-properties.toml --grid 5 -o predicted.csv")]
-    Predict(PredictArguments),
+    #[command(disable_help_flag = true)]
+    Predict(HandedArguments),
     /// Find the settings at which responses are best
-    #[command(
-        after_help = "Example:\n  plateau sweep optimize data/studies/pad-properties.toml --maximize \"contact area\" \
-                      --limit \"filled fraction<=0.3\"\n\n\
-                      Several goals are weighed by the geometric mean of their desirabilities (Derringer and Suich)."
-    )]
-    Optimize(OptimizeArguments),
-    /// Take in responses that were measured or computed elsewhere
-    #[command(after_help = "Example:\n  plateau sweep import study.toml measured.csv\n\n\
-                            The table has a column for each factor, and one for each response with imported = true.")]
-    Import(ImportArguments),
+    #[command(disable_help_flag = true)]
+    Optimize(HandedArguments),
     /// Tell which part of a response's variation each factor has
-    #[command(after_help = "Example:\n  plateau sweep sensitivity data/studies/pad-properties.toml")]
-    Sensitivity(SensitivityArguments),
+    #[command(disable_help_flag = true)]
+    Sensitivity(HandedArguments),
+    /// Take in responses that were measured or computed elsewhere
+    #[command(disable_help_flag = true)]
+    Import(HandedArguments),
 }
 
 /// Arguments of `plateau sweep plan`.
@@ -138,51 +131,6 @@ pub struct CollectArguments {
     #[arg(short, long, value_name = "DIR")]
     pub output: Option<PathBuf>,
     /// Replace files of these names that were not collected from a study, or that have more finished runs than there are now
-    #[arg(long)]
-    pub force: bool,
-    /// Print one JSON document instead of text
-    #[arg(long)]
-    pub json: bool,
-}
-
-/// Arguments of `plateau sweep effects`.
-#[derive(Debug, Args)]
-pub struct EffectsArguments {
-    /// Study file (TOML)
-    pub study: PathBuf,
-    /// What is fitted; unless given, quadratic for designs that allow it (central-composite, box-behnken; latin-hypercube,
-    /// sobol and csv with runs enough), main effects for plackett-burman, else main effects and interactions
-    #[arg(long, value_enum)]
-    pub model: Option<Model>,
-    /// Confidence level of intervals
-    #[arg(long, value_name = "P", allow_hyphen_values = true, default_value = "0.95", value_parser = confidence)]
-    pub confidence: f64,
-    /// Which terms of it
-    #[arg(long, value_enum, default_value = "all")]
-    pub terms: Terms,
-    /// Folder for tables, figures and the page; "effects" in the study's own unless given
-    #[arg(short, long, value_name = "DIR")]
-    pub output: Option<PathBuf>,
-    /// Replace the files of an earlier call, and remove those of them that this call does not write
-    #[arg(long)]
-    pub force: bool,
-    /// Print one JSON document instead of text
-    #[arg(long)]
-    pub json: bool,
-}
-
-/// Arguments of `plateau sweep sensitivity`.
-#[derive(Debug, Args)]
-pub struct SensitivityArguments {
-    /// Study file (TOML)
-    pub study: PathBuf,
-    /// Confidence level of intervals
-    #[arg(long, value_name = "P", allow_hyphen_values = true, default_value = "0.95", value_parser = confidence)]
-    pub confidence: f64,
-    /// Folder for table and figures; "sensitivity" in the study's own unless given
-    #[arg(short, long, value_name = "DIR")]
-    pub output: Option<PathBuf>,
-    /// Replace the files of an earlier call, and remove those of them that this call does not write
     #[arg(long)]
     pub force: bool,
     /// Print one JSON document instead of text

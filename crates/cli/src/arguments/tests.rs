@@ -24,14 +24,3 @@ fn a_negative_number_is_a_value_and_no_option() {
     let refused = Arguments::try_parse_from(["plateau", "new", "a.toml", "--load", "-5 N"]).unwrap_err().to_string();
     assert!(refused.contains("expected more than 0"), "{refused}");
 }
-
-#[test]
-fn runs_at_a_time_belong_to_runs() {
-    for command in ["predict", "optimize"] {
-        let told = ["plateau", "sweep", command, "study.toml", "--jobs", "2", "--workers", "3"];
-        let refused = Arguments::try_parse_from(told).unwrap_err().to_string();
-        assert!(refused.contains("--confirm"), "{refused}");
-        Arguments::try_parse_from(told.into_iter().chain(["--confirm"])).unwrap();
-        Arguments::try_parse_from(&told[..4]).unwrap();
-    }
-}

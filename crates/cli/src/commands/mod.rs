@@ -9,7 +9,6 @@ mod check_pulse;
 mod check_report;
 mod completions;
 mod export;
-mod fit;
 mod man;
 mod new;
 mod plot;
@@ -28,6 +27,7 @@ use plateau_io::scene::{self, Scene};
 
 use crate::arguments::{Arguments, Command, SceneArguments};
 use crate::failure::Failure;
+use crate::hand_over::hand_over;
 use crate::message;
 use runs::{figures, named_like, open_run, open_runs};
 
@@ -44,7 +44,8 @@ pub fn perform(arguments: Arguments) -> Result<(), Failure> {
         Command::Export(arguments) => export::export(&arguments),
         Command::Accuracy(arguments) => accuracy::accuracy(&arguments),
         Command::Sweep(command) => sweep::sweep(command),
-        Command::Fit(arguments) => fit::fit(&arguments),
+        Command::Fit(handed) => hand_over("fit", handed.arguments),
+        Command::Compare(handed) => hand_over("compare", handed.arguments),
         Command::Surface(arguments) => surface::surface(&arguments),
         Command::Verify(arguments) => verify::verify(&arguments),
         Command::Repair(arguments) => repair::repair(&arguments),

@@ -4,6 +4,7 @@ use std::collections::BTreeSet;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use plateau_core::observe::event::event_quantities;
+use plateau_core::observe::pulse::pulse_time;
 use plateau_core::observe::{Quantity, Sample, quantities};
 use plateau_core::simulation::{Execution, Simulation};
 use plateau_io::scene::Scene;
@@ -75,6 +76,7 @@ impl Request<'_> {
         let mut scene = self.scene.clone();
         scene.output.maps.clear();
         let execution = Execution { workers: self.workers, ..Execution::default() };
+        let pulse_time = pulse_time(&scene.parameters, &surfaces.pin_base);
         let mut assembly = Assembly::new(&scene, surfaces, execution)?;
         let mut recorder = Recorder::new(self, &scene, watcher, under_way);
         let state = recorder.under_way.find(&scene.parameters.mesh, &recorder.program, &recorder.names());
@@ -93,7 +95,7 @@ impl Request<'_> {
             let columns = quantities().map(|quantity| assembly.events().iter().map(quantity.value).collect());
             Series::new(quantities().map(|quantity| quantity.name.to_owned()).collect(), columns.collect()).pack()
         });
-        Ok(Outcome::Finished { steps, until: scene.duration, series: recorder.series().pack(), events })
+        Ok(Outcome::Finished { steps, until: scene.duration, series: recorder.series().pack(), events, pulse_time })
     }
 }
 

@@ -14,11 +14,9 @@
 //! | who looks on, and how it may end before its end | [`watcher`] |
 //! | all of them, several at a time | [`plateau_run::Job::share`] |
 //! | what those that are made at a time share | [`floor`] |
-//! | extra runs that confirm a prediction | [`confirmation`] |
 //! | those that are under way: one process makes each, and keeps what lets it go on | [`under_way`] |
 //! | how far they are | [`progress`] |
 
-pub mod confirmation;
 pub mod estimate;
 pub mod floor;
 pub mod left_out;

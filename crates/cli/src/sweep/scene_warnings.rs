@@ -19,6 +19,8 @@ const SHOWN: usize = 10;
 struct Kind {
     kind: String,
     first: String,
+    /// Least and largest of each of its numbers; none where texts differ in more than numbers.
+    ranges: Option<Vec<[String; 2]>>,
     runs: usize,
 }
 
@@ -75,6 +77,58 @@ fn without_numbers(text: &str) -> String {
     text.split_whitespace().filter(keeps).collect::<Vec<_>>().join(" ")
 }
 
+/// A word as what is before its number, the number, and what is behind it; none where it has none.
+fn around_number(word: &str) -> Option<[&str; 3]> {
+    let is_digit = |each: char| each.is_ascii_digit();
+    let (start, end) = (word.find(is_digit)?, word.rfind(is_digit)? + 1);
+    let start = if word[..start].ends_with(['-', '+']) { start - 1 } else { start };
+    let number = &word[start..end];
+    number.parse::<f64>().ok().map(|_| [&word[..start], number, &word[end..]])
+}
+
+/// The numbers of a text.
+fn numbers_of(text: &str) -> impl Iterator<Item = String> + '_ {
+    text.split(' ').filter_map(around_number).map(|[_, number, _]| number.to_owned())
+}
+
+/// A text with its numbers replaced.
+fn with_numbers<'a>(text: &str, mut numbers: impl Iterator<Item = String> + 'a) -> String {
+    let replaced = |word: &str| match around_number(word) {
+        Some([before, _, behind]) => format!("{before}{}{behind}", numbers.next().unwrap_or_default()),
+        None => word.to_owned(),
+    };
+    text.split(' ').map(replaced).collect::<Vec<_>>().join(" ")
+}
+
+impl Kind {
+    /// Widens the ranges by the numbers of another text.
+    fn take_in(&mut self, text: &str) {
+        let bare = |text: &str| with_numbers(text, std::iter::repeat("#".to_owned()));
+        if bare(text) != bare(&self.first) {
+            self.ranges = None;
+        }
+        let value = |number: &str| number.parse::<f64>().unwrap_or(f64::NAN);
+        for ([least, largest], number) in self.ranges.iter_mut().flatten().zip(numbers_of(text)) {
+            if value(&number) < value(least) {
+                *least = number;
+            } else if value(&number) > value(largest) {
+                *largest = number;
+            }
+        }
+    }
+
+    /// What is said of all its runs.
+    fn text(&self) -> String {
+        let range = |[least, largest]: &[String; 2]| {
+            if least == largest { least.clone() } else { format!("{least} … {largest}") }
+        };
+        match &self.ranges {
+            Some(ranges) => with_numbers(&self.first, ranges.iter().map(range)),
+            None => format!("{}; this is the first of them, others differ in numbers", self.first),
+        }
+    }
+}
+
 impl SceneWarnings {
     /// Takes in the warnings of one more run.
     pub fn add(&mut self, found: Vec<Found>) {
@@ -85,8 +139,14 @@ impl SceneWarnings {
                 continue;
             }
             match self.kinds.iter_mut().find(|known| known.kind == kind) {
-                Some(known) => known.runs += 1,
-                None => self.kinds.push(Kind { kind: kind.clone(), first: text, runs: 1 }),
+                Some(known) => {
+                    known.runs += 1;
+                    known.take_in(&text);
+                }
+                None => {
+                    let ranges = Some(numbers_of(&text).map(|number| [number.clone(), number]).collect());
+                    self.kinds.push(Kind { kind: kind.clone(), first: text, ranges, runs: 1 });
+                }
             }
             counted.push(kind);
         }
@@ -102,7 +162,7 @@ impl SceneWarnings {
             |runs: usize| if self.looked_at == 1 { String::new() } else { format!("{runs} of {} ", self.looked_at) };
         let shown = self.kinds.iter().take(SHOWN);
         let mut lines: Vec<String> =
-            shown.map(|Kind { first, runs, .. }| format!("{first} (so in {}{what})", of(*runs))).collect();
+            shown.map(|kind| format!("{} (so in {}{what})", kind.text(), of(kind.runs))).collect();
         if self.kinds.len() > SHOWN {
             lines.push(format!("{} more kinds of warnings of {what}", self.kinds.len() - SHOWN));
         }
@@ -127,8 +187,23 @@ mod tests {
         let lines = warnings.lines("runs");
         assert_eq!(
             lines,
-            ["disc.prepare: the patch is only 8.7 times its correlation length of 1.2 mm (so in 2 of 3 runs)"]
+            [
+                "disc.prepare: the patch is only 8.7 times its correlation length of 1.2 mm; this is the first of them, others differ in numbers \
+              (so in 2 of 3 runs)"
+            ]
         );
+    }
+
+    #[test]
+    fn numbers_of_several_runs_are_a_range() {
+        let mut warnings = SceneWarnings::default();
+        for percent in ["10.2", "9.7", "18.0", "11"] {
+            warnings.add(vec![found(&format!("\"area\" has no value: rises by {percent} % in the last 15 s"))]);
+        }
+        let expected = "\"area\" has no value: rises by 9.7 … 18.0 % in the last 15 s (so in 4 of 4 runs)";
+        assert_eq!(warnings.lines("runs"), [expected]);
+        // What has a number in its name is no number.
+        assert_eq!(with_numbers("pm10_2 at -3.5%, (7)", numbers_of("9 8")), "pm10_2 at 9%, (8)");
     }
 
     #[test]

@@ -81,7 +81,7 @@ impl Coefficients {
     pub fn largest_losses(&self) -> [f64; 2] {
         let largest = |own: &Table, below: &Table| {
             let pairs = own.iter().flatten().zip(below.iter().flatten());
-            pairs.map(|(own, below)| own * below.max(1.0)).fold(0.0, f64::max)
+            pairs.map(|(own, below)| most(own, below)).fold(0.0, f64::max)
         };
         [largest(&self.pin, &self.fibre), largest(&self.disc, &self.coating)]
     }
@@ -91,12 +91,41 @@ impl Coefficients {
         self.largest_losses().into_iter().sum()
     }
 
+    /// The largest loss of pin and disc together that each kind of pairs can have.
+    pub fn pair_losses(&self) -> [PairLoss; StatusPair::COUNT] {
+        std::array::from_fn(|pair| {
+            let pin = self.pin[pair].iter().zip(&self.fibre[pair]);
+            let disc = self.disc[pair].iter().zip(&self.coating[pair]);
+            let rows = pin.zip(disc).zip(&self.stiffness[pair]);
+            rows.fold(PairLoss::default(), |largest, ((pin, disc), stiffness)| {
+                let loss = most(pin.0, pin.1) + most(disc.0, disc.1);
+                // Resin without stiffness loses nothing.
+                let per_load = if loss > 0.0 { loss / stiffness } else { 0.0 };
+                PairLoss { per_overlap: largest.per_overlap.max(loss), per_load: largest.per_load.max(per_load) }
+            })
+        })
+    }
+
     /// k A of the softest pair with a plateau of the pin, N/m.
     pub fn least_plateau_stiffness(&self) -> f64 {
         let plateaus = StatusPair::all().filter(|(pin, _)| *pin != Status::Resin);
         let rows = plateaus.flat_map(|(pin, disc)| &self.stiffness[StatusPair::new(pin, disc).index()]);
         rows.copied().fold(f64::INFINITY, f64::min)
     }
+}
+
+/// What is there loses so much per overlap, or what lies below it.
+fn most(own: &f64, below: &f64) -> f64 {
+    own * below.max(1.0)
+}
+
+/// The largest loss of pin and disc together of one kind of pairs.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct PairLoss {
+    /// Per overlap.
+    pub per_overlap: f64,
+    /// Per load of the cell, m/N.
+    pub per_load: f64,
 }
 
 /// κ of a pin cell; 0 for resin, which does not wear by Archard's law.

@@ -256,6 +256,21 @@ impl Contact {
         }
     }
 
+    /// Which kinds of pairs touch, by the sums and the near pairs that the balance was solved with.
+    pub fn touching(&self, sums: &Sums, near: &[NearPair]) -> [bool; StatusPair::COUNT] {
+        let mut touching =
+            std::array::from_fn(|pair| sums.pools.iter().any(|pool| pool.pairs[pair] != PairSums::default()));
+        for near in near.iter().take_while(|near| near.gap < self.displacement()) {
+            touching[usize::from(near.pair)] = true;
+        }
+        touching
+    }
+
+    /// How much of an overlap rounding may make up, m.
+    pub fn rounding(&self) -> f64 {
+        2.0 * self.quantum + 4.0 * f64::EPSILON * self.displacement().abs()
+    }
+
     /// What friction must know of the contact under a load, N.
     pub fn sums(&self, load: f64) -> ContactSums {
         ContactSums { load, area: self.area(), statuses: self.statuses }
@@ -291,7 +306,7 @@ impl Contact {
         let mut near = all.near;
         near.subtract(less.near);
         let low = float(all.low - less.low) * self.quantum + float(all.rate - less.rate) * self.above;
-        low * weights.pin_loss[PLATEAU].unit() + weights.volume.value(near)
+        low * weights.pin_loss[PLATEAU].unit() + weights.raw.value(near)
     }
 
     /// What the rounding of the overlaps may hide of the load, N.

@@ -1,6 +1,6 @@
 //! Debris balance: what wears, what is captured, compacted, returned and emitted (model 4L and 4P).
 
-use crate::engine::coefficients::Coefficients;
+use crate::engine::coefficients::{Coefficients, PairLoss, StatusPair};
 use crate::engine::contact::Contact;
 use crate::engine::exact::float;
 use crate::engine::lanes::{Chunk, LANES};
@@ -103,6 +103,8 @@ pub struct Debris {
     area_unit: f64,
     /// The largest loss of pin or disc per overlap.
     largest_loss: f64,
+    /// Of every kind of pairs, where the kinds are so unlike that one may hide the losses of another; else none.
+    unlike: Option<[PairLoss; StatusPair::COUNT]>,
     /// What of the loss of a pair of plateaus may be compacted, per overlap.
     largest_deposit: f64,
     /// M, m³: one pool, or one per row.
@@ -142,6 +144,7 @@ impl Debris {
             pool_area: (0..weights.pools()).map(area_of).collect(),
             area_unit: weights.area.unit(),
             largest_loss: largest_loss(coefficients),
+            unlike: unlike(coefficients),
             largest_deposit: rules.captured_fraction * coefficients.largest_loss(),
             pools: vec![RunningSum::default(); weights.pools()],
             pool_share: vec![0.0; weights.pools()],
@@ -155,6 +158,7 @@ impl Debris {
     /// Takes over the coefficients of another acceleration.
     pub fn set_coefficients(&mut self, coefficients: &Coefficients) {
         self.largest_loss = largest_loss(coefficients);
+        self.unlike = unlike(coefficients);
         self.largest_deposit = self.captured_fraction * coefficients.largest_loss();
     }
 
@@ -168,14 +172,34 @@ impl Debris {
         (self.pools, self.totals) = (pools, totals);
     }
 
-    /// Makes ready for the losses and deposits of a step in whose contact no overlap is more than `largest_overlap` (m).
-    pub fn prepare(&mut self, contact: &Contact, largest_overlap: f64) {
+    /// Makes ready for the losses and deposits of a step in whose contact no overlap is more than `largest_overlap` (m),
+    /// and which pairs of these kinds touch.
+    pub fn prepare(
+        &mut self,
+        contact: &Contact,
+        largest_overlap: f64,
+        touching: impl FnOnce() -> [bool; StatusPair::COUNT],
+    ) {
+        let [mut loss, mut deposit] = [self.largest_loss, self.largest_deposit].map(|loss| loss * largest_overlap);
+        if let Some(losses) = &self.unlike {
+            // No cell carries more than all; of an overlap that is less than its rounding, that is left.
+            let overlap = |loss: &PairLoss| {
+                (2.0 * loss.per_load / loss.per_overlap * contact.load() + contact.rounding()).min(largest_overlap)
+            };
+            let of_kind = |(loss, touches): (&PairLoss, bool)| {
+                if touches && loss.per_overlap > 0.0 { loss.per_overlap * overlap(loss) } else { 0.0 }
+            };
+            let largest = losses.iter().zip(touching()).map(of_kind).fold(0.0, f64::max);
+            // Else sums keep the quanta that they have always had.
+            let closer = |usual: f64, other: f64| if other < usual / UNLIKE { other } else { usual };
+            (loss, deposit) = (closer(loss, largest), closer(deposit, self.captured_fraction * largest));
+        }
         if self.needs.distinct {
-            let coarse = Quantum::of(self.largest_loss * largest_overlap, self.terms);
+            let coarse = Quantum::of(loss, self.terms);
             self.loss_quanta = [coarse, Quantum::of(coarse.value(), self.terms)];
         }
         if self.needs.local {
-            self.deposit_quantum = Quantum::of(self.largest_deposit * largest_overlap, self.terms);
+            self.deposit_quantum = Quantum::of(deposit, self.terms);
         } else if self.needs.forms {
             self.spread(contact);
         }
@@ -302,6 +326,17 @@ impl Debris {
     pub fn balance_residual(&self, lost: f64) -> f64 {
         self.totals.balance_residual(self.pool(), lost)
     }
+}
+
+/// By how much a bound of losses must be closer than the usual one to take its place.
+const UNLIKE: f64 = (1 << 20) as f64;
+
+/// The losses of all kinds of pairs, if some kind loses so much more per overlap than another that it could hide it.
+fn unlike(coefficients: &Coefficients) -> Option<[PairLoss; StatusPair::COUNT]> {
+    let losses = coefficients.pair_losses();
+    let lost = || losses.iter().map(|loss| loss.per_overlap).filter(|loss| *loss > 0.0);
+    let [least, most] = [lost().fold(f64::INFINITY, f64::min), lost().fold(0.0, f64::max)];
+    (most > UNLIKE * least).then_some(losses)
 }
 
 /// The largest loss of pin or disc per overlap.

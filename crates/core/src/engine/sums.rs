@@ -31,6 +31,8 @@ pub struct RowWeights {
     pub pairs: &'static [usize],
     /// Of which the volumes that few cells of a step move are multiples.
     pub volume: Unit,
+    /// Of which raw losses of pairs are multiples that begin to touch within a bracket.
+    pub raw: Unit,
     /// How far the initial heights of pin and disc are apart from the lowest to the highest of each, m.
     pub relief: f64,
     pub needs: Needs,
@@ -45,11 +47,17 @@ impl RowWeights {
     pub fn new(parameters: &Parameters, coefficients: &Coefficients, own: Range<usize>, relief: f64) -> Self {
         let mesh = &parameters.mesh;
         let needs = Needs::of(parameters);
+        let losses = coefficients.pair_losses().map(|loss| loss.per_load);
+        let area = mesh.area().iter().copied().fold(0.0, f64::max);
+        // About the largest volume that a step wears off, m³: what a cell loses that carries all the load.
+        let worn = losses.into_iter().fold(0.0, f64::max) * parameters.largest_load() * area;
+        let finest = if worn > 0.0 { FINEST_VOLUME.min(libm::ilogb(worn) - RAW_BITS) } else { FINEST_VOLUME };
         let by_area = |table: &Table| table.each_ref().map(|rows| Weights::new(&times_area(rows, mesh)));
         Self {
             stiffness: coefficients.stiffness.each_ref().map(|rows| Weights::new(rows)),
             largest_stiffness: coefficients.stiffness.each_ref().map(|rows| rows.iter().copied().fold(0.0, f64::max)),
-            volume: Unit::new(FINEST_VOLUME, largest_volume(parameters, coefficients, relief)),
+            volume: Unit::new(FINEST_VOLUME, mesh.pin_area() * (relief + parameters.materials.wear_height) + worn),
+            raw: Unit::new(finest, worn),
             relief,
             area: Weights::new(mesh.area()),
             pin_loss: by_area(&coefficients.pin),
@@ -91,7 +99,7 @@ impl RowWeights {
 
     /// Raw volume that a plateau of the pin loses that begins to touch within a bracket, where all have the same properties.
     pub fn near_loss(&self, row: usize, overlap: f64) -> ExactSum {
-        self.volume.exact(self.pin_loss[PLATEAU].value(row) * overlap)
+        self.raw.exact(self.pin_loss[PLATEAU].value(row) * overlap)
     }
 
     /// The pool of a row.
@@ -103,14 +111,8 @@ impl RowWeights {
 /// Exponent of the unit of volumes that few cells of a step move, where that of a scene need not be larger.
 const FINEST_VOLUME: i32 = -140;
 
-/// About the largest volume, m³, that a step moves: the relief and the wear height in every cell of the pin, and what the
-/// raw losses of plateaus that carry all the load add up to.
-fn largest_volume(parameters: &Parameters, coefficients: &Coefficients, relief: f64) -> f64 {
-    let Parameters { mesh, materials, .. } = parameters;
-    let overlap = parameters.largest_load() / coefficients.least_plateau_stiffness();
-    let area = mesh.area().iter().copied().fold(0.0, f64::max);
-    mesh.pin_area() * (relief + materials.wear_height) + coefficients.largest_loss() * overlap * area
-}
+/// Bits of what a step wears off below which the raw losses of few cells may be cut.
+const RAW_BITS: i32 = 64;
 
 fn times_area(rows: &[f64], mesh: &Mesh) -> Vec<f64> {
     rows.iter().zip(mesh.area()).map(|(value, area)| value * area).collect()

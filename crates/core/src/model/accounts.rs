@@ -8,7 +8,7 @@ use std::sync::Arc;
 use serde::{Deserialize, Serialize};
 
 use crate::model::clock::StepOperation;
-use crate::model::cycle::{Cycle, Kind};
+use crate::model::cycle::{Cycle, Kind, Pause};
 use crate::model::emission::{Emission, EmissionAccount, EmissionReport};
 use crate::model::friction::{ContactSums, Friction, FrictionAccount, FrictionReport};
 use crate::model::heat::account::{HeatAccount, HeatModel, HeatReport};
@@ -157,23 +157,10 @@ impl Accounts {
     /// What is reported at a time (s), after so many steps of this angle (rad): their end, or a time in a pause before
     /// or after it.
     pub fn report(&self, steps: u64, angle: f64, time: f64, pause: Option<Kind>) -> AccountsReport {
-        let (Some(cycle), Some(model)) = (&self.cycle, &self.heat) else { return self.as_it_is(pause) };
-        if !self.state.pause_due && pause.is_none() {
+        if self.heat.is_none() || (!self.state.pause_due && pause.is_none()) {
             return self.as_it_is(pause);
         }
-        let mut then = self.clone();
-        if !self.state.pause_due && then.state.heat.as_ref().is_some_and(|heat| heat.steps() > 0) {
-            then.end_interval();
-        }
-        let mut pauses = if self.state.pause_due { cycle.pauses_after(steps, angle) } else { Vec::new() };
-        if pause.is_some() {
-            // In the last pause of a run the step around it is not taken any more.
-            pauses.extend(cycle.pauses_after(steps + 1, angle));
-        }
-        if let Some(heat) = &mut then.state.heat {
-            let _ = pauses.iter().all(|pause| heat.pause(model, pause, time));
-        }
-        then.as_it_is(pause)
+        Resting::new(self.clone(), steps, angle, pause).report(time, pause)
     }
 
     fn as_it_is(&self, pause: Option<Kind>) -> AccountsReport {
@@ -187,5 +174,52 @@ impl Accounts {
             heat: heat.as_ref().zip(self.heat.as_ref()).map(|(heat, model)| heat.report(model)),
             emission: emission.as_ref().zip(self.emission.as_ref()).map(|(account, emission)| account.report(emission)),
         }
+    }
+}
+
+/// The accounts at one moment after the other in which the pin may rest: what follows the same step.
+///
+/// A pause may have very many rows, each with samples, so the chain takes each row once.
+#[derive(Debug, Clone)]
+pub struct Resting {
+    /// As they are when the first `over` pauses are.
+    accounts: Accounts,
+    /// All that may come.
+    pauses: Vec<Pause>,
+    over: usize,
+}
+
+impl Resting {
+    /// After so many steps of this angle (rad), in a `pause` or at the end of the last step.
+    pub fn new(mut accounts: Accounts, steps: u64, angle: f64, pause: Option<Kind>) -> Self {
+        let mut pauses = Vec::new();
+        if let (Some(cycle), true) = (accounts.cycle.clone(), accounts.heat.is_some()) {
+            if accounts.state.pause_due {
+                pauses = cycle.pauses_after(steps, angle);
+            }
+            if pause.is_some() {
+                if !accounts.state.pause_due && accounts.state.heat.as_ref().is_some_and(|heat| heat.steps() > 0) {
+                    accounts.end_interval();
+                }
+                // In the last pause of a run the step around it is not taken any more.
+                pauses.extend(cycle.pauses_after(steps + 1, angle));
+            }
+        }
+        Self { accounts, pauses, over: 0 }
+    }
+
+    /// What is reported at a time (s), not before that of the last report.
+    pub fn report(&mut self, time: f64, pause: Option<Kind>) -> AccountsReport {
+        let Self { accounts, pauses, over } = self;
+        while let (Some(next), Some(model)) = (pauses.get(*over), &accounts.heat) {
+            let before = accounts.state.heat.clone();
+            if !accounts.state.heat.as_mut().is_some_and(|heat| heat.pause(model, next, time)) {
+                let report = accounts.as_it_is(pause);
+                accounts.state.heat = before;
+                return report;
+            }
+            *over += 1;
+        }
+        accounts.as_it_is(pause)
     }
 }

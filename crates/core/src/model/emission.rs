@@ -74,12 +74,12 @@ impl EmissionAccount {
 
     /// What is reported after the last step.
     pub fn report(&self, emission: &Emission) -> EmissionReport {
-        let mass = self.mass.value();
+        let mass = self.mass.amount();
         EmissionReport {
             mass,
             pm10: emission.pm10_fraction * mass,
             pm25: emission.pm25_fraction * mass,
-            number: self.number.value(),
+            number: self.number.amount(),
         }
     }
 }

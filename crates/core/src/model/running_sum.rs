@@ -18,6 +18,13 @@ impl RunningSum {
         self.sum = sum;
     }
 
+    /// The sum so far of what is never less than nothing: where its terms are differences, rounding may make it so.
+    pub fn amount(&self) -> f64 {
+        let value = self.value();
+        // What is no number stays so.
+        if value < 0.0 { 0.0 } else { value }
+    }
+
     /// The sum so far.
     pub fn value(&self) -> f64 {
         self.sum + self.compensation

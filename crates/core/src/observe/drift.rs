@@ -2,12 +2,18 @@
 
 use serde::Serialize;
 
-use super::window_mean::{Cumulative, LEAST_PARTS, WindowMean, error_of_mean};
+use super::running_in::RUN_IN;
+use super::window_mean::{Cumulative, LEAST_PARTS, ROUNDING, WindowMean, error_of_mean};
 
 /// Standard errors from which on a change is not taken for chance: 2.5 times in a hundred in either direction.
 const BEYOND_CHANCE: f64 = 2.0;
-/// A change of this part of the mean is of interest: a run that may hide a larger one tells nothing.
-pub(super) const OF_INTEREST: f64 = 0.05;
+/// Parts of what is missing at a fraction of the last value, and with no fraction a tenth: a change of less than the first counts as none,
+/// and a run that may hide a larger one than the second tells nothing.
+const NEGLIGIBLE: f64 = 0.1;
+const OF_INTEREST: f64 = 0.5;
+/// What is missing where nothing else is asked: at the fraction of the running-in time of a summary. So 1 % is negligible and 5 % is of
+/// interest.
+const MISSING: f64 = 1.0 - RUN_IN;
 /// Pulses in a quarter of a run from which on two quarters can be compared: with one or less the change is that of a pulse, and no
 /// standard error tells that.
 pub const LEAST_PULSES: f64 = 3.0;
@@ -35,7 +41,7 @@ pub enum Trend {
     Rises,
     /// It falls by more than chance explains.
     Falls,
-    /// It changes by less than is of interest.
+    /// It changes by less than is of interest, and by no more than chance or next to nothing.
     Steady,
     /// Chance may hide a change that is of interest.
     Unknown,
@@ -67,12 +73,19 @@ impl Drift {
 
     /// What the change says.
     pub fn trend(&self) -> Trend {
+        self.trend_beside(MISSING)
+    }
+
+    /// What the change says where this part of the last value is missing, or more than in [`trend`](Self::trend): less is finer.
+    pub(super) fn trend_beside(&self, missing: f64) -> Trend {
+        let missing = missing.min(MISSING);
         let chance = BEYOND_CHANCE * self.standard_error;
+        let is_negligible = self.change.abs() <= NEGLIGIBLE * missing * (1.0 + ROUNDING);
         match self.change {
             _ if self.pulses.is_some_and(|pulses| pulses < LEAST_PULSES) => Trend::TooShort,
-            change if change > chance => Trend::Rises,
-            change if change < -chance => Trend::Falls,
-            change if change.abs() + chance <= OF_INTEREST => Trend::Steady,
+            change if change > chance && !is_negligible => Trend::Rises,
+            change if change < -chance && !is_negligible => Trend::Falls,
+            change if change.abs() + chance <= OF_INTEREST * missing * (1.0 + ROUNDING) => Trend::Steady,
             _ => Trend::Unknown,
         }
     }
@@ -157,6 +170,8 @@ mod tests {
             [Trend::Steady, Trend::Unknown, Trend::Unknown]
         );
         assert_eq!([of(0.05, 0.02), of(-0.05, 0.02)], [Trend::Rises, Trend::Falls]);
+        // A hundredth is next to nothing, however well it is known.
+        assert_eq!([of(0.01, 0.001), of(-0.01, 0.001), of(0.011, 0.001)], [Trend::Steady, Trend::Steady, Trend::Rises]);
     }
 
     #[test]

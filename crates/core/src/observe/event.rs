@@ -9,6 +9,7 @@ use super::schedule::Moment;
 use crate::model::accounts::AccountsReport;
 use crate::model::cycle::{Cycle, Event};
 use crate::model::parameters::Parameters;
+use crate::model::running_sum::RunningSum;
 
 /// What is reported of an event, in SI units.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -248,6 +249,7 @@ impl EventLog {
             self.progress.ended.retain(|ended| ended.step == last);
             self.progress.ended.push(Ended { begun, step: last, sums });
             let heat = sample.accounts.heat.filter(|_| last > before);
+            let left = |sum: fn(&Sums) -> f64| RunningSum::from(sum(&sums) - sum(&begun.sums)).amount();
             self.progress.records.push(EventRecord {
                 start: event.start.time,
                 end: event.end.time,
@@ -255,15 +257,15 @@ impl EventLog {
                 final_speed: event.end.speed,
                 distance,
                 worn: sums.worn - begun.sums.worn,
-                emitted: sums.emitted - begun.sums.emitted,
+                emitted: left(|sums| sums.emitted),
                 contact_area_start: begun.contact_area.unwrap_or(f64::NAN),
                 contact_area_end: if last > before { sample.contact_area } else { f64::NAN },
                 work: sums.work - begun.sums.work,
                 friction_coefficient: (sums.work - begun.sums.work) / (sums.load_work - begun.sums.load_work),
                 temperature_start: begun.temperature.unwrap_or(f64::NAN),
                 temperature_peak: heat.map_or(f64::NAN, |heat| heat.event_peak),
-                pm10_mass: sums.pm10_mass - begun.sums.pm10_mass,
-                particle_number: sums.particle_number - begun.sums.particle_number,
+                pm10_mass: left(|sums| sums.pm10_mass),
+                particle_number: left(|sums| sums.particle_number),
             });
         }
     }

@@ -4,13 +4,13 @@ use super::extra::Extra;
 use super::quantity::Quantity;
 
 /// Load, speed and the time in contact; [`Cycle::operation_at`](crate::model::cycle::Cycle::operation_at) and
-/// [`Cycle::loaded_until`](crate::model::cycle::Cycle::loaded_until) give their values.
+/// [`Cycle::contact_time_until`](crate::model::cycle::Cycle::contact_time_until) give their values.
 pub const CYCLE: Extra = Extra {
     name: "cycle",
     quantities: &[
         Quantity::extra("normal_force", "N", "normal force on the simulated pin in the step, mean over its angle"),
         Quantity::extra("rotational_speed", "rad s-1", "rotational speed of the disc at the end of the step"),
-        Quantity::extra("contact_time", "s", "time in which the pin was not lifted"),
+        Quantity::extra("contact_time", "s", "time since the first step in which the pin was not lifted"),
     ],
     request: None,
     needs: "a cycle, table [operation.cycle]",

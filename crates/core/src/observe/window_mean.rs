@@ -12,9 +12,9 @@ const LAST_PART: f64 = 0.1;
 pub const LEAST_REVOLUTIONS: f64 = 10.0;
 /// Parts of a window from which a standard error is told, at least: that of n independent values is itself off by a part of
 /// 1/√(2(n−1)), a third here.
-pub(super) const LEAST_PARTS: usize = 5;
+pub const LEAST_PARTS: usize = 5;
 /// Rounding of counts of revolutions.
-const ROUNDING: f64 = 1e-9;
+pub(super) const ROUNDING: f64 = 1e-9;
 
 /// What the samples of a run tell of a quantity, cumulatively, each as long as the others.
 #[derive(Debug, Clone, Copy)]

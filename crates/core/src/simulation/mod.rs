@@ -16,6 +16,7 @@ pub use crate::engine::execution::{Engine, Execution};
 pub use crate::engine::history::Course;
 #[cfg(feature = "mpi")]
 use crate::engine::kernel::InstructionSet;
+use crate::model::accounts::Resting;
 use crate::model::mesh::Mesh;
 use crate::model::parameters::Parameters;
 use crate::model::state::{Base, InitialSurfaces};
@@ -30,6 +31,17 @@ pub struct Simulation {
     execution: Execution,
     workers: Workers,
     contact: Option<LastContact>,
+    resting: Option<LastMoment>,
+}
+
+/// The accounts at the moment that was asked for last: those after it may follow from them.
+#[derive(Debug)]
+struct LastMoment {
+    /// Steps done, the step that the moment belongs to, and whether it is in a pause.
+    of: (u64, u64, bool),
+    /// When it is, s.
+    until: f64,
+    accounts: Resting,
 }
 
 impl Simulation {
@@ -70,7 +82,7 @@ impl Simulation {
         execution.workers = execution.workers.clamp(1, most);
         let (parameters, pin_base) = (Arc::new(parameters), surfaces.pin_base.clone());
         let workers = Workers::start(&parameters, surfaces, execution, columns)?;
-        Ok(Self { parameters, pin_base, execution, workers, contact: None })
+        Ok(Self { parameters, pin_base, execution, workers, contact: None, resting: None })
     }
 
     /// The same as [`Simulation::new`] on the ranks of an MPI job, of which this process is one (feature `mpi`).
@@ -91,7 +103,7 @@ impl Simulation {
         let parameters = Arc::new(parameters);
         let execution = Execution { workers: communicator.size(), instructions, ..Execution::default() };
         let workers = Workers::on_ranks(&parameters, &surfaces, execution, communicator);
-        Ok(Self { parameters, pin_base: surfaces.pin_base, execution, workers, contact: None })
+        Ok(Self { parameters, pin_base: surfaces.pin_base, execution, workers, contact: None, resting: None })
     }
 
     /// One step: see the table in [`crate`].
@@ -125,6 +137,7 @@ impl Simulation {
     /// As [`Simulation::advance`].
     pub fn accelerate(&mut self, acceleration: f64) -> Result<(), SimulationError> {
         self.workers.accelerate(acceleration)?;
+        self.resting = None;
         Arc::make_mut(&mut self.parameters).time_acceleration = acceleration;
         Ok(())
     }
@@ -141,6 +154,7 @@ impl Simulation {
             return Err(SimulationError::OtherState { what });
         }
         self.workers.restore(checkpoint)?;
+        self.resting = None;
         self.contact = checkpoint.contact.clone();
         Arc::make_mut(&mut self.parameters).time_acceleration = checkpoint.memory.time_acceleration;
         Ok(())

@@ -1,10 +1,10 @@
 //! What a simulation is like between two steps: samples, maps, surfaces, checkpoints.
 
-use super::Simulation;
+use super::{LastMoment, Simulation};
 use crate::engine::checkpoint::{Checkpoint, LastContact};
 use crate::engine::error::SimulationError;
 use crate::engine::history::Course;
-use crate::model::accounts::{Accounts, AccountsReport};
+use crate::model::accounts::{AccountsReport, Resting};
 use crate::model::cycle::Kind;
 use crate::model::heat::account::HeatModel;
 use crate::model::heat::map;
@@ -118,10 +118,18 @@ impl Simulation {
         if parameters.friction.is_none() && parameters.emission.is_none() {
             return Ok(AccountsReport::default());
         }
-        let accounts = self.workers.accounts(parameters)?;
-        let report =
-            |accounts: &Accounts| accounts.report(moment.step, parameters.step_angle(), moment.time, moment.pause);
-        Ok(accounts.as_ref().map(report).unwrap_or_default())
+        let of = (self.steps_done(), moment.step, moment.pause.is_some());
+        let accounts = match self.resting.take() {
+            Some(resting) if resting.of == of && resting.until <= moment.time => Some(resting.accounts),
+            _ => {
+                let after = |accounts| Resting::new(accounts, moment.step, parameters.step_angle(), moment.pause);
+                self.workers.accounts(parameters)?.map(after)
+            }
+        };
+        let Some(mut accounts) = accounts else { return Ok(AccountsReport::default()) };
+        let report = accounts.report(moment.time, moment.pause);
+        self.resting = Some(LastMoment { of, until: moment.time, accounts });
+        Ok(report)
     }
 
     /// The maps asked for, as they are now. Cells beyond the pin's outline are NaN, and have the status [`ABSENT`].

@@ -218,7 +218,7 @@ impl Plain {
             worn_resin: totals.worn_resin.value(),
             worn_disc: totals.worn_disc.value(),
             pool: pool.max(0.0),
-            emitted: totals.emitted.value(),
+            emitted: totals.emitted.amount(),
             deposited_pin: totals.deposited_pin.value(),
             deposited_disc: totals.deposited_disc.value(),
             returned: totals.returned.value(),

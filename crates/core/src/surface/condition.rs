@@ -1,6 +1,7 @@
 //! What is seen of a measured patch before anything is done to it: which form it has, whether there are spikes, how rough it is.
 
-use super::level::Level;
+use super::level::{Level, level, rms};
+use super::missing::remove_outliers;
 use super::spikes::Spikes;
 
 /// Rms height that is left of a bowed patch, at most, where a form of second order is taken out in place of a plane. Of fifty
@@ -26,7 +27,9 @@ impl Condition {
     pub fn of(heights: &[f64], rows: usize) -> Option<Self> {
         let (spikes, plane) = Spikes::of(heights.to_vec(), rows, Level::Plane)?;
         let (beside_bow, quadratic) = Spikes::of(heights.to_vec(), rows, Level::Quadratic)?;
-        let is_bowed = quadratic > 0.0 && quadratic < LEFT_OF_BOWED * plane;
+        let is_bowed = quadratic > 0.0
+            && quadratic < LEFT_OF_BOWED * plane
+            && is_in_every_quarter(heights, rows, beside_bow.is_some());
         let (form, spikes) = if is_bowed { (Level::Quadratic, beside_bow) } else { (Level::Plane, spikes) };
         Some(Self { form, rms_of_forms: [plane, quadratic], spikes })
     }
@@ -35,6 +38,33 @@ impl Condition {
     pub fn rms_height(&self) -> f64 {
         self.rms_of_forms[usize::from(self.form == Level::Quadratic)]
     }
+}
+
+/// Whether the form of second order of a patch is one of each of its quarters, too: whether these are flatter without it, a plane taken
+/// out of each. A quarter that has less than half of the curvature is not, and a groove or a wave has its curvature in some and the
+/// opposite one in others.
+fn is_in_every_quarter(heights: &[f64], rows: usize, has_spikes: bool) -> bool {
+    let mut beside = heights.to_vec();
+    level(&mut beside, rows, Level::Quadratic, false);
+    if has_spikes {
+        remove_outliers(&mut beside, Spikes::LIMIT);
+        level(&mut beside, rows, Level::Quadratic, false);
+    }
+    let halves = |count: usize| [0..count / 2, count / 2..count];
+    let quarters =
+        halves(heights.len() / rows).into_iter().flat_map(|columns| halves(rows).map(|part| (columns.clone(), part)));
+    quarters.into_iter().all(|(columns, part)| {
+        let left = |whole: &[f64]| {
+            let points = columns.clone().flat_map(|column| part.clone().map(move |row| column * rows + row));
+            let seen = points.map(|point| if beside[point].is_nan() { f64::NAN } else { whole[point] });
+            let mut seen: Vec<f64> = seen.collect();
+            level(&mut seen, part.len(), Level::Plane, false);
+            rms(&seen)
+        };
+        let (with, without) = (left(heights), left(&beside));
+        // Of a quarter without heights nothing is known.
+        without < with || with.is_nan()
+    })
 }
 
 #[cfg(test)]
@@ -70,6 +100,37 @@ mod tests {
             assert!(near(condition.rms_of_forms[0], plane * 1e-6), "{condition:?}");
             assert!(near(condition.rms_height(), 2e-6), "{condition:?}");
         }
+    }
+
+    #[test]
+    fn a_groove_is_no_bow() {
+        // A shape in um from -1 to 1 in x and y, in rough heights of 1 um. Rms by numpy with the plane and second order taken out.
+        let check = |shape: &dyn Fn(f64, f64) -> f64, rms: [f64; 2], form: Level| {
+            let mut random = Random::new(3, Stream::DiscHeight);
+            let place = |number: usize| number as f64 / 49.5 - 1.0;
+            let height = |point: usize| 1e-6 * (shape(place(point / 100), place(point % 100)) + random.normal());
+            let condition = Condition::of(&(0..10_000).map(height).collect::<Vec<_>>(), 100).unwrap();
+            let is_near =
+                condition.rms_of_forms.iter().zip(rms).all(|(found, rms)| (found / rms * 1e6 - 1.0).abs() < 0.03);
+            assert!(is_near && condition.form == form, "expected {rms:?} um and {form:?}: {condition:?}");
+        };
+        // Grooves of 8 um at c with the shape of a Gauss curve, of w from the middle to 1/e.
+        for (c, w, rms) in [
+            (0.9, 0.3, [1.997, 1.306]),
+            (0.0, 0.3, [2.912, 2.075]),
+            (0.0, 0.8, [2.317, 1.076]),
+            (0.3, 0.5, [2.511, 1.852]),
+        ] {
+            check(&|x, _| -8.0 * libm::exp(-((x - c) / w).powi(2)), rms, Level::Plane);
+        }
+        check(&|x, y| -8.0 * libm::exp(-0.5 * ((x + y) / 0.5).powi(2)), [3.048, 1.794], Level::Plane);
+        for (waves, rms) in [(1.0, [2.355, 1.168]), (1.5, [2.249, 1.915])] {
+            check(&|x, _| 3.0 * libm::cos(waves * std::f64::consts::PI * x), rms, Level::Plane);
+        }
+        // Forms, also where they are lower than the roughness.
+        check(&|x, _| 3.0 * x * x, [1.354, 1.0], Level::Quadratic);
+        check(&|x, y| 2.0 * (x * x + y * y), [1.319, 1.0], Level::Quadratic);
+        check(&|x, y| 3.0 * x * y, [1.429, 1.0], Level::Quadratic);
     }
 
     #[test]

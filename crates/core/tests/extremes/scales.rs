@@ -227,5 +227,14 @@ fn wear() -> Vec<Case> {
         parameters.materials.disc_secondary.specific_wear_rate = 10.0_f64.powi(decades);
         case(format!("build-up of the disc wears by 1e{decades}/Pa"), parameters)
     };
-    [(-12..=8).step_by(4).map(number).collect::<Vec<_>>(), (-24..=-4).step_by(4).map(disc).collect()].concat()
+    let tiny = |decades: i32| {
+        let mut parameters = usual();
+        parameters.materials.pin_primary.specific_wear_rate = 10.0_f64.powi(decades);
+        parameters.materials.pin_secondary = parameters.materials.pin_primary;
+        parameters.materials.disc_secondary = parameters.materials.disc_primary;
+        case(format!("the pin wears by 1e{decades}/Pa"), parameters)
+    };
+    let tiny = [-60, -35, -24].map(tiny);
+    [tiny.to_vec(), (-12..=8).step_by(4).map(number).collect::<Vec<_>>(), (-24..=-4).step_by(4).map(disc).collect()]
+        .concat()
 }

@@ -2,9 +2,12 @@
 //! is interrupted changes no bit of it.
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
 
+use super::expected::Expected;
 use crate::scenes::{few_or_all, random_scene, random_surfaces};
-use plateau_core::model::cycle::Kind;
+use plateau_core::model::cycle::{Cycle, Interpolation, Kind, Node};
 use plateau_core::model::parameters::{DebrisRule, Parameters};
 use plateau_core::observe::dissipation::CONTACT_TEMPERATURE;
 use plateau_core::observe::schedule::{End, Moment, SampleEvery, Schedule};
@@ -155,4 +158,43 @@ fn the_engine_agrees_with_the_plain_model_in_pauses_too() {
         }
     }
     assert!(pauses > 50, "{pauses}");
+}
+
+#[test]
+fn samples_in_a_pause_of_very_many_rows_take_each_row_once() {
+    // Lifted in rows of 1 s each. To take all rows before it again for every sample would be 10 sub-steps for each of 200
+    // million pairs of rows: minutes.
+    const ROWS: u32 = 20_000;
+    let constant = super::expected::parameters(super::thermal(), None);
+    let active = 30.0 * constant.step_time();
+    let (load, speed) = (constant.normal_force, constant.angular_velocity);
+    let lifted = (0..ROWS).map(|row| Node::new(active + f64::from(row), 0.0, speed));
+    let end = [active + f64::from(ROWS), 2.0 * active + f64::from(ROWS)].map(|time| Node::new(time, load, speed));
+    let nodes: Vec<Node> = [Node::new(0.0, load, speed)].into_iter().chain(lifted).chain(end).collect();
+    let cycle = Arc::new(Cycle::new(&nodes, Interpolation::Hold, 1).unwrap());
+    let parameters = Parameters { cycle: Some(cycle), ..constant };
+    let mut expected = Expected::new(&parameters);
+    // Three revolutions of ten steps.
+    (0..3).for_each(|_| expected.interval(active / 3.0, load, speed, 1.0));
+    let mut simulation = start(&parameters, 1, Execution::default());
+    simulation.advance_to(30).unwrap();
+    let (begin, mut first) = (Instant::now(), None);
+    for row in 1..=ROWS {
+        let time = active + f64::from(row) - 0.5;
+        let moment = Moment { step: 30, time, pause: Some(Kind::Lifted), sample: true, maps: false };
+        simulation.keep_contact().unwrap();
+        let sample = simulation.sample_at(&moment, &[]).unwrap();
+        first.get_or_insert_with(|| format!("{sample:?}"));
+        if row % 1000 == 1 {
+            // Ten sub-steps for each row before, five of this one.
+            let mut then = expected.clone();
+            then.pause(1.0, 5, Kind::Lifted);
+            assert!(then.agrees(&sample.accounts), "row {row}: {:?}", sample.accounts);
+        }
+        expected.pause(1.0, 10, Kind::Lifted);
+    }
+    assert!(begin.elapsed() < Duration::from_secs(30), "{:?}", begin.elapsed());
+    // A moment before the last one is told of as it was then.
+    let moment = Moment { step: 30, time: active + 0.5, pause: Some(Kind::Lifted), sample: true, maps: false };
+    assert_eq!(Some(format!("{:?}", simulation.sample_at(&moment, &[]).unwrap())), first);
 }

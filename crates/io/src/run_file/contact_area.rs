@@ -4,22 +4,36 @@ use std::f64::consts::TAU;
 
 use plateau_core::observe::drift::Drift;
 use plateau_core::observe::pulse::pulse_time;
-use plateau_core::observe::running_in::{NotDefined, RUN_IN, time_to};
-use plateau_core::observe::window_mean::{Cumulative, WindowMean, last_tenth};
+use plateau_core::observe::running_in::{NotDefined, RUN_IN, time_to, time_to_in_contact};
+use plateau_core::observe::window_mean::{Cumulative, LEAST_PARTS, WindowMean, last_tenth};
+use thiserror::Error;
 
 use super::{ReadError, RunFile};
 use crate::scene;
 
-/// What the contact area of a run was at its end; nothing of it where that cannot be told.
-#[derive(Debug, Clone, Copy, Default)]
+/// What the contact area of a run was at its end.
+#[derive(Debug, Clone, Copy)]
 pub struct ContactArea {
     /// The mean over the last tenth of the run, m², as far as it is recorded: see [`last_tenth`]. Of a run with a cycle over the time
     /// in contact.
     pub last_tenth: Option<WindowMean>,
-    /// What the mean changed by in the second half of the run; none of a run with a cycle, whose contact area follows load and speed.
-    pub drift: Option<Drift>,
-    /// When it has come to 90 % of its value at the end, s; none of a run with a cycle.
-    pub running_in: Option<Result<f64, NotDefined>>,
+    /// What the mean changed by in the second half of the run, or why that is not told.
+    pub drift: Result<Drift, NoDrift>,
+    /// When it has come to 90 % of its value at the end, s, or why that is not defined. Of a run with a cycle over the time in contact.
+    pub running_in: Result<f64, NotDefined>,
+}
+
+/// Why it is not told whether a run is still running in.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
+pub enum NoDrift {
+    /// The contact area follows load and speed.
+    #[error("cannot be told: with a cycle the contact area follows load and speed")]
+    Cycle,
+    /// There is nothing to compare.
+    #[error(
+        "cannot be told: too few samples or simulated revolutions; {LEAST_PARTS} in each quarter of the second half are needed"
+    )]
+    TooShort,
 }
 
 impl RunFile {
@@ -28,21 +42,28 @@ impl RunFile {
     /// # Errors
     /// [`ReadError::Damaged`] when a series cannot be read.
     pub fn contact_area(&self) -> Result<ContactArea, ReadError> {
-        let Some(integral) = self.values("contact_area_integral")? else { return Ok(ContactArea::default()) };
+        let integral = self.values("contact_area_integral")?.unwrap_or_default();
+        // Without the integral there are no samples of it.
+        let time = if integral.is_empty() { &[] } else { self.time() };
         let revolutions = self.revolutions()?.unwrap_or_default();
-        let samples = Cumulative { time: self.time(), integral: &integral, revolutions: &revolutions };
-        let has_cycle = self.scene().get("operation").is_some_and(|operation| operation.get("cycle").is_some());
-        let (drift, running_in) = match has_cycle {
-            true => (None, None),
-            false => (Drift::of(&samples, self.pulse_time()), Some(time_to(RUN_IN, &samples))),
-        };
-        let last_tenth = last_tenth(samples.time, samples.revolutions).and_then(|(from, to)| {
-            match self.values("contact_time").transpose() {
-                Some(contact_time) => contact_time.map(|series| samples.mean_in_contact(&series, from, to)).transpose(),
-                None => samples.mean(from, to).map(Ok),
+        let samples = Cumulative { time, integral: &integral, revolutions: &revolutions };
+        let contact_time = self.values("contact_time")?;
+        let window = last_tenth(samples.time, samples.revolutions);
+        Ok(match contact_time {
+            Some(contact_time) => ContactArea {
+                last_tenth: window.and_then(|(from, to)| samples.mean_in_contact(&contact_time, from, to)),
+                drift: Err(NoDrift::Cycle),
+                running_in: time_to_in_contact(RUN_IN, &samples, &contact_time),
+            },
+            None => {
+                let pulse_time = self.pulse_time();
+                ContactArea {
+                    last_tenth: window.and_then(|(from, to)| samples.mean(from, to)),
+                    drift: Drift::of(&samples, pulse_time).ok_or(NoDrift::TooShort),
+                    running_in: time_to(RUN_IN, &samples, pulse_time),
+                }
             }
-        });
-        Ok(ContactArea { last_tenth: last_tenth.transpose()?, drift, running_in })
+        })
     }
 
     /// Time of a pulse of the contact area, s, at least; none where nothing pulses, or the file does not tell.

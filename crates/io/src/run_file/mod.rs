@@ -45,7 +45,7 @@ mod writer;
 mod writer_queue;
 mod writer_thread;
 
-pub use contact_area::ContactArea;
+pub use contact_area::{ContactArea, NoDrift};
 pub use error::{ReadError, RunFileError};
 pub use header::{Earlier, End, Header, InputFile};
 pub use image::Image;

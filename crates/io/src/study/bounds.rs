@@ -59,7 +59,7 @@ impl Response {
         match self.question {
             Question::Imported(unit) if NOT_NEGATIVE_ELSEWHERE.contains(&unit) => Bounds::NOT_NEGATIVE,
             Question::Imported(_) => Bounds::NONE,
-            Question::Reaches(_) | Question::Measured(_) => Bounds::NOT_NEGATIVE,
+            Question::Reaches(_) => Bounds::NOT_NEGATIVE,
             // A pin that hardly wears may gain what a disc loses.
             _ if name == "lost_pin" => Bounds::NONE,
             _ if FRACTIONS.contains(&name) => Bounds::FRACTION,
@@ -76,7 +76,7 @@ mod tests {
     use plateau_core::observe::{EXTRAS, quantities};
 
     fn bounds(series: &str, question: Question) -> Bounds {
-        Response { name: "r".into(), series: series.into(), question, transform: None, stated_unit: None }.bounds()
+        Response { name: "r".into(), series: series.into(), question, transform: "none", stated_unit: None }.bounds()
     }
 
     #[test]

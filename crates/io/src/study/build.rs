@@ -11,7 +11,7 @@ use super::factor_keys::{factors, stated_unit};
 use super::place::Place;
 use super::response::Response;
 use super::response_keys::{responses, series_name};
-use super::{DesignSource, Order, Study, measured, replicates};
+use super::{DesignSource, Order, Study, replicates};
 use crate::brief::MOST_PROBLEMS;
 use crate::scene::{Origin, Problem};
 use crate::text::short;
@@ -55,8 +55,7 @@ pub(super) fn build(document: Document, path: &Path, place: &Place<'_>) -> Resul
         }
     };
     let replicates = document.replicates.as_ref().map(|given| replicates::of(given, place, &mut problems));
-    let responses = responses(&document.response, folder, place, &mut problems);
-    let fit = measured::settings(&document, &responses, place, &mut problems);
+    let responses = responses(&document.response, place, &mut problems);
     if document.base.is_none() && !responses.iter().all(Response::is_imported) {
         let message =
             "missing, expected base = \"SCENE.toml\"; it may be left out where all responses have imported = true";
@@ -78,7 +77,8 @@ pub(super) fn build(document: Document, path: &Path, place: &Place<'_>) -> Resul
     }
     let Some(source) = source.filter(|_| problems.is_empty()) else { return Err(problems) };
     let mut files = vec![path.to_owned()];
-    files.extend(responses.iter().filter_map(|response| Some(response.measured_series()?.path.clone())));
+    let measured = document.response.iter().filter_map(|table| table.measured_file.as_ref());
+    files.extend(measured.map(|file| folder.join(file.get_ref())));
     files.extend(document.file.iter().map(|file| folder.join(file.get_ref())));
     Ok(Study {
         files,
@@ -95,7 +95,6 @@ pub(super) fn build(document: Document, path: &Path, place: &Place<'_>) -> Resul
         replicates,
         order,
         responses,
-        fit,
         series,
     })
 }

@@ -3,7 +3,7 @@
 use std::fmt;
 
 use serde::Deserialize;
-use serde::de::{Deserializer, Error, SeqAccess, Visitor};
+use serde::de::{Deserializer, Error, IgnoredAny, SeqAccess, Visitor};
 use toml::{Spanned, Value};
 
 /// The whole file.
@@ -33,7 +33,8 @@ pub(super) struct Document {
     pub factor: Vec<Factor>,
     #[serde(default)]
     pub response: Vec<Response>,
-    pub fit: Option<Fit>,
+    #[expect(dead_code, reason = "`plateau fit` reads it")]
+    pub fit: Option<IgnoredAny>,
 }
 
 /// `[replicates]`.
@@ -87,18 +88,13 @@ pub(super) struct Response {
     pub mean: Option<Spanned<Mean>>,
     pub reaches: Option<Spanned<f64>>,
     pub event: Option<Spanned<Value>>,
-    pub measured: Option<Spanned<Value>>,
-    pub uncertainty: Option<Spanned<Value>>,
+    #[expect(dead_code, reason = "`plateau fit` reads it")]
+    pub measured: Option<IgnoredAny>,
+    #[expect(dead_code, reason = "`plateau fit` reads it")]
+    pub uncertainty: Option<IgnoredAny>,
     pub measured_file: Option<Spanned<String>>,
-    pub correlation_time: Option<Spanned<String>>,
-}
-
-/// `[fit]`.
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct Fit {
-    pub runs: Option<Spanned<usize>>,
-    pub confidence: Option<Spanned<f64>>,
+    #[expect(dead_code, reason = "`plateau fit` reads it")]
+    pub correlation_time: Option<IgnoredAny>,
 }
 
 /// Over what a mean is taken.

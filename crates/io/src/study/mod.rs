@@ -4,14 +4,11 @@
 //! study file     document       the text
 //!                factor_keys, design_keys, response_keys  what its keys say, each kind by itself
 //!                build          what they say together -> Study
-//!                measured       what was measured of the responses
-//!                measured_series  a series of it, from a table
 //!                unrecorded     series that no run would record
 //!                plan           the design, its points and replicates -> the runs, each a list of --set arguments
 //! results        identity       what a result is the result of
 //!                record         what is kept of a run
 //!                journal        where records are kept while many processes make them
-//!                imported       responses that come from elsewhere, in a value_table
 //!                collected      all of them in one file
 //!                results_table  all of them as text, a line for each run
 //! ```
@@ -24,11 +21,8 @@ mod document;
 pub mod factor;
 mod factor_keys;
 pub mod identity;
-pub mod imported;
 pub mod journal;
 pub mod level;
-pub mod measured;
-pub mod measured_series;
 mod place;
 pub mod plan;
 mod points_of_file;
@@ -51,10 +45,12 @@ use crate::scene::{Origin, Problem};
 use crate::{brief, hdf5_file, limits, regular, syntax};
 use document::Document;
 use factor::Factor;
-use measured::FitSettings;
 use place::Place;
 use points_of_file::Points;
 use response::Response;
+
+/// The table, among the results of a study, of responses that come from elsewhere.
+const IMPORTED: &str = "imported.csv";
 
 /// A study, read and checked.
 #[derive(Debug, Clone, PartialEq)]
@@ -87,8 +83,6 @@ pub struct Study {
     pub order: Order,
     /// What is asked of the runs.
     pub responses: Vec<Response>,
-    /// What was measured of them, and how they are fitted to it.
-    pub fit: FitSettings,
     /// The series that are kept; all unless given.
     pub series: Option<Vec<String>>,
 }
@@ -140,7 +134,7 @@ impl Study {
             |folder: PathBuf| std::fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path());
         let mut inputs = self.files.clone();
         inputs.extend(self.base.clone());
-        inputs.push(imported::file(self));
+        inputs.push(self.directory.join(IMPORTED));
         inputs.extend(kept.into_iter().flat_map(files));
         inputs
     }

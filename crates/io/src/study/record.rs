@@ -49,6 +49,9 @@ pub enum Outcome {
         /// What is reported of the events of its cycle, one value for each event.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         events: Option<Packed>,
+        /// Time of a pulse of its contact area, s, at least; none where nothing pulses at constant load and speed.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        pulse_time: Option<f64>,
     },
     /// It could not begin or go on.
     Failed {
@@ -60,8 +63,8 @@ pub enum Outcome {
 impl Outcome {
     /// The series of a run that has finished; none of one that failed, and none where it does not hold what it says.
     pub fn series(&self) -> Option<Series> {
-        let Self::Finished { until, series, events, .. } = self else { return None };
-        let series = series.unpack()?.that_ended(*until);
+        let Self::Finished { until, series, events, pulse_time, .. } = self else { return None };
+        let series = Series { pulse_time: *pulse_time, ..series.unpack()?.that_ended(*until) };
         match events {
             Some(events) => Some(series.with_events(events.unpack()?)),
             None => Some(series),
@@ -84,6 +87,8 @@ pub struct Series {
     events: Vec<(String, Vec<f64>)>,
     /// The time, s, until which the run was to go on; 0 where nobody has said.
     until: f64,
+    /// Time of a pulse of its contact area, s, at least, if that is known.
+    pulse_time: Option<f64>,
 }
 
 /// How the dataset of a quantity of events begins, as against that of a series.
@@ -100,7 +105,7 @@ pub fn unit_of(series: &str) -> &'static str {
 impl Series {
     /// Columns and their names, `time` first.
     pub fn new(names: Vec<String>, columns: Vec<Vec<f64>>) -> Self {
-        Self { names, columns, events: Vec::new(), until: 0.0 }
+        Self { names, columns, ..Self::default() }
     }
 
     /// Times of the samples, s.
@@ -127,6 +132,11 @@ impl Series {
     /// The time, s, until which the run was to go on; 0 where nobody has said.
     pub fn until(&self) -> f64 {
         self.until
+    }
+
+    /// Time of a pulse of its contact area, s, at least, if that is known.
+    pub fn pulse_time(&self) -> Option<f64> {
+        self.pulse_time
     }
 
     /// A quantity of the events, one value for each.
@@ -195,6 +205,14 @@ mod tests {
             |series: &Series| -> Vec<u64> { series.columns.iter().flatten().map(|value| value.to_bits()).collect() };
         assert_eq!(bits(&back), bits(&series));
         assert_eq!(back.names(), series.names());
+    }
+
+    #[test]
+    fn a_record_tells_the_time_of_a_pulse() {
+        let series = Series::new(vec!["time".into()], vec![vec![1.0]]).pack();
+        let outcome = Outcome::Finished { steps: 1, until: 1.0, series, events: None, pulse_time: Some(24.9) };
+        let back: Outcome = serde_json::from_str(&serde_json::to_string(&outcome).unwrap()).unwrap();
+        assert_eq!(back.series().unwrap().pulse_time(), Some(24.9));
     }
 
     #[test]

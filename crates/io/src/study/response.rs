@@ -1,17 +1,11 @@
 //! Responses: one number that a run gives for each question of a study.
 
-use std::borrow::Cow;
-use std::sync::Arc;
-
 use plateau_core::observe::event::EVENT_QUANTITIES;
 use plateau_core::observe::running_in::{NotDefined, time_to, time_to_in_contact};
 use plateau_core::observe::window_mean::{Cumulative, WindowMean, last_tenth};
 use plateau_core::observe::{EXTRAS, quantities};
-
-use plateau_study::effects::Transform;
 use thiserror::Error;
 
-use super::measured_series::SeriesFile;
 use super::record::{CONTACT_TIME, EVENT, REVOLUTIONS, Series};
 use crate::number;
 
@@ -27,11 +21,14 @@ pub struct Response {
     pub series: String,
     /// What of it.
     pub question: Question,
-    /// What is done to the answers before a model is fitted to them, if anything.
-    pub transform: Option<Transform>,
+    /// On which scale an analysis fits the answers: one of [`TRANSFORMS`].
+    pub transform: &'static str,
     /// The unit that the study gives an answer from elsewhere, which people fill in; it measures the same as the SI unit.
     pub stated_unit: Option<String>,
 }
+
+/// Scales on which an analysis fits answers.
+pub const TRANSFORMS: [&str; 4] = ["none", "log", "square root", "logit"];
 
 /// What is asked of a series.
 #[derive(Debug, Clone, PartialEq)]
@@ -50,8 +47,8 @@ pub enum Question {
     Imported(&'static str),
     /// The time, s, after which the series has come to this fraction of its value at the end: see [`time_to`].
     Reaches(f64),
-    /// How far it is from a series that was measured: [`plateau_study::fit::MeasuredSeries::distance`].
-    Measured(Arc<SeriesFile>),
+    /// Nothing of a single run: `plateau fit` compares the whole series with one that was measured.
+    Measured,
 }
 
 /// Which of the events of a run.
@@ -104,7 +101,7 @@ impl Response {
     }
 
     fn answer(&self, run: &Series) -> Result<f64, NoAnswer> {
-        if self.is_imported() {
+        if !self.is_of_one_run() {
             return Err(NoAnswer::Elsewhere);
         }
         if let Question::Event(which) = self.question {
@@ -124,48 +121,48 @@ impl Response {
                 let (from, to) = self.window(run)?;
                 mean(time, values, from, to)
             }
-            Question::Reaches(fraction) => {
-                let of_samples = || Cow::Owned(integral(time, values));
-                let known = self.integral(run).filter(|_| self.is_of_contact_area());
-                let integral = known.map_or_else(of_samples, Cow::Borrowed);
-                let samples = Cumulative { time, integral: &integral, revolutions: revolutions(run) };
-                let contact_time = run.values(CONTACT_TIME).filter(|_| self.is_of_contact_area());
-                return Ok(match contact_time {
-                    Some(contact_time) => time_to_in_contact(fraction, &samples, contact_time)?,
-                    None => time_to(fraction, &samples)?,
-                });
-            }
-            Question::Measured(ref file) => return Ok(file.series.distance(&self.at_measured_times(run)?)),
-            Question::End | Question::Event(_) | Question::Imported(_) => values.last().copied(),
+            Question::Reaches(fraction) => return self.time_to(fraction, run, values),
+            Question::End | Question::Event(_) | Question::Imported(_) | Question::Measured => values.last().copied(),
         }
         .ok_or(NoAnswer::NoNumber)
     }
 
-    /// What a run has at the times of a measured series, linear between samples.
-    ///
-    /// # Errors
-    /// [`NoAnswer`] where it ends before the last of them, or nothing was measured at times.
-    pub fn at_measured_times(&self, run: &Series) -> Result<Vec<f64>, NoAnswer> {
-        let Question::Measured(file) = &self.question else { return Err(NoAnswer::Elsewhere) };
-        let values = run.values(&self.series).ok_or(NoAnswer::NotKept)?;
-        let value = |at: &f64| value_at(run.time(), values, reached(run, *at)?).ok_or(NoAnswer::NoNumber);
-        file.series.times().iter().map(value).collect()
-    }
-
-    /// The series that was measured, if one was.
-    pub fn measured_series(&self) -> Option<&SeriesFile> {
-        if let Question::Measured(file) = &self.question { Some(file) } else { None }
+    /// When a series has come to a fraction of its last value, s; of the contact area by its integral, and over the time in contact. The time
+    /// in which another series has no value is left out, too.
+    fn time_to(&self, fraction: f64, run: &Series, values: &[f64]) -> Result<f64, NoAnswer> {
+        let time = run.time();
+        let samples = |integral| Cumulative { time, integral, revolutions: revolutions(run) };
+        if let Some(integral) = self.integral(run).filter(|_| self.is_of_contact_area()) {
+            return Ok(match run.values(CONTACT_TIME) {
+                Some(contact_time) => time_to_in_contact(fraction, &samples(integral), contact_time)?,
+                None => time_to(fraction, &samples(integral), run.pulse_time())?,
+            });
+        }
+        let (integral, known) = integral(time, values);
+        if known.last().is_none_or(|known| *known == 0.0) {
+            return Err(NoAnswer::NoNumber);
+        }
+        let pulse_time = run.pulse_time().filter(|_| self.is_of_contact_area());
+        Ok(match values.iter().all(|value| value.is_finite()) {
+            true => time_to(fraction, &samples(&integral), pulse_time)?,
+            false => time_to_in_contact(fraction, &samples(&integral), &known)?,
+        })
     }
 
     /// The series, or the quantity of events, that a run must have kept for an answer; none where it comes from elsewhere.
     pub fn needs(&self) -> impl Iterator<Item = &str> {
         let asked = (!self.is_imported()).then_some(self.series.as_str());
-        asked.into_iter().chain(self.has_error().then_some([INTEGRAL, CONTACT_TIME]).into_iter().flatten())
+        asked.into_iter().chain(self.is_of_every_step().then_some([INTEGRAL, CONTACT_TIME]).into_iter().flatten())
     }
 
     /// Whether the answer is known with a standard error: a mean of the contact area.
     pub fn has_error(&self) -> bool {
         self.is_of_contact_area() && matches!(self.question, Question::Mean(..) | Question::MeanOfLastTenth)
+    }
+
+    /// Whether the answer is taken from the integral of the contact area.
+    fn is_of_every_step(&self) -> bool {
+        self.has_error() || self.is_of_contact_area() && matches!(self.question, Question::Reaches(_))
     }
 
     /// Standard error of the answer of a run, in the same unit, where it is known.
@@ -213,9 +210,13 @@ impl Response {
         match self.question {
             Question::Reaches(_) => "s",
             Question::Imported(unit) => unit,
-            Question::Measured(_) => "1",
             _ => of_series,
         }
+    }
+
+    /// Whether a run answers it by itself.
+    pub fn is_of_one_run(&self) -> bool {
+        !matches!(self.question, Question::Imported(_) | Question::Measured)
     }
 
     /// Whether its answers come from elsewhere, not from the series of runs.
@@ -291,27 +292,30 @@ fn mean(time: &[f64], values: &[f64], from: f64, to: f64) -> Option<f64> {
     (duration > 0.0).then_some(area / duration)
 }
 
-/// The integral of that line over time since t = 0; the first sample stands for what is before it.
-fn integral(time: &[f64], values: &[f64]) -> Vec<f64> {
-    let mut sum = 0.0;
+/// The integral of that line over time since t = 0 and the time in which there is one, s; the first sample stands for what is before it.
+fn integral(time: &[f64], values: &[f64]) -> (Vec<f64>, Vec<f64>) {
+    let (mut sum, mut known) = (0.0, 0.0);
     let mut before = (0.0, values.first().copied().unwrap_or(0.0));
     let added = |(time, value): (&f64, &f64)| {
-        sum += 0.5 * (time - before.0) * (value + before.1);
+        let (length, mean) = (time - before.0, 0.5 * (value + before.1));
+        if mean.is_finite() {
+            (sum, known) = (sum + length * mean, known + length);
+        }
         before = (*time, *value);
-        sum
+        (sum, known)
     };
-    time.iter().zip(values).map(added).collect()
+    time.iter().zip(values).map(added).unzip()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use plateau_study::fit::MeasuredSeries;
+    use crate::study::record::Outcome;
 
     fn of_pool(question: Question, values: &[f64], until: f64) -> Result<f64, NoAnswer> {
         let time: Vec<f64> = (1..=values.len()).map(|at| at as f64).collect();
         let run = Series::new(vec!["time".into(), "pool".into()], vec![time, values.to_vec()]).that_ended(until);
-        Response { name: "r".into(), series: "pool".into(), question, transform: None, stated_unit: None }.of(&run)
+        Response { name: "r".into(), series: "pool".into(), question, transform: "none", stated_unit: None }.of(&run)
     }
 
     fn ask(question: Question, values: &[f64]) -> Option<f64> {
@@ -334,18 +338,6 @@ mod tests {
             [Some(5.0), Some(7.0)]
         );
         assert_eq!([ask(Question::Mean(2.2, 3.8), &lifted), ask(Question::At(4.0), &lifted)], [None, Some(6.0)]);
-        let series = |times: [f64; 2]| {
-            let series = MeasuredSeries::new(times.to_vec(), vec![2.0, 4.5], vec![0.5, 1.0], 0.0).unwrap();
-            Question::Measured(Arc::new(SeriesFile {
-                path: "t.csv".into(),
-                series,
-                time_unit: "s".into(),
-                last_line: 3,
-            }))
-        };
-        // At 1.5 and 3 s the run has 1 and 4: (−1/0.5)² and (−0.5/1)², of two points.
-        assert_eq!(ask(series([1.5, 3.0]), &ramp), Some((4.25_f64 / 2.0).sqrt()));
-        assert_eq!(ask(series([1.5, 5.0]), &ramp), None);
     }
 
     #[test]
@@ -387,14 +379,66 @@ mod tests {
     }
 
     #[test]
+    fn a_series_with_gaps_reaches_its_end_over_the_time_in_which_it_has_a_value() {
+        // As above, 0 until 4 s and 8 from 5 s on, but with ten samples without a value; the pieces beside them have no mean either. So there are 69 s
+        // and windows of 1.15 s. By hand, the fifth has (0.4 · 4 + 0.75 · 8)/1.15 = 6.6, and the sixth is the first of 8.
+        let values: Vec<f64> = (0..80)
+            .map(|at| match at {
+                0..4 => 0.0,
+                20..30 => f64::NAN,
+                _ => 8.0,
+            })
+            .collect();
+        let found = of_pool(Question::Reaches(0.9), &values, 80.0).unwrap();
+        assert!((found - 5.5 * 69.0 / 60.0).abs() < 1e-9, "{found}");
+        assert_eq!(of_pool(Question::Reaches(0.9), &[f64::NAN; 80], 80.0), Err(NoAnswer::NoNumber));
+    }
+
+    #[test]
+    fn reaches_of_the_contact_area_needs_its_integral_and_knows_its_pulses() {
+        let of = |series: &str, question: Question| Response {
+            name: "r".into(),
+            series: series.into(),
+            question,
+            transform: "none",
+            stated_unit: None,
+        };
+        let area = of("contact_area", Question::Reaches(0.9));
+        assert_eq!(area.needs().collect::<Vec<_>>(), ["contact_area", INTEGRAL, CONTACT_TIME]);
+        assert_eq!(of("pool", Question::Reaches(0.9)).needs().collect::<Vec<_>>(), ["pool"]);
+        assert_eq!(of("contact_area", Question::End).needs().collect::<Vec<_>>(), ["contact_area"]);
+        // 1 − exp(−t/40 s): in 600 s a quarter is two pulses of 75 s.
+        let time: Vec<f64> = (1..=600).map(f64::from).collect();
+        let integral: Vec<f64> = time.iter().map(|time| time - 40.0 * (1.0 - (-time / 40.0).exp())).collect();
+        let names = ["time", "contact_area", INTEGRAL].map(String::from).to_vec();
+        let run = Series::new(names, vec![time.clone(), time, integral]);
+        let answer = |pulse_time| {
+            let packed = run.pack();
+            let outcome = Outcome::Finished { steps: 600, until: 600.0, series: packed, events: None, pulse_time };
+            area.of(&outcome.series().unwrap())
+        };
+        // ln 10 · 40 s is 92.1 s: the mean of the window from 90 s on, 1 − 4 e^(−90/40) (1 − e^(−1/4)), is 0.9068.
+        assert_eq!([answer(None), answer(Some(50.0))], [Ok(95.0), Ok(95.0)]);
+        assert_eq!(
+            answer(Some(75.0)).unwrap_err().to_string(),
+            "not defined: a quarter of the run has at most 2.0 pulses of the contact area, 3 are needed"
+        );
+    }
+
+    #[test]
     fn means_of_the_contact_area_of_a_cycle_are_over_the_time_in_contact() {
         // 3 m2 for 2 s, lifted for 2 s.
         let columns = ["time", "contact_area", "contact_area_integral", CONTACT_TIME].map(String::from).to_vec();
         let values = [[1.0, 2.0, 3.0, 4.0], [3.0, 3.0, 0.0, 0.0], [3.0, 6.0, 6.0, 6.0], [1.0, 2.0, 2.0, 2.0]];
         let run = Series::new(columns, values.map(Vec::from).to_vec());
         let question = Question::Mean(0.0, 4.0);
-        let response =
-            Response { name: "a".into(), series: "contact_area".into(), question, transform: None, stated_unit: None };
+        let response = Response {
+            name: "a".into(),
+            series: "contact_area".into(),
+            question,
+            transform: "none",
+            stated_unit: None,
+        };
         assert_eq!(response.of(&run), Ok(3.0));
     }
 
@@ -404,7 +448,7 @@ mod tests {
         let run = Series::default().with_events(Series::new(vec!["worn".into()], columns));
         let ask = |which| {
             let question = Question::Event(which);
-            Response { name: "w".into(), series: "event/worn".into(), question, transform: None, stated_unit: None }
+            Response { name: "w".into(), series: "event/worn".into(), question, transform: "none", stated_unit: None }
                 .of(&run)
                 .ok()
         };
@@ -419,7 +463,7 @@ mod tests {
         let run = Series::new(columns, vec![vec![1.0, 2.0], vec![7.0, 7.0], vec![3.0, 8.0]]);
         let mean = |from, to| {
             let question = Question::Mean(from, to);
-            Response { name: "a".into(), series: "contact_area".into(), question, transform: None, stated_unit: None }
+            Response { name: "a".into(), series: "contact_area".into(), question, transform: "none", stated_unit: None }
                 .of(&run)
                 .ok()
         };
@@ -441,7 +485,7 @@ mod tests {
             let (names, columns) = known.unzip();
             let question = Question::MeanOfLastTenth;
             let response =
-                Response { name: "r".into(), series: series.into(), question, transform: None, stated_unit: None };
+                Response { name: "r".into(), series: series.into(), question, transform: "none", stated_unit: None };
             let run = Series::new(names, columns);
             (response.of(&run).ok(), response.error_of(&run).is_some())
         };

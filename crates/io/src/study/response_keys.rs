@@ -1,32 +1,22 @@
 //! From the tables of responses to what they ask: where values come from, their unit, and how they are fitted.
 
 use std::collections::HashSet;
-use std::path::Path;
-use std::sync::Arc;
 
 use plateau_core::observe::event::{EVENT_QUANTITIES, event_quantity};
 use plateau_core::observe::{EXTRAS, TOTALS, quantities};
-use plateau_study::effects::Transform;
 use toml::{Spanned, Value};
 
 use super::document::{Mean, Response as Table};
-use super::measured;
-use super::measured_series::{self, Wanted};
 use super::place::Place;
 use super::record::{EVENT, unit_of};
-use super::response::{Question, Response, WhichEvent, units};
+use super::response::{Question, Response, TRANSFORMS, WhichEvent, units};
 use crate::brief::MOST_PROBLEMS;
 use crate::scene::{Problem, schema};
 use crate::text::short;
 use crate::units::{Dimension, parse, parse_as};
 
 /// The responses of a study.
-pub(super) fn responses(
-    tables: &[Table],
-    folder: &Path,
-    place: &Place<'_>,
-    problems: &mut Vec<Problem>,
-) -> Vec<Response> {
+pub(super) fn responses(tables: &[Table], place: &Place<'_>, problems: &mut Vec<Problem>) -> Vec<Response> {
     let mut responses: Vec<Response> = Vec::new();
     let mut names = HashSet::new();
     for table in tables {
@@ -51,7 +41,7 @@ pub(super) fn responses(
                 };
                 let series = series.unwrap_or_default();
                 let question = match &table.measured_file {
-                    Some(file) => of_file(table, file, &series, folder, place)?,
+                    Some(file) => of_file(table, file, place)?,
                     None => question(table, &series, place)?,
                 };
                 Ok((series, question))
@@ -60,7 +50,7 @@ pub(super) fn responses(
         };
         let response = asked.and_then(|(series, question)| {
             let stated_unit = table.unit.as_ref().map(|unit| unit.get_ref().clone());
-            let response = Response { name, series, question, transform: None, stated_unit };
+            let response = Response { name, series, question, transform: TRANSFORMS[0], stated_unit };
             let transform = transform(table, &response, place)?;
             Ok(Response { transform, ..response })
         });
@@ -131,42 +121,13 @@ fn question(table: &Table, series: &str, place: &Place<'_>) -> Result<Question, 
     }
 }
 
-/// How far a series is from one that was measured.
-fn of_file(
-    table: &Table,
-    file: &Spanned<String>,
-    series: &str,
-    folder: &Path,
-    place: &Place<'_>,
-) -> Result<Question, Problem> {
-    let problem = |message: &str| Err(place.problem(file, "response.measured_file", message));
+/// That a whole series is compared, at the times of a table that `plateau fit` reads.
+fn of_file(table: &Table, file: &Spanned<String>, place: &Place<'_>) -> Result<Question, Problem> {
     if table.at.is_some() || table.mean.is_some() || table.reaches.is_some() || table.event.is_some() {
-        return problem("a whole series is compared at its times: take out at, mean, reaches and event");
+        let message = "a whole series is compared at its times: take out at, mean, reaches and event";
+        return Err(place.problem(file, "response.measured_file", message));
     }
-    if table.measured.is_some() {
-        return problem("measured and measured_file are given together, keep one");
-    }
-    let correlation_time = match &table.correlation_time {
-        None => 0.0,
-        Some(text) => {
-            let refuse = |message: String| place.problem(text, "response.correlation_time", message);
-            let time = parse(text.get_ref(), Dimension::Time).map_err(|error| refuse(error.to_string()))?;
-            if time < 0.0 {
-                return Err(refuse(format!("\"{}\", expected a time of 0 or more", short(text.get_ref()))));
-            }
-            time
-        }
-    };
-    let unit = unit_of(series);
-    let uncertainty = table.uncertainty.as_ref().map(|found| {
-        let read = measured::uncertainty(found.get_ref(), unit);
-        read.map_err(|message| place.problem(found, "response.uncertainty", message))
-    });
-    let wanted =
-        Wanted { names: [table.name.get_ref(), series], unit, uncertainty: uncertainty.transpose()?, correlation_time };
-    let read = measured_series::read(&folder.join(file.get_ref()), wanted);
-    read.map(|file| Question::Measured(Arc::new(file)))
-        .map_err(|message| place.problem(file, "response.measured_file", message))
+    Ok(Question::Measured)
 }
 
 fn which_event(value: &Value) -> Option<WhichEvent> {
@@ -269,18 +230,19 @@ fn dataset<'a>(table: &'a Table, place: &Place<'_>) -> Result<&'a Spanned<String
     })
 }
 
-/// What is done to the values before a model is fitted to them.
-fn transform(table: &Table, response: &Response, place: &Place<'_>) -> Result<Option<Transform>, Problem> {
-    let Some(found) = &table.transform else { return Ok(None) };
+/// On which scale an analysis fits the values.
+fn transform(table: &Table, response: &Response, place: &Place<'_>) -> Result<&'static str, Problem> {
+    let Some(found) = &table.transform else { return Ok(TRANSFORMS[0]) };
     let word = found.get_ref().as_str();
-    let transform = Transform::of_name(word).ok_or_else(|| {
-        let names = Transform::ALL.map(|transform| format!("\"{}\"", transform.name())).join(", ");
-        place.problem(found, "response.transform", format!("\"{}\", expected one of {names}", short(word)))
+    let transform = TRANSFORMS[1..].iter().copied().find(|transform| *transform == word).ok_or_else(|| {
+        let names: Vec<String> = TRANSFORMS[1..].iter().map(|transform| format!("\"{transform}\"")).collect();
+        let message = format!("\"{}\", expected one of {}", short(word), names.join(", "));
+        place.problem(found, "response.transform", message)
     })?;
     let unit = response.unit(unit_of(&response.series));
-    if transform == Transform::Logit && unit != "1" {
+    if transform == "logit" && unit != "1" {
         let message = format!("\"logit\" is for fractions between 0 and 1, and this response is in {unit}");
         return Err(place.problem(found, "response.transform", message));
     }
-    Ok(Some(transform))
+    Ok(transform)
 }

@@ -24,7 +24,7 @@ struct Column {
 ///
 /// Quantities are numbers in the unit that stands behind the name, as in `speed [rpm]`: in that of the study, if it states all
 /// levels of a factor in one, or in SI units; words, and numbers without a unit, stand
-/// as the study has them. A response that a run does not give is an empty cell. A response that has a standard error is
+/// as the study has them. A response that a run does not give is an empty cell; one that no run gives by itself has no column. A response that has a standard error is
 /// followed by it.
 pub fn table(plan: &Plan, collected: &Collected) -> Vec<Vec<String>> {
     let study = plan.study();
@@ -59,7 +59,7 @@ pub fn table(plan: &Plan, collected: &Collected) -> Vec<Vec<String>> {
                 .map_or_else(|| level.map_or_else(String::new, |level| level.label.clone()), exactly)
         }));
     }
-    for (at, response) in study.responses.iter().enumerate() {
+    for (at, response) in study.responses.iter().enumerate().filter(|(_, response)| response.is_of_one_run()) {
         let unit = response.unit(unit_of(&response.series));
         columns.push(column(&response.name, "response", if unit == "1" { "" } else { unit }, &|run| {
             run.responses

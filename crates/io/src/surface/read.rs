@@ -33,7 +33,10 @@ pub fn read(path: &Path, options: &ReadOptions) -> Result<Measured, FileError> {
 
 fn read_format(path: &Path, options: &ReadOptions) -> Result<Measured, FileError> {
     let format = detect(path)?;
-    refuse_meaningless(options, format)?;
+    // What is not read is to be converted, whatever is said of it.
+    if !matches!(format, Format::Instrument(_)) {
+        refuse_meaningless(options, format)?;
+    }
     match format {
         Format::Hdf5 => {
             let hdf5::Heights { columns, rows, pitch, heights, body, notes, warnings } =

@@ -36,7 +36,8 @@ fn lines(folder: &Path) -> Vec<Vec<u8>> {
     let series = Series::new(names.map(str::to_owned).to_vec(), columns).pack();
     let mut shard = Shard::create(folder, "h").unwrap();
     for (run, identity) in [(1, "a"), (2, "b")] {
-        let outcome = Outcome::Finished { steps: 20, until: 20.0, series: series.clone(), events: None };
+        let outcome =
+            Outcome::Finished { steps: 20, until: 20.0, series: series.clone(), events: None, pulse_time: None };
         let (identity, host, end_time) = (identity.to_owned(), "h".to_owned(), "now".to_owned());
         let of = Identity::default();
         shard.append(&Record { identity, of, run, outcome, wall_time: 0.5, host, end_time }).unwrap();

@@ -83,11 +83,6 @@ impl Axis {
         Self { scale: Scale::Logarithmic, ..Self::linear(range, label) }
     }
 
-    /// An axis whose ticks are at given places and say given things.
-    pub fn marked(range: RangeInclusive<f64>, label: impl Into<String>, marks: Vec<(f64, String)>) -> Self {
-        Self { marks: Some(marks), ..Self::linear(range, label) }
-    }
-
     /// The same without numbers and label, which a neighbour has.
     pub fn shared(self) -> Self {
         Self { numbered: false, label: String::new(), ..self }

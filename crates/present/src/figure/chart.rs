@@ -130,20 +130,6 @@ pub fn title_lines(title: &str, size: u32, room: f64) -> Vec<String> {
     ways.into_iter().find(fits).unwrap_or_else(|| vec![shortened(title, size, room)])
 }
 
-/// Writes a note below all else, in as many lines as it needs.
-pub fn note(page: &mut Page, text: &str) {
-    if text.is_empty() {
-        return;
-    }
-    let room = page.size[0] - 2.0 * MARGIN;
-    for line in lines(text.split_inclusive(' '), TEXT, room) {
-        let line = shortened(&line, TEXT, room);
-        let top = page.size[1] - MARGIN;
-        page.write(line, (MARGIN, top), Anchor::BelowRight, TEXT);
-        page.size[1] = (page.size[1] + LINE_OF_TEXT).ceil();
-    }
-}
-
 /// Writes what colours mean, from the top down, as many beside each other as there is room for; gives the place below.
 pub fn legend(page: &mut Page, meanings: &[Meaning], top: f64) -> f64 {
     let most = page.size[0] - 2.0 * MARGIN;
@@ -151,7 +137,7 @@ pub fn legend(page: &mut Page, meanings: &[Meaning], top: f64) -> f64 {
     for Meaning { colour, style, text } in meanings {
         let key = match style {
             KeyStyle::Line(_) => KEY + 16.0,
-            KeyStyle::Area | KeyStyle::Mark(_) => 0.6 * KEY + 16.0,
+            KeyStyle::Area => 0.6 * KEY + 16.0,
             KeyStyle::Words => 0.0,
         };
         let text = shortened(text, TEXT, most - key);
@@ -175,12 +161,6 @@ pub fn up_from_zero(largest: f64) -> RangeInclusive<f64> {
     0.0..=if largest > 0.0 { 1.04 * largest } else { 1.0 }
 }
 
-/// From a little below 0, so that marks there are not on the frame, to a little more than the largest value.
-pub fn about_zero(largest: f64) -> RangeInclusive<f64> {
-    let end = *up_from_zero(largest).end();
-    -0.04 * end..=end
-}
-
 /// From a little below the least to a little above the greatest of those values that are numbers, with a little width where
 /// all are equal; from 0 to 1 where none is.
 pub fn around<'a>(values: impl IntoIterator<Item = &'a f64>) -> RangeInclusive<f64> {
@@ -198,23 +178,7 @@ pub fn around<'a>(values: impl IntoIterator<Item = &'a f64>) -> RangeInclusive<f
 
 #[cfg(test)]
 mod tests {
-    use super::{MARGIN, around, note};
-    use crate::figure::font::text_width;
-    use crate::figure::page::Page;
-
-    #[test]
-    fn notes_stay_on_the_page() {
-        let mut page = Page { size: [500.0, 300.0], ..Page::default() };
-        note(&mut page, &"held: load 8 N, wear rate 5 ".repeat(4));
-        assert!(page.texts.len() > 2);
-        for words in &page.texts {
-            assert!(words.place.0 + text_width(&words.text, words.size) <= 500.0 - MARGIN, "{words:?}");
-            assert!(words.place.1 + f64::from(words.size) < page.size[1], "{words:?}");
-        }
-        let before = page.clone();
-        note(&mut page, "");
-        assert_eq!(page, before);
-    }
+    use super::around;
 
     #[test]
     fn axes_reach_a_little_beyond_the_values() {

@@ -18,13 +18,8 @@
 //! | map, histogram and Abbott-Firestone curve of surfaces | [`surface_description`], [`surface_map`], [`surface_charts`] |
 //! | the fibre map of a pin beside its micrograph | [`fibre_map`] |
 //! | labels beside points | [`labels`] |
-//! | lines of equal value | [`contour`] |
-//! | the rim of places | [`hull`] |
 //! | the figures of runs | [`run`] |
-//! | the figures of studies | [`effects`], [`optimum`] |
 //! | error against run time | [`accuracy`] |
-//! | what a fit to an experiment tells of the keys; of a whole series | [`fit`], [`fit_series`] |
-//! | parts of a response's variation | [`sensitivity`] |
 
 pub mod accuracy;
 mod axes;
@@ -32,23 +27,16 @@ mod brush;
 mod canvas;
 mod chart;
 mod colour_bar;
-mod contour;
-pub mod effects;
 pub mod fibre_map;
-pub mod fit;
-pub mod fit_series;
 mod font;
 mod format;
 mod histogram;
-mod hull;
 mod labels;
-pub mod optimum;
 mod page;
 mod pages;
 mod picture;
 mod raster;
 pub mod run;
-pub mod sensitivity;
 mod simplify;
 mod stroke;
 mod surface_charts;

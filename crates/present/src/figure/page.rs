@@ -12,7 +12,7 @@ use super::colour_bar::ColourBar;
 use super::picture::Picture;
 use super::simplify::simplified;
 use super::stroke::{Dashes, Stroke};
-use crate::colour::{APART, APART_OF_GREYS, COLOURS, ColourMap, GROUND};
+use crate::colour::{APART, APART_OF_GREYS, COLOURS, ColourMap};
 
 /// Pixels of a millimetre on paper: letters are of 8 points then.
 pub const PER_MILLIMETRE: f64 = 12.0;
@@ -56,6 +56,9 @@ pub struct Key {
     pub style: KeyStyle,
 }
 
+/// Radius of dots, pixels.
+const DOT: f64 = 6.6;
+
 /// What a colour is the colour of.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum KeyStyle {
@@ -63,25 +66,8 @@ pub enum KeyStyle {
     Line(Dashes),
     /// An area.
     Area,
-    /// A mark.
-    Mark(Mark),
     /// Nothing: the text says it.
     Words,
-}
-
-/// A mark at a point.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Mark {
-    /// A dot.
-    Dot,
-    /// A small dot, of which there may be many.
-    Point,
-    /// A dot with a white rim, to be seen on a map.
-    Rimmed,
-    /// The same, hollow: what lies elsewhere.
-    Hollow,
-    /// An upright cross with a white rim.
-    Cross,
 }
 
 /// A box with axes and what is in it.
@@ -112,14 +98,12 @@ pub enum Content {
         /// Whether one sees through it.
         opacity: f64,
     },
-    /// Marks at points.
-    Marks {
+    /// Small dots, of which there may be many.
+    Dots {
         /// The points.
         points: Vec<[f64; 2]>,
         /// Their colour.
         colour: RGBColor,
-        /// What each looks like.
-        mark: Mark,
     },
     /// A map that fills the box.
     Map(Picture),
@@ -198,7 +182,6 @@ impl Key {
             }
             KeyStyle::Area => canvas.area(&self.frame.corners(), self.colour),
             KeyStyle::Words => Ok(()),
-            KeyStyle::Mark(mark) => mark.draw(canvas, (0.5 * (self.frame.x[0] + self.frame.x[1]), middle), self.colour),
         }
     }
 }
@@ -219,9 +202,9 @@ impl Panel {
                     let upper = spans.iter().rev().map(|[x, _, high]| self.axes.place_within(*x, *high));
                     canvas.tint(&lower.chain(upper).collect::<Vec<_>>(), *colour, *opacity)?;
                 }
-                Content::Marks { points, colour, mark } => {
-                    let places = points.iter().map(|[x, y]| self.axes.place_within(*x, *y));
-                    places.into_iter().try_for_each(|place| mark.draw(canvas, place, *colour))?;
+                Content::Dots { points, colour } => {
+                    let mut places = points.iter().map(|[x, y]| self.axes.place_within(*x, *y));
+                    places.try_for_each(|place| canvas.area(&dot(place), *colour))?;
                 }
                 Content::Map(_) => {}
             }
@@ -230,43 +213,12 @@ impl Panel {
     }
 }
 
-impl Mark {
-    /// Radius of dots and half the length of crosses, pixels.
-    const RADIUS: f64 = 11.0;
-    /// Width of the white rim, pixels.
-    const RIM: f64 = 4.0;
-
-    fn draw<B: DrawingBackend>(self, canvas: &Canvas<B>, (x, y): Place, colour: RGBColor) -> Result<(), FigureError> {
-        let disc = |radius: f64, colour| {
-            let corner = |part: i32| {
-                let (sine, cosine) = (f64::from(part) * PI / 12.0).sin_cos();
-                (x + radius * cosine, y + radius * sine)
-            };
-            canvas.area(&(0..24).map(corner).collect::<Vec<_>>(), colour)
-        };
-        let cross = |long: f64, half: f64, colour| {
-            let bar = |wide: f64, high: f64| Frame { x: [x - wide, x + wide], y: [y - high, y + high] };
-            canvas.area(&bar(long, half).corners(), colour)?;
-            canvas.area(&bar(half, long).corners(), colour)
-        };
-        match self {
-            Self::Dot => disc(Self::RADIUS, colour),
-            Self::Point => disc(0.6 * Self::RADIUS, colour),
-            Self::Rimmed => {
-                disc(Self::RADIUS + Self::RIM, GROUND)?;
-                disc(Self::RADIUS, colour)
-            }
-            Self::Hollow => {
-                disc(Self::RADIUS + 0.5 * Self::RIM, GROUND)?;
-                disc(Self::RADIUS - 0.5 * Self::RIM, colour)?;
-                disc(Self::RADIUS - 1.25 * Self::RIM, GROUND)
-            }
-            Self::Cross => {
-                cross(2.0 * Self::RADIUS + Self::RIM, 5.0 + Self::RIM, GROUND)?;
-                cross(2.0 * Self::RADIUS, 5.0, colour)
-            }
-        }
-    }
+/// The corners of a dot.
+fn dot((x, y): Place) -> [Place; 24] {
+    std::array::from_fn(|part| {
+        let (sine, cosine) = (part as f64 * PI / 12.0).sin_cos();
+        (x + DOT * cosine, y + DOT * sine)
+    })
 }
 
 /// The corners of a dot for a line of this width: a line through one place only would not be seen.

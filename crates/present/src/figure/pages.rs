@@ -7,8 +7,6 @@ use super::page::Page;
 
 /// Height of a page, at most, pixels: 240 mm beside a width of 180 mm.
 const HIGHEST: f64 = TWO_COLUMNS * 4.0 / 3.0;
-/// Heights of boxes that are tried.
-const TRIED: u32 = 8;
 
 /// Whether each of the pages fits into a journal.
 pub fn are_low(pages: &[Page]) -> bool {
@@ -39,14 +37,6 @@ pub fn in_pages(parts: usize, page: impl Fn(Range<usize>) -> Page) -> Vec<Page> 
     pages
 }
 
-/// The same on one page where boxes that are lower make that possible, else on several with boxes that are not. `heights` are those of the
-/// lowest and of the highest boxes.
-pub fn with_lower_boxes(parts: usize, [low, high]: [f64; 2], page: impl Fn(Range<usize>, f64) -> Page) -> Vec<Page> {
-    let heights = (0..=TRIED).map(|step| high + (low - high) * f64::from(step) / f64::from(TRIED));
-    let whole = heights.map(|height| page(0..parts, height.floor())).find(is_low);
-    whole.map_or_else(|| in_pages(parts, |some| page(some, high)), |page| vec![page])
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -60,21 +50,5 @@ mod tests {
         };
         assert_eq!(heights(&[1000.0, 3000.0, 1000.0, 1880.0, 1.0]), [1000.0, 3000.0, 2880.0, 1.0]);
         assert_eq!(heights(&[]), [0.0; 0]);
-    }
-
-    #[test]
-    fn boxes_are_lower_before_there_are_more_pages() {
-        // By hand: rows of boxes of 300 to 600 pixels with 100 pixels round each.
-        let heights = |rows: usize| -> Vec<f64> {
-            let page = |some: Range<usize>, height: f64| Page {
-                size: [TWO_COLUMNS, some.len() as f64 * (height + 100.0)],
-                ..Page::default()
-            };
-            with_lower_boxes(rows, [300.0, 600.0], page).iter().map(|page| page.size[1]).collect()
-        };
-        assert_eq!(heights(4), [2800.0]);
-        // Heights that are 37.5 pixels from each other are tried: 450 pixels are the first with which 5 rows fit, 300 with which 7 do.
-        assert_eq!((heights(5), heights(7)), (vec![2750.0], vec![2800.0]));
-        assert_eq!(heights(9), [2800.0, 2800.0, 700.0]);
     }
 }

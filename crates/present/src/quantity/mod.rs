@@ -4,7 +4,6 @@
 //! `plateau surface` has them. The disc's are the model's z; the z of the pin grows away from the disc, so it is turned, and as the
 //! pin wears by far more than it is rough, it is counted from its mean.
 
-mod printed;
 mod range;
 mod unit;
 
@@ -16,7 +15,6 @@ use plotters::style::RGBColor;
 
 use crate::colour::STATUSES;
 
-pub use printed::{power_of_axis, printed_number, printed_unit, with_power};
 pub use range::{BEYOND, RobustRange};
 pub use unit::Unit;
 

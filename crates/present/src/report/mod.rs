@@ -1,4 +1,4 @@
-//! Self-contained HTML pages: about one run or several (`plateau report`), about a study (`plateau sweep effects`).
+//! Self-contained HTML pages: about one run or several (`plateau report`).
 //!
 //! A page is made of a template and of parts that are written here; scripts on the page draw what is to be played with
 //! from one JSON document in it, so it needs no network and nothing beside it.
@@ -7,7 +7,6 @@
 //! |---|---|
 //! | what all pages have in common: the template with its parts filled in | [`layout`] |
 //! | the page about runs | [`mod@page`] |
-//! | the page about a study | [`effects`] |
 //! | text as HTML, tables | [`html`] |
 //! | a series with its last and largest value, thinned | [`series`] |
 //! | how the runs ended, and the comparison with the first | [`outcome`], [`comparison`] |
@@ -22,7 +21,6 @@
 mod comparison;
 mod dissipation;
 mod document;
-mod effects;
 mod events;
 mod html;
 mod layout;
@@ -35,6 +33,5 @@ mod provenance;
 mod reduction;
 mod series;
 
-pub use effects::{StudyPage, page as effects_page};
 pub use page::page;
 pub use picture::{Picture, Pictures};

@@ -127,8 +127,8 @@ pub fn facts(run: &RunFile, contact_area: &ContactArea) -> Vec<(&'static str, St
             ),
         ),
         ("Program", attribute("program")),
-        ("Running in", contact_area.drift.as_ref().map_or_else(|| UNKNOWN.into(), running_in)),
-        ("Running-in time", contact_area.running_in.as_ref().map_or_else(|| UNKNOWN.into(), running_in_time)),
+        ("Running in", running_in(&contact_area.drift)),
+        ("Running-in time", running_in_time(&contact_area.running_in)),
         ("Time acceleration", time_acceleration(run)),
         ("Mean contact area is taken over", contact_area.last_tenth.as_ref().map_or_else(|| UNKNOWN.into(), over)),
     ]

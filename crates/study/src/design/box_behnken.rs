@@ -5,7 +5,6 @@
 //! of them; that agrees with the article up to five factors and needs more points from six on.
 
 use super::fractional_factorial::combinations;
-use super::generators::Generator;
 use super::{Design, DesignError, Factor, Setting, counted, only_ends, room};
 
 /// The blocks of the article: which factors, counted from 1, are at their ends together.
@@ -16,109 +15,24 @@ fn blocks(factors: usize) -> Option<&'static [&'static [usize]]> {
         5 => &[&[1, 2], &[3, 4], &[2, 5], &[1, 3], &[4, 5], &[2, 3], &[1, 4], &[3, 5], &[1, 5], &[2, 4]],
         6 => &[&[1, 2, 4], &[2, 3, 5], &[3, 4, 6], &[1, 4, 5], &[2, 5, 6], &[1, 3, 6]],
         7 => &[&[4, 5, 6], &[1, 6, 7], &[2, 5, 7], &[1, 2, 4], &[3, 4, 7], &[1, 3, 5], &[2, 3, 6]],
-        // The first three and the last three are the same: these points are made twice.
-        9 => &[
-            &[1, 4, 7],
-            &[2, 5, 8],
-            &[3, 6, 9],
-            &[1, 2, 3],
-            &[4, 5, 6],
-            &[7, 8, 9],
-            &[1, 5, 9],
-            &[3, 4, 8],
-            &[2, 6, 7],
-            &[1, 6, 8],
-            &[2, 4, 9],
-            &[3, 5, 7],
-            &[1, 4, 7],
-            &[2, 5, 8],
-            &[3, 6, 9],
-        ],
-        10 => &[
-            &[2, 6, 7, 10],
-            &[1, 2, 5, 10],
-            &[2, 3, 7, 8],
-            &[2, 4, 6, 9],
-            &[1, 8, 9, 10],
-            &[3, 4, 5, 10],
-            &[1, 4, 7, 8],
-            &[3, 5, 7, 9],
-            &[1, 3, 6, 9],
-            &[4, 5, 6, 8],
-        ],
-        11 => &[
-            &[3, 7, 8, 9, 11],
-            &[1, 4, 8, 9, 10],
-            &[2, 5, 9, 10, 11],
-            &[1, 3, 6, 10, 11],
-            &[1, 2, 4, 7, 11],
-            &[1, 2, 3, 5, 8],
-            &[2, 3, 4, 6, 9],
-            &[3, 4, 5, 7, 10],
-            &[4, 5, 6, 8, 11],
-            &[1, 5, 6, 7, 9],
-            &[2, 6, 7, 8, 10],
-        ],
-        12 => &[
-            &[1, 2, 5, 7],
-            &[2, 3, 6, 8],
-            &[3, 4, 7, 9],
-            &[4, 5, 8, 10],
-            &[5, 6, 9, 11],
-            &[6, 7, 10, 12],
-            &[1, 7, 8, 11],
-            &[2, 8, 9, 12],
-            &[1, 3, 9, 10],
-            &[2, 4, 10, 11],
-            &[3, 5, 11, 12],
-            &[1, 4, 6, 12],
-        ],
-        16 => &[
-            &[1, 2, 6, 9],
-            &[3, 4, 8, 11],
-            &[5, 10, 13, 14],
-            &[7, 12, 15, 16],
-            &[2, 3, 7, 10],
-            &[1, 4, 5, 12],
-            &[6, 11, 14, 15],
-            &[8, 9, 13, 16],
-            &[2, 5, 6, 13],
-            &[4, 7, 8, 15],
-            &[1, 9, 10, 14],
-            &[3, 11, 12, 16],
-            &[3, 6, 7, 14],
-            &[1, 5, 8, 16],
-            &[2, 10, 11, 15],
-            &[4, 9, 12, 13],
-            &[1, 3, 13, 15],
-            &[2, 4, 14, 16],
-            &[5, 7, 9, 11],
-            &[6, 8, 10, 12],
-            &[4, 6, 10, 16],
-            &[3, 5, 9, 15],
-            &[1, 7, 11, 13],
-            &[2, 8, 12, 14],
-        ],
         _ => return None,
     })
 }
 
-/// The blocks, each with all combinations of its factors (of five factors the half with the fifth as product of the
-/// others), and the centre points.
+/// The blocks, each with all combinations of its factors, and the centre points.
 pub(super) fn box_behnken(centre: usize, factors: &[Factor]) -> Result<Design, DesignError> {
     only_ends(factors, "a Box-Behnken design")?;
     let count = factors.len();
     let Some(blocks) = blocks(count) else {
         return Err(DesignError(format!(
-            "there is no Box-Behnken design of {}, only of 3 to 7, 9 to 12 and 16 factors; \
+            "there is no Box-Behnken design of {}, only of 3 to 7 factors; \
              take a central composite design",
             counted(count)
         )));
     };
     let mut settings = Vec::new();
     for block in blocks {
-        let half = [Generator { base: 0b1111, negative: false }];
-        let combinations = combinations(block.len(), if block.len() == 5 { &half } else { &[] })?;
+        let combinations = combinations(block.len(), &[])?;
         for combination in combinations.chunks(block.len()) {
             let start = settings.len();
             settings.resize(start + count, Setting::Coded(0.0));
@@ -136,13 +50,12 @@ pub(super) fn box_behnken(centre: usize, factors: &[Factor]) -> Result<Design, D
 mod tests {
     use super::*;
 
-    const PUBLISHED: [usize; 10] = [3, 4, 5, 6, 7, 9, 10, 11, 12, 16];
+    const PUBLISHED: [usize; 5] = [3, 4, 5, 6, 7];
 
     #[test]
     fn designs_have_the_numbers_of_points_of_the_article() {
         // Box and Behnken (1960), table 4: points and centre points.
-        let sizes =
-            [(15, 3), (27, 3), (46, 6), (54, 6), (62, 6), (130, 10), (170, 10), (188, 12), (204, 12), (396, 12)];
+        let sizes = [(15, 3), (27, 3), (46, 6), (54, 6), (62, 6)];
         for (factors, (points, centre)) in PUBLISHED.into_iter().zip(sizes) {
             let design = box_behnken(centre, &vec![Factor::Range; factors]).unwrap();
             assert_eq!(design.points(), points, "{factors} factors");
@@ -171,9 +84,9 @@ mod tests {
 
     #[test]
     fn other_numbers_of_factors_are_refused() {
-        for factors in [1, 2, 8, 13, 14, 15, 17] {
+        for factors in [1, 2, 8, 9, 16] {
             let error = box_behnken(3, &vec![Factor::Range; factors]).unwrap_err();
-            assert!(error.0.contains("only of 3 to 7, 9 to 12 and 16 factors"), "{error}");
+            assert!(error.0.contains("only of 3 to 7 factors"), "{error}");
         }
         assert!(box_behnken(usize::MAX, &[Factor::Range; 3]).is_err());
     }

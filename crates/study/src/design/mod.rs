@@ -48,7 +48,7 @@ pub enum Kind {
     FullFactorial,
     /// 2^(k − p) of the combinations of two levels.
     FractionalFactorial(Fraction),
-    /// Main effects of two levels in a multiple of four points, for up to 47 factors. Interactions of two factors
+    /// Main effects of two levels in a multiple of four points, for up to 23 factors. Interactions of two factors
     /// spread over the main effects of others.
     PlackettBurman,
     /// Two-level points (from five factors on a fraction of resolution V), axial points and centre points, for
@@ -59,8 +59,8 @@ pub enum Kind {
         /// Centre points, with the two-level and with the axial points.
         centre: [usize; 2],
     },
-    /// Midpoints of edges (from six factors on of faces) and centre points, for quadratic response surfaces of 3 to 7,
-    /// 9 to 12 or 16 factors. No point is at a corner.
+    /// Midpoints of edges (from six factors on of faces) and centre points, for quadratic response surfaces of 3 to
+    /// 7 factors. No point is at a corner.
     BoxBehnken {
         /// Centre points.
         centre: usize,

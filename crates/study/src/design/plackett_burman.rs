@@ -7,7 +7,7 @@
 use super::{Design, DesignError, Factor, Setting, only_ends};
 
 /// Most factors.
-const MOST_FACTORS: usize = 47;
+const MOST_FACTORS: usize = 23;
 
 /// First rows of the designs whose other rows follow by turning it, with a last row of minus signs.
 const CYCLIC: &[&str] = &[
@@ -18,23 +18,6 @@ const CYCLIC: &[&str] = &[
     "++++-+-++--+---",
     "++--++++-+-+----++-",
     "+++++-+-++--++--+-+----",
-    "++++-++-+++--+--+----+++-+-+---",
-    "-+-+++---+++++-+++--+----+-+-++--+-",
-    "++--+-+--+++-+++++---+-+++-----+---++-+-++-",
-    "+++++-++++--+-+-+++--+--++-++---+-+-++----+----",
-];
-
-/// The design of 28 points: three blocks of nine columns, which are turned as wholes, with a last row of minus signs.
-const OF_28: [&str; 9] = [
-    "+-++++----+---+--+++-+-++-+",
-    "++-+++-----++--+---++++-++-",
-    "-+++++---+---+--+-+-+-++-++",
-    "---+-++++--+-+---++-+++-+-+",
-    "---++-++++----++--++--++++-",
-    "----+++++-+-+---+--+++-+-++",
-    "+++---+-+--+--+-+-+-++-+++-",
-    "+++---++-+--+----+++-++--++",
-    "+++----++-+--+-+---++-+++-+",
 ];
 
 /// The first columns of the design.
@@ -51,41 +34,15 @@ pub(super) fn plackett_burman(factors: &[Factor]) -> Result<Design, DesignError>
     Design::from_settings(factors.len(), settings.collect(), None)
 }
 
-/// All columns of the design of so many points, a multiple of four up to 48.
+/// All columns of the design of so many points, a multiple of four up to 24.
 fn rows(points: usize) -> Vec<Vec<i8>> {
-    match CYCLIC.iter().find(|row| row.len() + 1 == points) {
-        Some(row) => with_minus(turned(&[signs(row)], 1)),
-        None if points == 28 => with_minus(turned(&OF_28.map(signs), 9)),
-        None => doubled(&rows(points / 2)),
-    }
+    let row = CYCLIC[points / 4 - 1];
+    let turn = |by: usize| [&signs(row)[row.len() - by..], &signs(row)[..row.len() - by]].concat();
+    (0..row.len()).map(turn).chain([vec![-1; row.len()]]).collect()
 }
 
 fn signs(row: &str) -> Vec<i8> {
     row.chars().map(|sign| if sign == '+' { 1 } else { -1 }).collect()
-}
-
-/// The rows, the rows turned to the right by `step` columns, and so on all the way round.
-fn turned(rows: &[Vec<i8>], step: usize) -> Vec<Vec<i8>> {
-    let columns = rows.first().map_or(0, Vec::len);
-    let turn = |row: &Vec<i8>, by: usize| [&row[columns - by..], &row[..columns - by]].concat();
-    (0..columns).step_by(step).flat_map(|by| rows.iter().map(move |row| turn(row, by))).collect()
-}
-
-fn with_minus(mut rows: Vec<Vec<i8>>) -> Vec<Vec<i8>> {
-    rows.push(vec![-1; rows.first().map_or(0, Vec::len)]);
-    rows
-}
-
-/// Twice the points: the rows beside their negative, the rows beside themselves, and a column for which half.
-///
-/// The first columns come from a fold-over, so that their main effects are free of two-factor interactions.
-fn doubled(rows: &[Vec<i8>]) -> Vec<Vec<i8>> {
-    let half = |sign: i8| rows.iter().map(move |row| beside(row, sign));
-    half(-1).chain(half(1)).collect()
-}
-
-fn beside(row: &[i8], sign: i8) -> Vec<i8> {
-    row.iter().map(|each| sign * each).chain(row.iter().copied()).chain([-sign]).collect()
 }
 
 #[cfg(test)]
@@ -95,7 +52,7 @@ mod tests {
     #[test]
     fn columns_of_every_size_are_balanced_and_orthogonal() {
         // The definition: 1 + factors columns, the first all 1, are a Hadamard matrix.
-        for points in (4..=48).step_by(4) {
+        for points in (4..=24).step_by(4) {
             let rows = rows(points);
             assert_eq!(rows.len(), points);
             assert!(rows.iter().all(|row| row.len() == points - 1));
@@ -112,7 +69,7 @@ mod tests {
     #[test]
     fn rows_of_a_prime_number_of_columns_are_its_quadratic_residues() {
         // R. E. A. C. Paley, On orthogonal matrices, J. Math. Phys. 12, 311–320 (1933): + at 0 and at the squares.
-        for prime in [3, 7, 11, 19, 23, 43, 47] {
+        for prime in [3, 7, 11, 19, 23] {
             let squares: Vec<usize> = (1..prime).map(|root| root * root % prime).collect();
             let row: String = (0..prime).map(|at| if at == 0 || squares.contains(&at) { '+' } else { '-' }).collect();
             assert!(CYCLIC.contains(&row.as_str()), "{prime}: {row}");
@@ -120,12 +77,12 @@ mod tests {
     }
 
     #[test]
-    fn any_number_of_factors_up_to_47_has_the_next_multiple_of_four() {
-        for factors in 1..=47 {
+    fn any_number_of_factors_up_to_23_has_the_next_multiple_of_four() {
+        for factors in 1..=23 {
             let design = plackett_burman(&vec![Factor::Levels(2); factors]).unwrap();
             assert_eq!(design.points(), (factors + 1).next_multiple_of(4));
             assert_eq!(design.point(0).len(), factors);
         }
-        assert!(plackett_burman(&[Factor::Range; 48]).unwrap_err().0.contains("at most 47"));
+        assert!(plackett_burman(&[Factor::Range; 24]).unwrap_err().0.contains("at most 23"));
     }
 }

@@ -26,16 +26,9 @@ burman <- function(runs, rows)
 for (index in seq_along(pb.list[[1]])) {
   runs <- unlist(pb.list[[1]][index])
   rows <- pb.list[[2]][[index]]
-  if (runs > 48 || runs == 40) next
-  if (runs == 28) {
-    rows <- rbind(rows, rows[, c(19:27, 1:18)], rows[, c(10:27, 1:9)], rep(-1, 27))
-  } else {
-    rows <- rbind(circ.mat(rows), rep(-1, runs - 1))
-  }
-  if (runs == 20) of_20 <- rows
-  if (runs %in% c(12, 16, 20, 28, 32, 36)) burman(runs, rows)
+  if (!runs %in% c(12, 16, 20)) next
+  burman(runs, rbind(circ.mat(rows), rep(-1, runs - 1)))
 }
-burman(40, normalize.row.last(double.des(of_20))[, c(2:39, 1)])
 
 # Box-Behnken designs.
 for (file in list.files(file.path(arguments[2], "R"), full.names = TRUE)) source(file)

@@ -163,6 +163,8 @@ const ALONG: f64 = 5.0;
 struct ClearLay {
     /// Str, or what it is less than.
     aspect_ratio: String,
+    /// The form without which the heights are looked at.
+    form: Level,
     /// Std, deg, from along sliding towards outward.
     direction: f64,
 }
@@ -175,22 +177,28 @@ fn lay(measured: &Measured, form: Level) -> Option<ClearLay> {
     level(&mut heights, rows, form, false);
     let mean = HeightParameters::of(&heights)?.mean;
     let found = Autocorrelation::of(&Grid { columns, rows, pitch, heights: &heights }, mean)?;
-    let ratio = number::rounded(found.largest_aspect_ratio(), 2);
-    let aspect_ratio = format!("Str {}{ratio}", if found.aspect_ratio.is_nan() { "< " } else { "" });
-    let is_clear = found.largest_aspect_ratio() < CLEAR_LAY && !found.direction.is_nan();
-    is_clear.then(|| ClearLay { aspect_ratio, direction: found.direction.to_degrees() })
+    let largest = found.largest_aspect_ratio();
+    // As `plateau surface` has them.
+    let is_bound = found.aspect_ratio.is_nan();
+    let aspect_ratio = if is_bound { number::less_than(largest, 3) } else { number::significant(largest, 3) };
+    let is_clear = largest < CLEAR_LAY && !found.direction.is_nan();
+    is_clear.then(|| ClearLay { aspect_ratio, form, direction: found.direction.to_degrees() })
 }
 
 impl ClearLay {
     /// Which way it runs, in words.
     fn runs(&self) -> String {
-        let Self { aspect_ratio, direction } = self;
+        let Self { aspect_ratio, form, direction } = self;
         let way = match direction.abs() {
             ..=ALONG => "along sliding, x of the file",
             angle if angle >= 90.0 - ALONG => "across sliding, along y of the file",
             _ => "oblique to sliding, x of the file",
         };
-        format!("{way} ({aspect_ratio}, Std {} deg)", number::rounded(*direction, 2))
+        // `plateau surface` takes a plane out unless told otherwise.
+        let beside = if *form == Level::Quadratic { ", with --level quadratic" } else { "" };
+        // Added to 0, what is rounded to it has no sign.
+        let tenths = (10.0 * direction).round() / 10.0 + 0.0;
+        format!("{way} (Str {aspect_ratio}, Std {} deg{beside})", number::rounded(tenths, 3))
     }
 
     /// The angle that turns it along sliding; of one that runs along, across.

@@ -134,7 +134,7 @@ fn value(parameter: &Parameter, subject: &Subject) -> String {
     let below = subject.description.autocorrelation.map_or(f64::NAN, |spatial| spatial.aspect_ratio_below);
     match (parameter.value)(&subject.description) {
         Some(value) if !value.is_nan() => number::significant(value * scale(parameter).1, 6),
-        Some(_) if parameter.symbol == "Str" && !below.is_nan() => format!("< {}", number::significant(below, 3)),
+        Some(_) if parameter.symbol == "Str" && !below.is_nan() => number::less_than(below, 3),
         _ => NONE.to_owned(),
     }
 }

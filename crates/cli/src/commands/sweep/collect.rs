@@ -5,11 +5,10 @@ use std::path::{Path, PathBuf};
 use plateau_io::dataset_file::{Attribute, now};
 use plateau_io::scene;
 use plateau_io::study::collected::{CollectError, Collected, State, finished, is_collected};
-use plateau_io::study::imported;
 use plateau_io::study::journal::Journal;
 use plateau_io::study::plan::Plan;
 use plateau_io::study::results_table::{self, is_results_table, table as table_of};
-use plateau_io::{brief, limits, regular};
+use plateau_io::{limits, regular};
 use serde::Serialize;
 
 use crate::arguments::CollectArguments;
@@ -19,7 +18,7 @@ use crate::sweep::resolved::Resolved;
 use crate::sweep::scene_warnings::{SceneWarnings, of_questions};
 use crate::sweep::{self, journal, left_out, short_tenth, unkept};
 use crate::table::{list, print, table};
-use crate::{message, number, output, version};
+use crate::{number, output, version};
 
 /// Failed runs that are listed.
 const LISTED: usize = 10;
@@ -66,28 +65,25 @@ pub fn collect(arguments: &CollectArguments) -> Result<(), Failure> {
 
 /// The results of a study, and what they were made of.
 #[derive(Debug)]
-pub struct Found {
-    pub collected: Collected,
+struct Found {
+    collected: Collected,
     /// The study, its tables, its scenes and what they read.
-    pub inputs: Vec<PathBuf>,
-    /// By what the results of each run are known, in the order of the design.
-    pub identities: Vec<String>,
+    inputs: Vec<PathBuf>,
     /// Why results in the journal are left out.
-    pub left_out: Vec<String>,
+    left_out: Vec<String>,
 }
 
 /// The results of a study, as far as there are any.
 ///
 /// # Errors
 /// [`Failure::Input`] when a run's scene cannot be built, [`Failure::Run`] when the journal cannot be read.
-pub fn collected(plan: &Plan) -> Result<Found, Failure> {
+fn collected(plan: &Plan) -> Result<Found, Failure> {
     let mut inputs = plan.study().inputs();
     if plan.study().base.is_none() {
         // Each run is one of its own, for it was measured by itself.
         let numbers: Vec<String> = (1..=plan.runs()).map(|number| number.to_string()).collect();
         let collected = Collected::new(plan, &numbers, &Journal::default()).map_err(failure)?;
-        say_idle(plan, &collected);
-        return Ok(Found { collected, inputs, identities: numbers, left_out: Vec::new() });
+        return Ok(Found { collected, inputs, left_out: Vec::new() });
     }
     let resolved = Resolved::of(plan)?;
     short_tenth::say(plan.study(), &resolved.lengths());
@@ -100,20 +96,8 @@ pub fn collected(plan: &Plan) -> Result<Found, Failure> {
         unanswered.add(of_questions(plan.study(), &run.unanswered));
     }
     unanswered.say("finished runs");
-    say_idle(plan, &collected);
     inputs.extend(resolved.files);
-    Ok(Found { collected, inputs, identities, left_out })
-}
-
-/// Names what was imported of points and responses that the study does not have now.
-fn say_idle(plan: &Plan, collected: &Collected) {
-    if !collected.idle.is_empty() {
-        message::note(format_args!(
-            "{}: kept, but not in the study now: {}",
-            imported::file(plan.study()).display(),
-            brief::list(&collected.idle, "; ")
-        ));
-    }
+    Ok(Found { collected, inputs, left_out })
 }
 
 fn failure(error: CollectError) -> Failure {

@@ -2,12 +2,9 @@
 
 use std::path::PathBuf;
 
-use plateau_io::study::imported::with_unit;
 use plateau_io::study::journal::Entry;
 use plateau_io::study::level::Level;
 use plateau_io::study::plan::Plan;
-use plateau_present::study::place::shortened;
-use plateau_present::study::words::{alias_lines, repeats_in_words};
 use plateau_run::execution::cores;
 use serde::Serialize;
 
@@ -234,4 +231,44 @@ fn table_of_runs(plan: &Plan) -> String {
             .collect()
     };
     csv_table(std::iter::once(header).chain(plan.order().map(row)))
+}
+
+/// The head of a column: the name, and the unit in brackets if there is one.
+fn with_unit(name: &str, unit: &str) -> String {
+    if ["", "1"].contains(&unit) { name.to_owned() } else { format!("{name} [{unit}]") }
+}
+
+/// A level for people: a quantity with at most five digits, a word as it is.
+fn shortened(level: &Level) -> String {
+    match level.split() {
+        Some((value, unit)) => format!("{} {unit}", number::rounded(value, 5)).trim_end().to_owned(),
+        None => level.label.clone(),
+    }
+}
+
+/// Sets of effects that are listed.
+const CHAINS: usize = 40;
+
+/// A line with the letters of the factors, one with the defining words, and one for each set; none for designs that tell
+/// all effects.
+fn alias_lines(plan: &Plan) -> Option<Vec<String>> {
+    let aliases = plan.aliases()?;
+    let letters = ('A'..='Z').filter(|letter| *letter != 'I').zip(&plan.study().factors);
+    let letters: Vec<String> = letters.map(|(letter, factor)| format!("{letter} = {}", factor.name)).collect();
+    let words = aliases.defining_words.join(" = ");
+    let mut lines = vec![letters.join(", "), format!("resolution {}: I = {words}", aliases.resolution)];
+    lines.extend(aliases.chains.iter().take(CHAINS).map(|chain| chain.join(" = ")));
+    if aliases.chains.len() > CHAINS {
+        lines.push(format!("and {} more", aliases.chains.len() - CHAINS));
+    }
+    Some(lines)
+}
+
+/// What is to be known of so many runs that repeat another one.
+pub fn repeats_in_words(repeats: usize, runs: usize) -> String {
+    let (repeat, count) = if repeats == 1 { ("repeats", "counts") } else { ("repeat", "count") };
+    format!(
+        "{repeats} of {runs} runs {repeat} another one and {count} once with it: the same scene with the same seeds gives the \
+         same result. Only [replicates] with several seeds tell the pure error."
+    )
 }

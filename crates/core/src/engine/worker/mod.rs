@@ -207,7 +207,8 @@ impl<C: Communicator> Worker<C> {
         if watched {
             self.record_pressures();
         }
-        self.debris.prepare(&self.contact, largest_overlap);
+        let touching = || self.contact.touching(&self.sums, &self.reading.near);
+        self.debris.prepare(&self.contact, largest_overlap, touching);
         self.forecast.record(self.contact.displacement());
         let bracket = self.sweep_columns()?;
         self.gather_sweep(&bracket)?;

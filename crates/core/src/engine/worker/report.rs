@@ -47,7 +47,7 @@ impl<C: Communicator> Worker<C> {
             worn_disc: totals.worn_disc.value(),
             // Rounding may leave a trace of debt in a pool that has given nearly all; the balance residual takes it as it is.
             pool: self.debris.pool().max(0.0),
-            emitted: totals.emitted.value(),
+            emitted: totals.emitted.amount(),
             deposited_pin: totals.deposited_pin.value(),
             deposited_disc: totals.deposited_disc.value(),
             returned: totals.returned.value(),

@@ -165,6 +165,12 @@ impl Cycle {
         self.loaded_at(self.place(time))
     }
 
+    /// The same since the first step began, s: before it no contact is known.
+    pub fn contact_time_until(&self, time: f64) -> f64 {
+        let first = self.intervals.iter().find(|interval| interval.kind == Kind::Active);
+        (self.loaded_until(time) - first.map_or(0.0, |first| first.loaded_after(0.0))).max(0.0)
+    }
+
     /// Distance that the vehicle travels until a time (s), m.
     pub fn road_distance_at(&self, time: f64) -> f64 {
         let Place { round, interval, time } = self.place(time);

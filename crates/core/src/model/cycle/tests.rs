@@ -129,6 +129,12 @@ fn time_under_load_counts_standing_and_not_lifted_pauses() {
     assert_eq!((second.standing_before, second.loaded, second.end), (0.0, 6.5, 11.0));
     assert_eq!(third.standing_before, 0.0);
     assert_eq!(cycle.loaded_until(16.0), 14.0);
+    // The 2 s before the first step are no time in contact; those before the second round are.
+    assert_eq!([1.0, 2.0, 2.5, 10.0, 16.0].map(|time| cycle.contact_time_until(time)), [0.0, 0.0, 0.5, 7.0, 12.0]);
+    // Lifted, then standing, before it turns.
+    let late =
+        [node(0.0, 0.0, 0.0), node(3.0, 0.0, 0.0), node(3.0, 4.0, 0.0), node(5.0, 4.0, 0.0), node(7.0, 4.0, 1.0)];
+    assert_eq!([4.0, 6.0].map(|time| linear(&late, 1).contact_time_until(time)), [0.0, 1.0]);
     let kinds = [1.0, 2.5, 3.5, 4.5, 6.0, 9.0].map(|time| cycle.at(time).1);
     let [standing, lifted, active] = [Kind::Standing, Kind::Lifted, Kind::Active];
     assert_eq!(kinds, [standing, active, lifted, active, standing, standing]);

@@ -18,7 +18,6 @@ use std::path::Path;
 
 use hdf5::types::VarLenUnicode;
 use plateau_core::observe::{EXTRAS, quantities};
-use plateau_study::effects::Transform;
 
 use super::super::factor::{Factor, Values as FactorValues};
 use super::super::level::Level;
@@ -220,7 +219,7 @@ fn response_attributes(response: &Response) -> Vec<(&'static str, Attribute)> {
         ("role", text("response")),
         ("name", text(&response.name)),
         ("series", text(&response.series)),
-        ("transform", text(response.transform.map_or("none", Transform::name))),
+        ("transform", text(response.transform)),
     ];
     let bounds = response.bounds();
     let limits = [("valid_min", bounds.least), ("valid_max", bounds.most)];

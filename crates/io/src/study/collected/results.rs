@@ -5,11 +5,10 @@ use std::io;
 use thiserror::Error;
 
 use super::super::identity::firsts;
-use super::super::imported::Imported;
 use super::super::journal::{Entry, Journal};
 use super::super::plan::{Plan, Run};
 use super::super::record::Series;
-use super::super::response::{NoAnswer, Response};
+use super::super::response::NoAnswer;
 use crate::dataset_file::DatasetFileError;
 
 /// The results of the runs of a study, as far as there are any.
@@ -17,8 +16,6 @@ use crate::dataset_file::DatasetFileError;
 pub struct Collected {
     /// The runs in the order of the design.
     pub runs: Vec<CollectedRun>,
-    /// What was imported of points and responses that the study does not have now, in words.
-    pub idle: Vec<String>,
 }
 
 /// A run and what came of it.
@@ -37,8 +34,6 @@ pub struct CollectedRun {
     pub unanswered: Vec<(usize, NoAnswer)>,
     /// Standard errors of these; NaN where there is none.
     pub errors: Vec<f64>,
-    /// For each response what the run has at the times of a measured series; empty where there is none, or the run ends before.
-    pub at_measured_times: Vec<Vec<f64>>,
     /// Wall time, s; NaN if it has not ended.
     pub wall_time: f64,
     pub(super) entry: Option<Entry>,
@@ -88,11 +83,6 @@ impl Collected {
     /// [`CollectError::Read`].
     pub fn new(plan: &Plan, identities: &[String], journal: &Journal) -> Result<Self, CollectError> {
         let responses = &plan.study().responses;
-        let is_imported = responses.iter().any(Response::is_imported);
-        let read = || {
-            Imported::read(plan).map_err(|error| CollectError::Read(io::Error::new(io::ErrorKind::InvalidData, error)))
-        };
-        let imported = if is_imported { read()? } else { Imported::default() };
         let run = |((number, identity), first): ((usize, &String), usize)| {
             let mut collected = CollectedRun {
                 run: plan.run(number),
@@ -101,7 +91,6 @@ impl Collected {
                 responses: vec![f64::NAN; responses.len()],
                 errors: vec![f64::NAN; responses.len()],
                 unanswered: Vec::new(),
-                at_measured_times: vec![Vec::new(); responses.len()],
                 wall_time: f64::NAN,
                 entry: journal.get(identity).cloned(),
                 time: Vec::new(),
@@ -122,23 +111,13 @@ impl Collected {
                     collected.responses = answers.iter().map(|answer| *answer.as_ref().unwrap_or(&f64::NAN)).collect();
                     collected.unanswered =
                         answers.into_iter().enumerate().filter_map(|(at, answer)| Some((at, answer.err()?))).collect();
-                    collected.at_measured_times = responses
-                        .iter()
-                        .map(|response| response.at_measured_times(&series).unwrap_or_default())
-                        .collect();
                     collected.errors = responses.iter().map(|response| known(response.error_of(&series))).collect();
                 }
-            }
-            for at in (0..responses.len()).filter(|at| responses[*at].is_imported()) {
-                collected.responses[at] = imported.value(number - 1, at);
-            }
-            if plan.study().is_imported() && collected.responses.iter().any(|value| value.is_finite()) {
-                collected.state = State::Finished;
             }
             Ok(collected)
         };
         let runs = (1..).zip(identities).zip(firsts(identities)).map(run).collect::<Result<_, CollectError>>()?;
-        Ok(Self { runs, idle: imported.idle(plan.study()) })
+        Ok(Self { runs })
     }
 
     /// How many runs repeat another one: they tell nothing that it does not.

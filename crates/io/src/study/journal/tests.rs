@@ -13,7 +13,7 @@ use crate::study::record::{Outcome, Record, Series};
 fn record(identity: &str, finished: bool) -> Record {
     let series = Series::new(vec!["time".into()], vec![vec![1.0, 2.0]]).pack();
     let outcome = if finished {
-        Outcome::Finished { steps: 2, until: 2.0, series, events: None }
+        Outcome::Finished { steps: 2, until: 2.0, series, events: None, pulse_time: None }
     } else {
         Outcome::Failed { error: "no".into() }
     };
@@ -162,7 +162,7 @@ fn of_runs_that_were_made_again_the_one_that_kept_most_counts() {
         let columns = names.iter().map(|_| vec![1.0]).collect();
         let series = Series::new(names.iter().map(|name| (*name).to_owned()).collect(), columns).pack();
         let mut shard = Shard::create(folder.path(), "h").unwrap();
-        let outcome = Outcome::Finished { steps: 2, until: 3.0, series, events: None };
+        let outcome = Outcome::Finished { steps: 2, until: 3.0, series, events: None, pulse_time: None };
         shard.append(&Record { outcome, ..record("a", true) }).unwrap();
         shard.close().unwrap();
     }

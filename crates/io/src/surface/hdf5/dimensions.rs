@@ -8,6 +8,7 @@ use hdf5::{Dataset, ObjectReference1, ReferencedObject};
 
 use super::error::Hdf5Error;
 use super::packing::Packing;
+use super::stated_unit;
 use crate::hdf5_file::{refuse_hollow, text_attribute, texts_of};
 use crate::number;
 use crate::text::short;
@@ -81,12 +82,19 @@ impl Dimensions {
 }
 
 /// The labels of the dimensions; none where there are none.
-fn labels(dataset: &Dataset) -> hdf5::Result<Vec<String>> {
+fn labels(dataset: &Dataset) -> Result<Vec<String>, Hdf5Error> {
     let Ok(attribute) = dataset.attr("DIMENSION_LABELS") else { return Ok(Vec::new()) };
-    if attribute.space()?.size() != dataset.ndim() {
-        return Ok(Vec::new());
+    let count = attribute.space()?.size();
+    let labels = if count == dataset.ndim() { texts_of(&attribute)? } else { Vec::new() };
+    if labels.len() == dataset.ndim() {
+        return Ok(labels);
     }
-    texts_of(&attribute)
+    // Without them x and y might be taken for one another.
+    Err(Hdf5Error::Attribute {
+        dataset: dataset.name(),
+        found: format!("DIMENSION_LABELS of {count} values of type {}", attribute.dtype()?.to_descriptor()?),
+        expected: "one text for each dimension: correct it, or delete it where the dimensions are (columns, rows)",
+    })
 }
 
 /// The first scale of each dimension; none where there is none.
@@ -119,7 +127,7 @@ fn step(dataset: &Dataset, place: usize, scale: &Dataset) -> Result<Option<f64>,
     }
     refuse_hollow(scale)?;
     let name = scale.name();
-    let unit = match text_attribute(scale, "units")? {
+    let unit = match stated_unit(scale)? {
         None => 1.0,
         Some(unit) if is_metre(&unit) => 1.0,
         Some(unit) => units::parse(&format!("1 {unit}"), Dimension::Length).map_err(|_| Hdf5Error::Attribute {

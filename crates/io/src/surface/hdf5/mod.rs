@@ -123,12 +123,26 @@ fn refuse_other_units(dataset: &Dataset) -> Result<(), Hdf5Error> {
     if dataset.attr("Z Converter").is_ok() {
         return Err(Hdf5Error::Zygo { dataset: dataset.name() });
     }
-    let Some(found) = text_attribute(dataset, "units")? else { return Ok(()) };
+    let Some(found) = stated_unit(dataset)? else { return Ok(()) };
     if is_metre(&found) {
         return Ok(());
     }
     let found = format!("units = \"{}\"", short(&found).escape_debug());
     Err(Hdf5Error::Attribute { dataset: dataset.name(), found, expected: "\"m\"" })
+}
+
+/// The text of the attribute `units`, if it is there.
+fn stated_unit(dataset: &Dataset) -> Result<Option<String>, Hdf5Error> {
+    let unit = text_attribute(dataset, "units")?;
+    if unit.is_none() && dataset.attr("units").is_ok() {
+        let found = match &numbers(dataset, "units")?[..] {
+            [] => "units, which is not one text".to_owned(),
+            numbers => format!("units = {numbers:?}"),
+        };
+        let expected = "the name of a unit as one text: correct it, or delete it where the numbers are in m";
+        return Err(Hdf5Error::Attribute { dataset: dataset.name(), found, expected });
+    }
+    Ok(unit)
 }
 
 /// The attribute `pitch`, m: one length, or those along x and y.

@@ -81,6 +81,9 @@ impl Loader<'_> {
             }
         };
         let mut preparation = settings.preparation;
+        if preparation.cutoff.is_some() {
+            self.warn_of_second(body, prepare, "cutoff");
+        }
         let lay = profile_lay(&settings.source);
         if lay.is_some() {
             // It has been taken into the profile, which has a pitch in one direction only.
@@ -140,8 +143,9 @@ impl Loader<'_> {
                 found.0, found.1
             ));
         }
-        if measured.body.is_some_and(|recorded| recorded != body) {
-            return Err(FileError::OtherBody);
+        match measured.body {
+            Some(recorded) if recorded != body => return Err(FileError::OtherBody),
+            recorded => self.recorded.extend(recorded),
         }
         let pitch = measured.pitch.or(pixel.map(|pixel| [pixel; 2]));
         let cell = [self.mesh.column_width(), self.mesh.row_height()];
@@ -160,6 +164,16 @@ impl Loader<'_> {
             None => return Err(FileError::NoPitch { what: notes, found, mesh }),
         };
         Ok((raw, instrument))
+    }
+
+    /// Warns of a step that the run which recorded the heights of a body has already taken.
+    pub(super) fn warn_of_second(&mut self, body: Body, table: &str, key: &str) {
+        if self.recorded.contains(&body) {
+            self.report.push(format!(
+                "{table}: warning: {key} is applied to the map of a run, which has already been prepared: leave it out, unless \
+                 these heights are to be changed once more"
+            ));
+        }
     }
 
     /// What the heights of a body are like, within the pin's outline.

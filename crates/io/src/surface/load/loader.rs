@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use plateau_core::model::mesh::Mesh;
+use plateau_core::surface::Body;
 
 use super::super::error::FileError;
 use super::super::loaded::Patches;
@@ -14,6 +15,8 @@ pub(super) struct Loader<'a> {
     pub(super) mesh: &'a Mesh,
     pub(super) inputs: Inputs,
     pub(super) report: Vec<String>,
+    /// Bodies with heights that a run recorded.
+    pub(super) recorded: Vec<Body>,
     /// The patches from which heights come, where they are asked for.
     pub(super) patches: Option<Patches>,
 }
@@ -21,7 +24,13 @@ pub(super) struct Loader<'a> {
 impl<'a> Loader<'a> {
     /// Nothing is read yet, and patches are not asked for.
     pub(super) fn new(scene: &'a Scene) -> Self {
-        Self { mesh: &scene.parameters.mesh, inputs: Inputs::default(), report: Vec::new(), patches: None }
+        Self {
+            mesh: &scene.parameters.mesh,
+            inputs: Inputs::default(),
+            report: Vec::new(),
+            recorded: Vec::new(),
+            patches: None,
+        }
     }
 }
 

@@ -43,6 +43,7 @@ impl Loader<'_> {
         let (mut pin_height, pin_cut) = self.heights(&scene.pin_surface, Body::Pin)?;
         let pin_base = self.base(&scene.pin_base, scene.pin_base_mirror)?;
         if scene.resin_recess != 0.0 {
+            self.warn_of_second(Body::Pin, "pin.surface", "resin_recess");
             set_back_resin(&mut pin_height, &pin_base, scene.resin_recess);
             self.report.push(format!("pin.surface: resin set back by {}", Length(scene.resin_recess)));
         }

@@ -89,7 +89,7 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
         NAME,
         "Filling and coverage",
         "Filled part of the initial volume below the highest point of the disc, and parts of the area of disc and pin that \
-         are plateaus, against time. A cell is secondary as soon as any debris lies on it. Where \
+         are plateaus, against time. A cell is secondary as soon as debris of 1e-15 m lies on it. Where \
          there are more samples than the figure can tell apart, the line is their mean and the band their extent; more than three runs \
          have lines alone.",
         page(width, 560.0, 2, charts, &meanings),

@@ -7,7 +7,7 @@ use super::spans::Spans;
 use super::{Figures, Subject, operation};
 use crate::figure::axes::{Axis, Scale};
 use crate::figure::chart::{Chart, Meaning, TWO_COLUMNS, around, page, up_from_zero};
-use crate::figure::page::{Content, Mark};
+use crate::figure::page::Content;
 use crate::figure::stroke::Stroke;
 use crate::quantity::{SeriesLook, Unit};
 
@@ -61,7 +61,7 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
         let in_units = |[at, mean]: [f64; 2]| [time.value(at), mean];
         lines.extend(spans.lines(course.subject.run.time(), &course.means, in_units, stroke));
         let points = course.steps.iter().map(|[at, coefficient]| [pressure.value(*at), *coefficient]).collect();
-        marks.push(Content::Marks { points, colour: stroke.colour, mark: Mark::Point });
+        marks.push(Content::Dots { points, colour: stroke.colour });
     }
     let mut charts = [
         Chart {

@@ -152,7 +152,7 @@ pub fn lines_of(panel: &Panel, wanted: RGBColor) -> Vec<Vec<[f64; 2]>> {
 /// The marks of a colour in a box.
 pub fn marks_of(panel: &Panel, wanted: RGBColor) -> Vec<[f64; 2]> {
     let marks = |content: &Content| match content {
-        Content::Marks { points, colour, .. } if *colour == wanted => points.clone(),
+        Content::Dots { points, colour, .. } if *colour == wanted => points.clone(),
         _ => Vec::new(),
     };
     panel.contents.iter().flat_map(marks).collect()

@@ -1,0 +1,60 @@
+//! Words that other programs answer: `plateau WORD` is `plateau-WORD`, beside this program or on the path.
+
+use std::env;
+use std::ffi::{OsStr, OsString};
+use std::io;
+use std::os::unix::process::CommandExt as _;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use crate::failure::Failure;
+use crate::message;
+
+/// Names this program to the one that answers, which calls it.
+const PROGRAM: &str = "PLATEAU_PROGRAM";
+/// Words that the Python package answers.
+const OF_PYTHON: [&str; 3] = ["sweep", "fit", "compare"];
+
+/// Becomes the program that answers a word, with these arguments; comes back only where that fails.
+///
+/// # Errors
+/// [`Failure::Run`] where there is no such program, with what to install, or it cannot be started.
+pub fn hand_over(word: &str, arguments: impl IntoIterator<Item = OsString>) -> Result<(), Failure> {
+    let Some(answering) = answering(word) else {
+        let package = if OF_PYTHON.contains(&word) {
+            "it comes with the Python package: pip install 'plateau-brake[all]'; in a checkout ./plateau has it"
+        } else {
+            "install it"
+        };
+        return Err(Failure::run(format!(
+            "plateau-{word} answers this, and is neither beside the program nor on PATH; {package}"
+        )));
+    };
+    let mut command = Command::new(&answering);
+    command.args(arguments).args(message::level_as_option());
+    if let Ok(program) = env::current_exe() {
+        command.env(PROGRAM, program);
+    }
+    let error: io::Error = command.exec();
+    Err(Failure::because(&error, format_args!("{}: {error}", answering.display())))
+}
+
+/// The program that answers a word, if there is one.
+pub fn answering(word: &str) -> Option<PathBuf> {
+    let name = format!("plateau-{word}");
+    let beside = env::current_exe().ok().and_then(|program| program.parent().map(Path::to_owned));
+    let path = env::var_os("PATH").unwrap_or_default();
+    let folders = beside.into_iter().chain(env::split_paths(&path).filter(|folder| folder.is_absolute()));
+    folders.map(|folder| folder.join(&name)).find(|file| is_program(file))
+}
+
+/// A word that names a program and no path.
+pub fn is_word(word: &OsStr) -> bool {
+    word.to_str()
+        .is_some_and(|word| !word.is_empty() && word.bytes().all(|byte| byte.is_ascii_lowercase() || byte == b'-'))
+}
+
+fn is_program(file: &Path) -> bool {
+    use std::os::unix::fs::PermissionsExt as _;
+    file.metadata().is_ok_and(|found| found.is_file() && found.permissions().mode() & 0o111 != 0)
+}

@@ -1,0 +1,296 @@
+"""Likelihood of what was measured, by Gaussian processes of the responses over the keys: where it is largest, and what runs would tell.
+
+M. C. Kennedy, A. O'Hagan, J. R. Stat. Soc. B 63(3), 425-464 (2001), doi:10.1111/1467-9868.00294 (calibration with Gaussian processes and
+discrepancy of the model); D. Higdon et al., J. Am. Stat. Assoc. 103(482), 570-583 (2008), doi:10.1198/016214507000000888 (series as principal
+components); A. Raue et al., Bioinformatics 25(15), 1923-1929 (2009), doi:10.1093/bioinformatics/btp358 (profile likelihood).
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from scipy import linalg, optimize, special, stats
+
+from plateau.study.measured import Measurement
+from plateau.study.process import Equations, Process
+from plateau.study.results import Numbers
+
+# Variance over the runs, as a part of that of the measurement, below which a component of a series is left out; most components.
+LEAST, MOST = 0.02, 10
+# Part of a measurement's variance below which that of a process no longer counts.
+SETTLED = 0.1
+# How far -2 ln L rises in the region that has to be known so well.
+REGION = 6.0
+# A run is made at the most likely place where none is nearer than this, in coded units; steps between places of runs.
+NEAR, STEP = 0.1, 1.0 / 256.0
+
+
+@dataclass(frozen=True)
+class Runs:
+    """Runs of a fit: ``x`` coded keys by run, ``group`` the set of seeds, ``values`` for each measurement, by run and time (one for a single value)."""
+
+    x: Numbers
+    group: Numbers
+    values: list[Numbers]
+
+    def with_more(self, more: "Runs") -> "Runs":
+        """These and others."""
+        values = [np.vstack(pair) for pair in zip(self.values, more.values, strict=True)]
+        return Runs(np.vstack([self.x, more.x]), np.concatenate([self.group, more.group]), values)
+
+
+@dataclass(frozen=True)
+class Target:
+    """What is fitted to: measurements, the discrepancy of the model for each (relative, the same at all times), correlations of single values."""
+
+    measured: Sequence[Measurement]
+    discrepancies: Sequence[float]
+    correlations: Numbers
+
+    @cached_property
+    def singles(self) -> list[int]:
+        """Which measurements are single values."""
+        return [at for at, one in enumerate(self.measured) if not one.is_series]
+
+    @cached_property
+    def covariance(self) -> Numbers:
+        """Covariance of the single values: of measurement and model."""
+        deviation = np.array([self.measured[at].uncertainties[0] for at in self.singles])
+        of_model = [self.discrepancies[at] * self.measured[at].values[0] for at in self.singles]
+        return np.asarray(self.correlations * np.outer(deviation, deviation) + np.diag(np.square(of_model)))
+
+    def root(self, at: int) -> Numbers:
+        """Root of the covariance of a series, which divides its errors into independent ones of deviation 1."""
+        one = self.measured[at]
+        of_model = self.discrepancies[at] * one.values
+        covariance = one.correlations * np.outer(one.uncertainties, one.uncertainties) + np.outer(of_model, of_model)
+        return np.asarray(linalg.cholesky(covariance, lower=True))
+
+
+class Components:
+    """Principal components of a series, as far as the measurement can see what runs differ in."""
+
+    def __init__(self, root: Numbers, measured: Numbers, runs: Numbers) -> None:
+        self.root = root
+        self.measured, white = self.white(measured[None])[0], self.white(runs[np.isfinite(runs).all(axis=1)])
+        self.mean = white.mean(axis=0)
+        _, sizes, axes = np.linalg.svd(white - self.mean, full_matrices=False)
+        variances = sizes**2 / len(white)
+        kept = int(np.clip((variances > LEAST).sum(), 1, min(MOST, max(len(white) - 1, 1))))
+        self.basis, self.left_out = axes[:kept].T, variances[kept:].sum() / max(len(measured) - kept, 1)
+        away = self.measured - self.mean
+        # What the components leave of the measurement does not depend on the keys.
+        self.rest = max(float(away @ away - np.square(away @ self.basis).sum()), 0.0) / (1.0 + self.left_out)
+
+    def white(self, series: Numbers) -> Numbers:
+        """Series, by row, with independent errors of deviation 1."""
+        return np.asarray(linalg.solve_triangular(self.root, series.T, lower=True, check_finite=False).T)
+
+    def scores(self, series: Numbers) -> Numbers:
+        """Scores of series, by row."""
+        return np.asarray((self.white(series) - self.mean) @ self.basis)
+
+
+@dataclass(frozen=True)
+class Term:
+    """A response, or a component of a series: its process, what was measured, and which measurement it is of."""
+
+    process: Process
+    measured: float
+    of: int
+
+
+class Likelihood:
+    """-2 ln of the likelihood over the coded keys, from runs so far; `Process` says where it cannot be.
+
+    Attributes
+    ----------
+    terms : list of Term
+    covariance : numpy.ndarray
+        Of measurements and model, by term.
+    best : numpy.ndarray
+        The most likely place.
+    least : float
+        -2 ln L there.
+    """
+
+    def __init__(self, target: Target, runs: Runs) -> None:
+        self.target, self.runs, self.terms = target, runs, list[Term]()
+        self.components: dict[int, Components] = {}
+        variances: list[float] = []
+        for at, one in enumerate(target.measured):
+            if one.is_series:
+                self.components[at] = found = Components(target.root(at), one.values, runs.values[at])
+                columns, aims = found.scores(runs.values[at]).T, found.scores(one.values[None])[0]
+                variances += [1.0 + found.left_out] * len(aims)
+            else:
+                columns, aims = runs.values[at].T, one.values
+            for column, aim in zip(columns, aims, strict=True):
+                self.terms.append(Term(Process(runs.x, column, runs.group), float(aim), at))
+        single = np.array([not target.measured[term.of].is_series for term in self.terms])
+        self.covariance = np.zeros((len(single), len(single)))
+        self.covariance[np.ix_(single, single)] = target.covariance
+        self.covariance[~single, ~single] = variances
+        self.aims = np.array([term.measured for term in self.terms])
+        self._search()
+
+    @property
+    def keys(self) -> int:
+        """Number of keys."""
+        return self.runs.x.shape[1]
+
+    def moments(self, places: Numbers) -> tuple[Numbers, Numbers, Numbers]:
+        """Means, variances of the processes, and of the mean over the seeds: arrays of place and term."""
+        found = np.array([term.process.moments(places) for term in self.terms])
+        seeds = np.array([term.process.seeds for term in self.terms])
+        return found[:, 0].T, found[:, 1].T, found[:, 2].T / seeds
+
+    def misfit(self, places: Numbers, *, with_processes: bool) -> Numbers:
+        """Squares of forecast less measured over the variances of measurement, model, seeds, and if asked to of the processes."""
+        means, own, seeds = self.moments(places)
+        rest = sum(each.rest for each in self.components.values())
+        return np.asarray(self._squares(means, self._added(own * with_processes, seeds))[0] + rest)
+
+    @property
+    def freedom(self) -> int:
+        """Measurements, each point of a series one of them, less keys."""
+        return max(sum(len(one.values) for one in self.target.measured) - self.keys, 0)
+
+    @property
+    def agrees_by_ignorance(self) -> bool:
+        """Whether what was measured is likely at the most likely place only because little is known there."""
+        known, all_in_all = (stats.chi2.sf(self.misfit(self.best[None], with_processes=each)[0], max(self.freedom, 1)) for each in (False, True))
+        return bool(known < 0.01 and all_in_all > 10.0 * known)
+
+    def _added(self, own: Numbers, seeds: Numbers) -> Numbers:
+        """Variances of processes and seeds; few sets of seeds tell theirs badly, by so much as quantiles of t exceed normal ones (Satterthwaite)."""
+        total = np.diag(self.covariance) + own + seeds
+        freedom = np.array([(term.process.freedom, max(term.process.seeds - 1, 1)) for term in self.terms]).T
+        freedom = total**2 / np.maximum(own**2 / freedom[0] + seeds**2 / freedom[1], 1e-9 * total**2)
+        return np.asarray(own + seeds + total * ((special.stdtrit(freedom, 0.975) / special.ndtri(0.975)) ** 2 - 1.0))
+
+    def _squares(self, means: Numbers, added: Numbers) -> tuple[Numbers, Numbers]:
+        covariance = self.covariance + added[:, :, None] * np.eye(len(self.terms))
+        away = means - self.aims
+        return (away * np.linalg.solve(covariance, away[..., None])[..., 0]).sum(-1), np.linalg.slogdet(covariance)[1]
+
+    def value(self, places: Numbers) -> Numbers:
+        """-2 ln L at places, but for a constant."""
+        means, own, seeds = self.moments(places)
+        squares, logarithm = self._squares(means, self._added(own, seeds))
+        value = squares + logarithm - np.linalg.slogdet(self.covariance)[1]
+        return np.where(np.isfinite(value), value, np.inf)
+
+    def rise(self, places: Numbers) -> Numbers:
+        """How far -2 ln L is above the least."""
+        return self.value(np.atleast_2d(places)) - self.least
+
+    def _search(self) -> None:
+        """Places that are looked at, everywhere and near the most likely one, and this itself."""
+        keys = self.keys
+        even = 2.0 * stats.qmc.Sobol(keys, scramble=False).random_base2(min(6 + keys, 9))[1:] - 1.0
+        places = np.vstack([even, np.unique(self.runs.x, axis=0)])
+        values = self.value(places)
+        found = [self.climbed(places[at], {}) for at in np.argsort(values)[:4]]
+        self.best, self.least = min(found, key=lambda one: one[1])
+        axes, deviation = self.shape(self.best)
+        spread = stats.norm.ppf(stats.qmc.Sobol(keys, scramble=False).random_base2(7)[1:])
+        near = np.clip(self.best + 1.5 * (spread * deviation) @ axes.T, -1.0, 1.0)
+        self.places = np.vstack([places, near, self.best])
+        self.values = np.concatenate([values, self.value(near), [self.least]])
+        if self.values.min() < self.least - 1e-3:
+            self.best, self.least = self.climbed(self.places[self.values.argmin()], {})
+
+    def slopes(self, place: Numbers) -> Numbers:
+        """Slopes of the responses by coded keys, over the deviations of measurement, model and processes."""
+        step = 1e-3
+        at = np.clip(place + step * np.vstack([np.eye(self.keys), -np.eye(self.keys)]), -1.0, 1.0)
+        means = self.moments(at)[0]
+        differences = (means[: self.keys] - means[self.keys :]).T / (at[: self.keys] - at[self.keys :]).sum(axis=1)
+        _, own, seeds = self.moments(place[None])
+        return np.asarray(linalg.solve_triangular(linalg.cholesky(self.covariance + np.diag(self._added(own, seeds)[0]), lower=True), differences, lower=True))
+
+    def shape(self, place: Numbers) -> tuple[Numbers, Numbers]:
+        """Axes and deviations of the normal distribution that the likelihood is near a place; no wider than the ranges."""
+        slopes = self.slopes(place)
+        values, axes = np.linalg.eigh(slopes.T @ slopes + np.eye(self.keys))
+        return axes, values**-0.5
+
+    def climbed(self, start: Numbers, held: dict[int, float]) -> tuple[Numbers, float]:
+        """The most likely place from a start, with some keys held."""
+        free = [key for key in range(self.keys) if key not in held]
+        place = np.array(start, float)
+        place[list(held)] = list(held.values())
+        if not free:
+            return place, float(self.value(place[None])[0])
+        step = 1e-4 * np.vstack([np.zeros(len(free)), np.eye(len(free)), -np.eye(len(free))])
+
+        def both(at: Numbers) -> tuple[float, Numbers]:
+            places = np.tile(place, (len(step), 1))
+            places[:, free] = at + step
+            value = self.value(places)
+            return value[0], (value[1 : 1 + len(free)] - value[1 + len(free) :]) / 2e-4
+
+        found = optimize.minimize(both, place[free], jac=True, bounds=[(-1.0, 1.0)] * len(free), options={"gtol": 1e-3, "ftol": 1e-9})
+        place[free] = found.x
+        return place, float(found.fun)
+
+    def share_by_term(self, own: Numbers | None = None) -> Numbers:
+        """The largest variance of each process over that of measurement, model and seeds, where measurements are not unlikely."""
+        likely = self.values <= self.least + REGION
+        _, now, seeds = self.moments(self.places[likely])
+        return np.asarray(((now if own is None else own) / (np.diag(self.covariance) + seeds)).max(axis=0))
+
+    def next_places(self, count: int, seeds: int, can_run: Sequence[bool]) -> tuple[Numbers, float]:
+        """Places where runs teach most, each as if those before it had been run, and the largest share of variance that is left then.
+
+        Parameters
+        ----------
+        count : int
+            At most so many places.
+        seeds : int
+            Runs at each.
+        can_run : sequence of bool
+            For each measurement, whether runs give it.
+        """
+        _, own, of_seeds = self.moments(self.places)
+        fixed, candidates = np.diag(self.covariance) + of_seeds, self.snapped(self.places)
+        misfit = self.misfit(candidates, with_processes=True)
+        weight = np.exp(0.25 * (misfit.min() - misfit))
+        known, chosen, now = np.unique(self.runs.x, axis=0), list[Numbers](), own.copy()
+        asked = [at for at, term in enumerate(self.terms) if can_run[term.of]]
+        for _ in range(count):
+            value = weight * (now[:, asked] / fixed[:, asked]).sum(axis=1)
+            value[(np.abs(candidates[:, None] - known).max(axis=-1) < STEP / 2.0).any(axis=1)] = 0.0
+            best = self.snapped(self.best)
+            is_far = np.abs(best - known).max(axis=1).min() > NEAR
+            if not is_far and value.max() <= 0.0:
+                break
+            chosen.append(best if is_far else candidates[value.argmax()])
+            known = np.vstack([known, chosen[-1]])
+            for at in asked:
+                now[:, at] = own[:, at] * self._left(self.terms[at].process, np.array(chosen), seeds)
+        likely = self.values <= self.least + REGION
+        return np.array(chosen).reshape(-1, self.keys), float((now / fixed)[likely].max())
+
+    def _left(self, process: Process, new: Numbers, seeds: int) -> Numbers:
+        """Variances of a process with more points, over those of now, with middle lengths and noise."""
+        sets, middle = process.sets, np.average(process.logs, axis=0, weights=process.probabilities)[None]
+
+        def variances(x: Numbers, share: Numbers) -> Numbers:
+            # The values do not matter.
+            return Equations(x, np.linspace(0.0, 1.0, len(x)), share, sets.replicates, middle, sets.axes).forecast(self.places)[1][0]
+
+        more = variances(np.vstack([sets.x, new]), np.concatenate([sets.share, np.full(len(new), 1.0 / seeds)]))
+        return np.asarray((more + 1e-12) / (variances(sets.x, sets.share) + 1e-12)).clip(max=1.0)
+
+    def snapped(self, places: Numbers) -> Numbers:
+        """The nearest places at which runs are made, so that rounding asks for no other run; finer where the likelihood is narrow."""
+        step = min(STEP, 2.0 ** np.floor(np.log2(0.2 * self.shape(self.best)[1].min()))) if hasattr(self, "best") else STEP
+        return np.clip(np.round(np.asarray(places) / step) * step, -1.0, 1.0)
+
+    def of_runs(self, runs: Runs) -> Numbers:
+        """What runs give of each term, by run."""
+        columns = [self.components[at].scores(values) if at in self.components else values for at, values in enumerate(runs.values)]
+        return np.hstack(columns)

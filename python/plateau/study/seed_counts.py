@@ -1,0 +1,118 @@
+"""Numbers of sets of seeds that a study needs, from the scatter between those of a pilot."""
+
+import os
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import pandas
+from scipy import stats
+
+from plateau.errors import InputError
+from plateau.study.analysis import Effects, effects
+from plateau.study.results import Study
+from plateau.study.units import parsed
+
+# Beyond this nobody runs them.
+MOST_SETS = 100_000
+# Probability with which the larger number is enough.
+SAFE = 0.9
+
+
+def sets_for(scatter: float, half_width: float, confidence: float = 0.95) -> float:
+    """Number of sets of seeds with which a mean has an interval of this half width.
+
+    Parameters
+    ----------
+    scatter : float
+        Standard deviation of what is averaged, such as an effect or a difference, between sets of seeds.
+    half_width : float
+        In the same unit.
+    confidence : float
+
+    Returns
+    -------
+    float
+        The smallest n with t(n - 1) scatter / sqrt(n) <= half width; infinite beyond 100 000.
+    """
+    low, high = 1, 2
+
+    def is_enough(count: int) -> bool:
+        return bool(stats.t.ppf(0.5 + 0.5 * confidence, count - 1) * scatter <= half_width * count**0.5)
+
+    while not is_enough(high):
+        low, high = high, 2 * high
+        if high > MOST_SETS:
+            return np.inf
+    while high - low > 1:
+        middle = (low + high) // 2
+        low, high = (low, middle) if is_enough(middle) else (middle, high)
+    return float(high)
+
+
+@dataclass(frozen=True, repr=False)
+class SeedsNeeded:
+    """Numbers of sets of seeds.
+
+    Attributes
+    ----------
+    study : Study
+    table : pandas.DataFrame
+        A row for each effect: ``response``, ``term``, ``effect``, ``scatter`` (its standard deviation between the sets of the pilot),
+        ``half_width`` (the wanted one), ``unit``, ``sets``, and ``sets_safe``, which are enough with 90 % probability although the pilot
+        knows the scatter from few sets.
+    """
+
+    study: Study
+    table: pandas.DataFrame
+
+    def document(self) -> dict[str, Any]:
+        """The table for JSON."""
+        table = self.table.replace([np.inf, -np.inf], np.nan)
+        return {"study": self.study.title, "sets": table.astype(object).where(table.notna(), None).to_dict("records")}
+
+    def text(self) -> str:
+        """The table for people."""
+        pilot = f"{self.study.title}: sets of seeds needed, from the scatter between the {self.study.seeds} of the pilot\n"
+        return pilot + self.table.to_string(index=False, float_format=lambda value: f"{value:.4g}") + "\n"
+
+
+def seeds_needed(
+    study: Effects | Study | str | os.PathLike[str],
+    half_width: float | str | dict[str, float | str] | None = None,
+    confidence: float = 0.95,
+) -> SeedsNeeded:
+    """Tells how many sets of seeds give each effect an interval of a wanted half width.
+
+    Parameters
+    ----------
+    study : path, Study or Effects
+        The pilot, with two sets of seeds or more.
+    half_width : float or str, or dict of them by response, optional
+        SI, or with a unit, such as ``"0.05 mm2"``; on the scale of the fit. Without it, that with which each effect is told from none.
+    confidence : float
+
+    Returns
+    -------
+    SeedsNeeded
+
+    Raises
+    ------
+    InputError
+        If the pilot has one set of seeds.
+    """
+    found = study if isinstance(study, Effects) else effects(study, confidence=confidence)
+    if (pilot := found.study.seeds) < 2:
+        raise InputError(f"{found.study.title}: one set of seeds shows no scatter; give [replicates] two at least, better five")
+    table = found.table
+    table = table[table["standard_error"].notna()]
+    rows = []
+    for row in table.to_dict("records"):
+        asked = half_width.get(row["response"]) if isinstance(half_width, dict) else half_width
+        wanted = parsed(row["unit"], asked) if isinstance(asked, str) else abs(row["effect"]) if asked is None else float(asked)
+        scatter = row["standard_error"] * np.sqrt(pilot)
+        largest = scatter * np.sqrt(row["error_freedom"] / stats.chi2.ppf(1.0 - SAFE, row["error_freedom"]))
+        sets = {"sets": sets_for(scatter, wanted, confidence), "sets_safe": sets_for(float(largest), wanted, confidence)}
+        own = {name: row[name] for name in ("response", "term", "effect")}
+        rows.append({**own, "scatter": scatter, "half_width": wanted, "unit": row["unit"], **sets})
+    return SeedsNeeded(found.study, pandas.DataFrame(rows))

@@ -1,0 +1,130 @@
+"""Coverage of the 95 % intervals of `plateau fit`, by artificial experiments: ``python tests/python/coverage/fit.py [experiments]``.
+
+Two keys, three responses that are curved by lot, three sets of seeds that add something everywhere and noise in each run. What was measured is the
+response at true keys with a normal error. A failed check gives no interval; its share is told.
+"""
+
+import sys
+
+import numpy as np
+from scipy import stats
+from scipy.stats import qmc
+
+from plateau.study.calibration import best_with, calibrated
+from plateau.study.likelihood import Runs, Target
+from plateau.study.measured import Measurement
+from plateau.study.results import Response
+
+SEEDS, POINTS, NOISE, OF_SEEDS, ERROR = 3, 10, 0.02, 0.03, 0.05
+TIMES = np.linspace(0.0, 23.0, 24)
+
+
+class Experiment:
+    """An artificial experiment; `number` decides its lot."""
+
+    def __init__(self, number, *, bias=0.0, sharp=0.0, seeds=SEEDS, series=0.0):
+        self.random = np.random.default_rng(number)
+        self.truth, self.seeds, self.series = self.random.uniform(-0.8, 0.8, 2), seeds, series
+        self.shape, self.sharp = self.random.uniform(0.5, 1.5, 6), sharp
+        self.added = OF_SEEDS * self.random.standard_normal((seeds, 3))
+        values = self.responses(self.truth[None])[0] * np.array([1.0 + bias, 1.0, 1.0])
+        if series:
+            # Errors of a series last for so many points.
+            correlations = np.exp(-np.abs(np.subtract.outer(TIMES, TIMES)) / series)
+            values = self.curves(self.truth[None])[0] + ERROR * np.linalg.cholesky(correlations) @ self.random.standard_normal(len(TIMES))
+            self.measured = [values]
+        else:
+            self.measured = list((values + ERROR * self.random.standard_normal(3))[:, None])
+
+    def responses(self, x):
+        a, b, c = x[:, 0], x[:, 1], self.shape
+        bump = self.sharp * np.exp(-8.0 * ((a - 0.3) ** 2 + (b + 0.2) ** 2))
+        return np.stack([np.exp(0.7 * c[0] * a + 0.3 * b) + bump, 3.0 + c[1] * a + np.tanh(c[2] * b), 2.0 + c[3] * np.sin(c[4] * a) + b + c[5] * b * b / 2.0], -1)
+
+    def curves(self, x):
+        level, rate, trend = self.responses(x).T[:, :, None]
+        return level * (1.0 - np.exp(-TIMES / (2.0 + np.abs(rate)))) + 0.03 * trend * TIMES
+
+    def runs(self, places):
+        x, group = np.repeat(places, self.seeds, axis=0), np.tile(np.arange(self.seeds), len(places))
+        # The same place gives the same run, as the program does.
+        lot = np.random.default_rng(np.frombuffer(np.round(places, 9).tobytes(), np.uint32))
+        if self.series:
+            return Runs(x, group, [self.curves(x) + self.added[group, :1] + NOISE * lot.standard_normal((len(x), 1))])
+        y = self.responses(x) + self.added[group] + NOISE * lot.standard_normal((len(x), 3))
+        return Runs(x, group, list(y.T[:, :, None]))
+
+    def fitted(self, most=60, discrepancy=0.0, correlation_time=0.0, points=POINTS):
+        times = TIMES if self.series else np.array([])
+        response = Response("", "1", "", "none", -np.inf, np.inf, {})
+        measured = [Measurement(response, times, values, np.full(len(values), ERROR), correlation_time, "") for values in self.measured]
+        first = self.runs(2.0 * qmc.Sobol(2, scramble=False).random(points) - 1.0)
+        return calibrated(Target(measured, [discrepancy] * len(measured), np.eye(len(measured))), first, self.runs, self.seeds, most, [True] * len(measured))
+
+
+def inside(outcome, truth):
+    """Whether the truth is in the region of both keys, and in the interval of each."""
+    likelihood = outcome.likelihood
+    rises = [best_with(likelihood, {key: float(truth[key])}, likelihood.best)[1] - likelihood.least for key in (0, 1)]
+    return [likelihood.rise(truth)[0] <= stats.chi2.ppf(0.95, 2), *(rise <= stats.chi2.ppf(0.95, 1) for rise in rises)]
+
+
+def coverage(experiments, first=0, given=None, **made):
+    """Shares of experiments whose truth is in the region, in the intervals, that have no interval, and the mean number of runs."""
+    found, runs, failed = [], [], 0
+    for number in range(first, first + experiments):
+        experiment = Experiment(number, **made)
+        outcome = experiment.fitted(**(given or {}))
+        runs.append(len(outcome.likelihood.runs.x))
+        if outcome.has_failed:
+            failed += 1
+        else:
+            found.append(inside(outcome, experiment.truth))
+    shares = np.mean(found, axis=0)
+    return shares[0], shares[1:].mean(), failed / experiments, np.mean(runs)
+
+
+def budgets(number, budgets=(30, 31, 40, 60), **made):
+    """For each budget the end of the fit: whether it has intervals, the most likely place, and what of the places of the others is in its region."""
+    outcomes = [Experiment(number, **made).fitted(most=most, points=12) for most in budgets]
+    good = [outcome for outcome in outcomes if not outcome.has_failed]
+    limit = stats.chi2.ppf(0.95, 1)
+    exclusive = 0
+    for one in good:
+        for other in good:
+            for key in (0, 1):
+                # Intervals exclude each other if no value of the key is in both.
+                values = np.linspace(-1.0, 1.0, 41)
+                both = [
+                    max(best_with(each.likelihood, {key: value}, each.likelihood.best)[1] - each.likelihood.least for each in (one, other)) for value in
+                    np.unique(np.concatenate([values[np.abs(values - one.likelihood.best[key]) < 0.2], [one.likelihood.best[key], other.likelihood.best[key]]]))
+                ]
+                exclusive += min(both) > limit if one is not other else 0
+    return len(good), exclusive // 2, [outcome.likelihood.best for outcome in outcomes]
+
+
+CASES = [
+    ("as it should be", {}, {}),
+    ("a response 10 % off", {"bias": 0.1}, {}),
+    ("the same, discrepancy 0.1 stated", {"bias": 0.1}, {"discrepancy": 0.1}),
+    ("no response off, discrepancy 0.1 stated", {}, {"discrepancy": 0.1}),
+    ("sharp response, budget 30, two seeds", {"sharp": 1.5, "seeds": 2}, {"most": 30}),
+    ("sharp response, budget 60, two seeds", {"sharp": 1.5, "seeds": 2}, {"most": 60}),
+    ("series, errors alike over 3 points", {"series": 3.0}, {"correlation_time": 3.0}),
+    ("the same, taken for independent", {"series": 3.0}, {}),
+]
+
+
+def main():
+    experiments = int(sys.argv[1]) if len(sys.argv) > 1 else 200
+    print("| experiments | region | intervals | no interval | runs |\n|---|---|---|---|---|", flush=True)
+    for name, made, given in CASES:
+        region, intervals, failed, runs = coverage(experiments, given=given, **made)
+        print(f"| {name} | {100.0 * region:.1f} % | {100.0 * intervals:.1f} % | {100.0 * failed:.1f} % | {runs:.0f} |", flush=True)
+    found = [budgets(number, sharp=1.5, seeds=2)[:2] for number in range(experiments // 4)]
+    good, exclusive = np.sum(found, axis=0)
+    print(f"budgets 30, 31, 40, 60 in {len(found)} experiments: {good} of {4 * len(found)} fits have intervals, {exclusive} pairs exclude each other")
+
+
+if __name__ == "__main__":
+    main()

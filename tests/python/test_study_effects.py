@@ -1,0 +1,295 @@
+"""Effects of studies: against the program that did this before, closed forms, statsmodels and textbooks."""
+
+import gzip
+import json
+import math
+import sys
+import unittest
+import warnings
+from pathlib import Path
+
+import numpy as np
+import pandas
+import xarray
+from scipy import stats
+
+HERE = Path(__file__).parent
+sys.path.insert(0, str(HERE / "coverage"))
+
+from effects import cube, number, simulated, study_of, word
+from plateau.errors import InputError, PlateauWarning
+from plateau.study.analysis import effects
+from plateau.study.level_differences import levels
+from plateau.study.model import fitted
+from plateau.study.results import Factor, Response, Study
+from plateau.study.seed_counts import seeds_needed, sets_for
+
+
+def recorded(said: dict) -> Study:
+    """A study of the fixture."""
+    columns = said["runs"]
+    count = len(next(iter(columns.values())))
+    numbers = list(range(1, count + 1))
+    own = {"run": numbers, "point": numbers, "replicate": 1, "order": numbers, "same_as": columns.get("run", numbers), "state": "finished"}
+    runs = pandas.DataFrame({**own, **columns}).set_index("run")
+    factors = [Factor(**{**factor, "levels": tuple(factor["levels"])}) for factor in said["factors"]]
+    ends = {"low": -math.inf, "high": math.inf}
+    responses = [Response(**{**one, **{end: value for end, value in ends.items() if one[end] is None}}) for one in said["responses"]]
+    for response in responses:
+        runs[response.name] = runs[response.name].astype(float)
+    nothing = pandas.DataFrame(), pandas.DataFrame(), xarray.Dataset(), {}, None, HERE
+    return Study(said["title"], said["design"], factors, responses, runs, *nothing)
+
+
+def differences(old: object, new: object, path: str = ""):
+    """Paths at which two documents differ."""
+    if isinstance(old, dict):
+        for key, value in old.items():
+            yield from differences(value, new[key], f"{path}/{key}") if isinstance(new, dict) and key in new else [path + "/" + key]
+    elif isinstance(old, list):
+        if not isinstance(new, list) or len(old) != min(len(new), 40 if path.endswith("/terms") and "equations" in path else len(new)):
+            yield path
+        else:
+            # Of long equations the fixture has the first products.
+            for at, (one, other) in enumerate(zip(old, new, strict=False)):
+                name = one.get("label", one.get("name", one.get("variables", at))) if isinstance(one, dict) else at
+                yield from differences(one, other, f"{path}[{name}]")
+    elif isinstance(old, float | int) and isinstance(new, float | int):
+        # A maximum is known to half of the digits; what cancels has those of what it is made of.
+        tolerance, least = (1e-6, 1e-6) if "box_cox" in path else (1e-8, 1e-12 if "terms" in path or "sum_of_squares" in path else 0.0)
+        if abs(old - new) > tolerance * max(abs(old), abs(new)) + least:
+            yield path
+    elif old != new and not (new is None and isinstance(old, float) and abs(old) < 1e-12):
+        yield path
+
+
+# The only study of the fixture with a factor of two units.
+ONE_SEED = "Runs: 3 x 2 without seeds, mean between times"
+
+
+class OldProgram(unittest.TestCase):
+    def test_what_is_not_meant_to_change_is_equal(self) -> None:
+        studies = json.loads(gzip.decompress((HERE / "data" / "effects.json.gz").read_bytes()))["studies"]
+        compared = 0
+        for said in studies:
+            study = recorded(said)
+            for call in said["calls"]:
+                with warnings.catch_warnings():
+                    warnings.simplefilter("ignore", PlateauWarning)
+                    document = effects(study, **call["options"]).document()
+                self.assertEqual(document["repeats"], call["document"]["repeats"])
+                for old, new, response in zip(call["document"]["responses"], document["responses"], study.responses, strict=True):
+                    with self.subTest(study=said["name"], response=old["name"], **call["options"]):
+                        found = [path for path in differences(old, new) if not meant(path, old, new, study, response)]
+                        self.assertEqual(found, [])
+                        compared += 1
+        self.assertGreater(compared, 200)
+
+
+def meant(path: str, old: dict, new: dict, study: Study, response: Response) -> bool:
+    """Whether a difference is meant: see the changes of the release."""
+    last = path.rsplit("/", 1)[-1]
+    # Centre points have a term of their own, which is in the model.
+    if "centre points" in [term["label"] for term in new["terms"]] + (new["terms_left_out"] or []) or path.startswith("/curvature"):
+        return True
+    # Nothing was fitted.
+    if new["error"] is not None and last in ("model", "model_reason"):
+        return True
+    # A transform is that of the response in SI units.
+    of_scale = path in ("/fitted", "/mean", "/middle") or "/equations" in path or response.transform == "square root"
+    if response.transform != "none" and of_scale:
+        return True
+    seeds = study.runs["replicate"].nunique() > 1
+    term = next((term for term in new["terms"] if path.startswith(f"/terms[{term['label']}]/")), None)
+    tests = ("f", "p", "standard_error", "interval[0]", "interval[1]", "interval")
+    if term is not None and last in tests:
+        # The error is that over all seeds; and what cannot be estimated has no test.
+        return seeds and term["label"] != "replicate" or term["f"] is None and bool(term["aliased_with"])
+    # One end in rpm and the other in rad/s: the unit of the study is the other one of them.
+    if study.title == ONE_SEED and path.startswith("/equations[1]"):
+        return True
+    # Levels are named in the unit of the study.
+    return last == "error_from" and seeds or "equations" in path and last == "variables"
+
+
+class Seeds(unittest.TestCase):
+    def test_error_of_complete_sets_is_that_of_one_effect_for_each(self) -> None:
+        random = np.random.default_rng(1)
+        runs = cube(4)
+        runs["y"] = random.normal(size=len(runs)) + runs["A"] * runs["replicate"] + 0.3 * runs["replicate"]
+        with self.assertWarnsRegex(PlateauWarning, r"seeds x factor exceeds the residual.*A \d"):
+            found = effects(study_of([number(name, -1.0, 1.0) for name in "ABC"], runs))
+        for label in ("A", "B", "A × C"):
+            sign = np.prod([runs[name] for name in label.split(" × ")], axis=0)
+            each = (2.0 * runs["y"] * sign).groupby(runs["replicate"]).mean()
+            row = found.table.set_index("term").loc[label]
+            self.assertAlmostEqual(row["effect"], each.mean(), places=12)
+            self.assertAlmostEqual(row["standard_error"], each.std() / 2.0, places=12)
+            self.assertAlmostEqual(row["error_freedom"], 3.0, places=9)
+            interval = stats.ttest_1samp(each, 0.0).confidence_interval(0.95)
+            self.assertAlmostEqual(row["low"], interval.low, places=9)
+            self.assertAlmostEqual(row["p"], stats.ttest_1samp(each, 0.0).pvalue, places=12)
+
+    def test_three_levels_are_tested_as_repeated_measures(self) -> None:
+        from statsmodels.stats import anova
+
+        random = np.random.default_rng(2)
+        runs = pandas.DataFrame([(level, seed) for level in ("a", "b", "c") for seed in range(1, 6)], columns=["pad", "replicate"])
+        runs["y"] = random.normal(size=15) + (runs["pad"] == "b") * 2.0
+        row = effects(study_of([word("pad", "a", "b", "c")], runs)).table.set_index("term").loc["pad"]
+        expected = anova.AnovaRM(runs, "y", "replicate", within=["pad"]).fit().anova_table.iloc[0]
+        self.assertAlmostEqual(row["f"], expected["F Value"], places=9)
+        self.assertAlmostEqual(row["error_freedom"], expected["Den DF"], places=9)
+        self.assertAlmostEqual(row["p"], expected["Pr > F"], places=9)
+
+    def test_intervals_hold_the_mean_over_all_seeds(self) -> None:
+        for missing in (0.0, 0.1):
+            shares = simulated(3, 2.0, 300, missing)
+            self.assertLess(shares[0, 1], 0.75)  # From the residual: 52 %.
+            self.assertTrue((np.abs(shares[:, 0] - 0.95) < 0.045).all(), shares)
+
+    def test_what_one_set_of_seeds_tells_alone_has_no_test(self) -> None:
+        runs = cube(2, 2)
+        runs["y"] = np.random.default_rng(5).normal(size=8)
+        # The second set has one level of A: it tells nothing of its effect.
+        runs.loc[(runs["replicate"] == 2) & (runs["A"] > 0), "y"] = np.nan
+        table = effects(study_of([number("A", -1.0, 1.0), number("B", -1.0, 1.0)], runs), "main").table.set_index("term")
+        self.assertTrue(np.isnan(table.loc["A", "p"]))
+        self.assertAlmostEqual(table.loc["B", "error_freedom"], 1.0, places=9)
+        self.assertGreater(table.loc["B", "p"], 0.0)
+
+    def test_forecasts_of_the_mean_are_those_of_one_fit_for_each_set(self) -> None:
+        random = np.random.default_rng(3)
+        runs = cube(5, 2)
+        runs["y"] = random.normal(size=len(runs)) + runs["replicate"] + runs["A"] * runs["replicate"]
+        fit = fitted(study := study_of([number("A", -1.0, 1.0), number("B", -1.0, 1.0)], runs), study.responses[0])
+        place = pandas.DataFrame({"A": [0.5], "B": [-0.2]})
+        each = []
+        for _, own in runs.groupby("replicate"):
+            x = np.column_stack([np.ones(4), own["A"], own["B"], own["A"] * own["B"]])
+            each.append(np.array([1.0, 0.5, -0.2, -0.1]) @ np.linalg.solve(x, own["y"]))
+        interval = stats.ttest_1samp(each, 0.0).confidence_interval(0.95)
+        found = fit.forecast(place).iloc[0]
+        self.assertAlmostEqual(found["mean_low"], interval.low, places=9)
+        self.assertAlmostEqual(found["mean_high"], interval.high, places=9)
+
+    def test_numbers_of_sets(self) -> None:
+        # The smallest n with t(0.975, n - 1)/sqrt(n) at most 0.5 is 18; tables of t: 2.110/4.243 = 0.497, and 2.120/4.123 = 0.514.
+        self.assertEqual(sets_for(1.0, 0.5), 18)
+        self.assertEqual(sets_for(1.0, 100.0), 2)
+        self.assertEqual(sets_for(1.0, 0.0), math.inf)
+        runs = cube(3)
+        runs["y"] = np.random.default_rng(4).normal(size=len(runs)) + 3.0 * runs["A"]
+        study = study_of([number(name, -1.0, 1.0) for name in "ABC"], runs)
+        table = seeds_needed(study, 0.5).table.set_index("term")
+        each = (2.0 * runs["y"] * runs["A"]).groupby(runs["replicate"]).mean()
+        self.assertAlmostEqual(table.loc["A", "scatter"], each.std(), places=12)
+        self.assertGreaterEqual(table.loc["A", "sets_safe"], table.loc["A", "sets"])
+        with self.assertRaisesRegex(InputError, "one set of seeds"):
+            seeds_needed(study_of([number("A", -1.0, 1.0)], pandas.DataFrame({"A": [-1.0, 1.0, -1.0], "y": [1.0, 2.0, 1.5]})))
+
+
+class Model(unittest.TestCase):
+    def test_centre_points_have_a_term(self) -> None:
+        # D. C. Montgomery, Design and Analysis of Experiments, 8th ed., example 6.7: yield of a chemical process.
+        corners = [(-1.0, -1.0, 39.3), (1.0, -1.0, 40.9), (-1.0, 1.0, 40.0), (1.0, 1.0, 41.5)]
+        runs = pandas.DataFrame(corners + [(0.0, 0.0, y) for y in (40.3, 40.5, 40.7, 40.2, 40.6)], columns=["A", "B", "y"])
+        factors = [number("A", -1.0, 1.0, is_range=True), number("B", -1.0, 1.0, is_range=True)]
+        found = effects(study_of(factors, runs))
+        table = found.table.set_index("term")
+        self.assertAlmostEqual(table.loc["A", "effect"], 1.55, places=9)
+        self.assertAlmostEqual(table.loc["A × B", "effect"], -0.05, places=9)
+        self.assertAlmostEqual(table.loc["residual", "mean_square"], 0.043, places=9)
+        self.assertAlmostEqual(table.loc["A", "f"], 55.87, places=2)
+        self.assertAlmostEqual(table.loc["B", "f"], 9.83, places=2)
+        self.assertAlmostEqual(table.loc["centre points", "sum_of_squares"], 0.0027, places=4)
+        self.assertAlmostEqual(table.loc["centre points", "effect"], 40.46 - 40.425, places=9)
+        self.assertEqual(found.document()["responses"][0]["curvature"]["difference"], table.loc["centre points", "effect"])
+
+    def test_squares_are_of_type_iii(self) -> None:
+        import statsmodels.formula.api as formulas
+        from statsmodels.stats.anova import anova_lm
+
+        random = np.random.default_rng(5)
+        runs = pandas.DataFrame([(a, b) for a in "pqr" for b in "st" for _ in range(3)], columns=["a", "b"]).drop([1, 2, 9])
+        runs["y"] = random.normal(size=len(runs)) + (runs["a"] == "q") * (runs["b"] == "t")
+        table = effects(study_of([word("a", "p", "q", "r"), word("b", "s", "t")], runs)).table.set_index("term")
+        expected = anova_lm(formulas.ols("y ~ C(a, Sum) * C(b, Sum)", runs).fit(), typ=3)
+        for label, row in {"a": "C(a, Sum)", "b": "C(b, Sum)", "a × b": "C(a, Sum):C(b, Sum)"}.items():
+            self.assertAlmostEqual(table.loc[label, "sum_of_squares"], expected.loc[row, "sum_sq"], places=10)
+            self.assertAlmostEqual(table.loc[label, "p"], expected.loc[row, "PR(>F)"], places=10)
+
+    def test_a_term_with_an_empty_cell_has_no_test(self) -> None:
+        random = np.random.default_rng(6)
+        runs = pandas.DataFrame([(a, b) for a in "pqr" for b in "stu" for _ in range(2)], columns=["a", "b"])
+        runs = runs[(runs["a"] != "p") | (runs["b"] != "u")]
+        runs["y"] = random.normal(size=len(runs))
+        found = effects(study_of([word("a", "p", "q", "r"), word("b", "s", "t", "u")], runs))
+        rows = found.table.set_index("term").loc[["a", "b", "a × b"]]
+        self.assertTrue(rows[["f", "p", "standard_error"]].isna().all().all())
+        self.assertIn("a × b cannot be told from", found.text())
+        # Without the interaction they are told.
+        self.assertFalse(effects(found.study, "main").table.set_index("term").loc[["a", "b"], "p"].isna().any())
+
+    def test_points_are_left_out_in_closed_form(self) -> None:
+        random = np.random.default_rng(7)
+        runs = pandas.DataFrame(np.repeat(random.uniform(-1.0, 1.0, (12, 2)), 2, axis=0), columns=["A", "B"])
+        runs["y"] = np.exp(runs["A"]) + runs["B"] + random.normal(size=24)
+        factors = [number("A", -1.0, 1.0, is_range=True), number("B", -1.0, 1.0, is_range=True)]
+        fit = fitted(study := study_of(factors, runs, "latin-hypercube"), study.responses[0], "quadratic")
+        for point in range(12):
+            own = (fit.runs["point"] == point).to_numpy()
+            x = fit.matrix(fit.runs)
+            without = np.linalg.lstsq(x[~own], fit.values[~own], rcond=None)[0]
+            self.assertAlmostEqual(fit.loo[point], fit.values[own].mean() - (x[own] @ without).mean(), places=9)
+
+    def test_forecasts_hold_what_the_model_misses(self) -> None:
+        # A smooth function without noise: what is missed is all there is, and the residual alone knows little of it.
+        random, held = np.random.default_rng(8), []
+        factors = [number("A", -1.0, 1.0, is_range=True), number("B", -1.0, 1.0, is_range=True)]
+        for _ in range(40):
+            slope = random.uniform(0.5, 3.0, 2)
+            points = pandas.DataFrame(stats.qmc.LatinHypercube(2, rng=random).random(15) * 2 - 1, columns=["A", "B"])
+            places = pandas.DataFrame(random.uniform(-1.0, 1.0, (50, 2)), columns=["A", "B"])
+            at_points, true = (np.sin(slope[0] * at["A"] + 1.0) * np.exp(0.5 * slope[1] * at["B"]) for at in (points, places))
+            study = study_of(factors, points.assign(y=at_points), "latin-hypercube")
+            found = fitted(study, study.responses[0]).forecast(places)
+            held.append(((found["mean_low"] <= true) & (true <= found["mean_high"])).mean())
+        self.assertGreater(np.mean(held), 0.9)
+
+    def test_the_choice_of_terms_is_said_to_spoil_tests(self) -> None:
+        runs = cube(1)
+        runs["y"] = np.random.default_rng(9).normal(size=8) + 5.0 * runs["A"]
+        found = effects(study_of([number(name, -1.0, 1.0) for name in "ABC"], runs), terms="aicc")
+        self.assertIn("no tests", found.text())
+        self.assertIn("no tests", " ".join(found.document()["responses"][0]["cautions"]))
+        self.assertIn("no tests", " ".join(found.summary["cautions"].iloc[0]))
+
+
+class Levels(unittest.TestCase):
+    def test_tukey_is_that_of_scipy(self) -> None:
+        # The example of scipy.stats.tukey_hsd, from the documentation of SAS: minutes until headaches end.
+        groups = [[24.5, 23.5, 26.4, 27.1, 29.9], [28.4, 34.2, 29.5, 32.2, 30.1], [26.1, 28.3, 24.3, 26.2, 27.8]]
+        runs = pandas.DataFrame([(name, y) for name, group in zip("abc", groups) for y in group], columns=["brand", "y"])
+        table = levels(study_of([word("brand", "a", "b", "c")], runs)).table.set_index(["level", "other"])
+        expected = [(("b", "a"), 0.951, 8.249, 0.014), (("c", "a"), -3.389, 3.909, 0.980), (("c", "b"), -7.989, -0.691, 0.020)]
+        for pair, low, high, p in expected:
+            row = table.loc[pair]
+            self.assertAlmostEqual(row["low"], low, places=3)
+            self.assertAlmostEqual(row["high"], high, places=3)
+            self.assertAlmostEqual(row["p"], p, places=3)
+
+    def test_dunnett_is_that_of_scipy(self) -> None:
+        # The example of scipy.stats.dunnett: blood counts of Dunnett (1955).
+        groups = [[7.40, 8.50, 7.20, 8.24, 9.84, 8.32], [9.76, 8.80, 7.68, 9.36], [12.80, 9.68, 12.16, 9.20, 10.55]]
+        runs = pandas.DataFrame([(name, y) for name, group in zip("abc", groups) for y in group], columns=["drug", "y"])
+        table = levels(study_of([word("drug", "a", "b", "c")], runs), control="a").table.set_index("level")
+        self.assertAlmostEqual(table.loc["b", "p"], 0.62004941, places=3)
+        self.assertAlmostEqual(table.loc["c", "p"], 0.0059035, places=3)
+        expected = stats.dunnett(*groups[1:], control=groups[0], rng=np.random.default_rng(1)).confidence_interval()
+        self.assertAlmostEqual(table.loc["c", "low"], expected.low[1], places=2)
+        self.assertAlmostEqual(table.loc["c", "high"], expected.high[1], places=2)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,58 @@
+//! Words that another program answers: found beside the program or on the path, with their arguments as they are.
+
+use std::fs;
+use std::os::unix::fs::PermissionsExt as _;
+
+use plateau_tests::program::{Outcome, WorkingDirectory, run};
+
+/// A program that says its name, its arguments and which program calls it.
+const ANSWER: &str = "#!/bin/sh\nprintf '%s\\n' \"${0##*/}\" \"$@\" \"${PLATEAU_PROGRAM##*/}\"\nexit 7\n";
+
+/// Calls the program where the answering programs of these words are on the path.
+fn call(words: &[&str], arguments: &[&str]) -> Outcome {
+    let directory = WorkingDirectory::new();
+    for word in words {
+        let name = format!("bin/plateau-{word}");
+        directory.write(&name, ANSWER);
+        fs::set_permissions(directory.path(&name), fs::Permissions::from_mode(0o755)).unwrap();
+    }
+    let mut command = directory.command(arguments);
+    command.env("PATH", format!("{}:/usr/bin:/bin", directory.path("bin").display()));
+    run(command)
+}
+
+#[test]
+fn words_of_others_are_answered_by_them() {
+    for (arguments, answer) in [
+        (&["fit", "study.toml", "--plan"][..], "plateau-fit\nstudy.toml\n--plan\n"),
+        (&["fit", "--help"], "plateau-fit\n--help\n"),
+        (
+            &["-q", "compare", "a.toml", "b c.toml", "--seeds=3"],
+            "plateau-compare\na.toml\nb c.toml\n--seeds=3\n--quiet\n",
+        ),
+        (&["sweep", "effects", "s.toml", "--set", "-1"], "plateau-sweep\neffects\ns.toml\n--set\n-1\n"),
+        (&["own-word", "-x", ""], "plateau-own-word\n-x\n\n"),
+    ] {
+        let outcome = call(&["fit", "compare", "sweep", "own-word"], arguments);
+        assert_eq!(outcome.status, Some(7), "{arguments:?}: {outcome:?}");
+        let expected = format!("{answer}plateau\n");
+        assert_eq!(outcome.stdout, expected, "{arguments:?}: {outcome:?}");
+    }
+}
+
+#[test]
+fn without_who_answers_it_is_said_what_to_install() {
+    for arguments in [&["fit", "study.toml"][..], &["compare", "a.toml"], &["sweep", "effects", "s.toml"]] {
+        let outcome = call(&[], arguments);
+        assert_eq!(outcome.status, Some(1), "{outcome:?}");
+        assert!(
+            outcome.stderr.contains("pip install 'plateau-brake[all]'") && outcome.stderr.lines().count() == 1,
+            "{outcome:?}"
+        );
+    }
+    // A word that nobody has is told as ever, and no word of the program is taken over.
+    let outcome = call(&["run"], &["rn", "scene.toml"]);
+    assert!(outcome.status == Some(2) && outcome.stderr.contains("did you mean"), "{outcome:?}");
+    let outcome = call(&["run", "check"], &["check", "no.toml"]);
+    assert!(outcome.status == Some(2) && outcome.stderr.contains("no.toml"), "{outcome:?}");
+}
