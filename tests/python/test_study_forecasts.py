@@ -6,12 +6,11 @@ import unittest
 from pathlib import Path
 
 import numpy as np
-
 from plateau.study.process import Equations, Process
 
 HERE = Path(__file__).parent
 sys.path.insert(0, str(HERE / "coverage"))
-import forecasts  # noqa: E402
+import forecasts
 
 # Values of scikit-learn's GaussianProcessRegressor and of DiceKriging (R).
 REFERENCES = json.loads((HERE / "expected" / "processes.json").read_text(encoding="utf-8"))
