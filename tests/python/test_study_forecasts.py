@@ -11,11 +11,14 @@ import warnings
 from pathlib import Path
 
 import numpy as np
+<<<<<<< HEAD
 import pandas
 from scipy import stats
 
 from plateau.errors import InputError
 from plateau.study.prediction import predict
+=======
+>>>>>>> py-fit
 from plateau.study.process import Equations, Process
 from plateau.study.results import Factor, Response
 from plateau.study.surrogate import surrogates
@@ -23,7 +26,7 @@ from plateau.study.variance_parts import sensitivity, sobol
 
 HERE = Path(__file__).parent
 sys.path.insert(0, str(HERE / "coverage"))
-import forecasts  # noqa: E402
+import forecasts
 
 # Values of scikit-learn's GaussianProcessRegressor and of DiceKriging (R).
 REFERENCES = json.loads((HERE / "expected" / "processes.json").read_text(encoding="utf-8"))
