@@ -11,14 +11,11 @@ import warnings
 from pathlib import Path
 
 import numpy as np
-<<<<<<< HEAD
 import pandas
 from scipy import stats
 
 from plateau.errors import InputError
 from plateau.study.prediction import predict
-=======
->>>>>>> py-fit
 from plateau.study.process import Equations, Process
 from plateau.study.results import Factor, Response
 from plateau.study.surrogate import surrogates
