@@ -15,7 +15,8 @@ All quantities are in SI units. The guide is docs/python.md of the project.
 
 from importlib.metadata import PackageNotFoundError, version
 
-from plateau.commands import Effects, check, collect, command, effects, run, sweep
+from plateau import study
+from plateau.commands import check, collect, command, run, sweep
 from plateau.errors import (
     InputError,
     InputTypeError,
@@ -40,7 +41,6 @@ except PackageNotFoundError:  # a checkout that is not installed
     __version__ = "0"
 
 __all__ = [
-    "Effects",
     "InputError",
     "InputTypeError",
     "MapAccessor",
@@ -57,10 +57,10 @@ __all__ = [
     "check",
     "collect",
     "command",
-    "effects",
     "find_program",
     "open_run",
     "open_study",
     "run",
+    "study",
     "sweep",
 ]

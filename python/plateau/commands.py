@@ -4,39 +4,18 @@ import os
 import warnings
 from collections.abc import Mapping
 from json import dumps
-from typing import Any, NamedTuple
+from typing import Any
 
-import pandas
 import xarray
 
 from plateau.errors import InputError, InputTypeError, PlateauWarning
 from plateau.program import call, file_name, listen
 from plateau.run_file import open_run
-from plateau.study.results import Study, open_study, read_table
+from plateau.study.results import Study, open_study
 from plateau.times import seconds
 
 # A path, as usual in Python.
 Path = str | os.PathLike[str]
-
-
-class Effects(NamedTuple):
-    """Effects of the factors of a study.
-
-    Attributes
-    ----------
-    table : pandas.DataFrame
-        The analysis of variance (docs/studies.md): a row for each response and source of its variation. Terms of the model have an
-        ``effect``, ``standard_error``, ``low`` and ``high``. The other sources do not have them (NaN): ``replicate``, ``residual``, ``lack of fit``,
-        ``pure error``, ``total``. ``table["effect"].dropna()`` has only the effects.
-    responses : list of dict
-        For each response, the fitted model and its quality: ``name``, ``unit``, ``model``, ``mean``, ``r_squared``, ``terms``, ...
-    files : list of str
-        The written files: table, figures, the page for the browser.
-    """
-
-    table: pandas.DataFrame
-    responses: list[dict[str, Any]]
-    files: list[str]
 
 
 def run(
@@ -193,52 +172,6 @@ def collect(study: Path) -> Study:
     """
     collected = call(["sweep", "collect", file_name(study, "a study")], progress=False)
     return open_study(os.path.dirname(collected["files"][0]))
-
-
-def effects(
-    study: Path,
-    *,
-    model: str | None = None,
-    confidence: float | None = None,
-    output: Path | None = None,
-    force: bool = False,
-) -> Effects:
-    """Finds the effects of the factors of a study on its responses.
-
-    Parameters
-    ----------
-    study : path
-        The study, TOML; its runs must have been made.
-    model : {"main", "interactions", "full", "quadratic"}, optional
-        The model to fit; by default the design chooses it.
-    confidence : float, optional
-        Confidence level of intervals, default 0.95.
-    output : path, optional
-        Folder for tables, figures and the page.
-    force : bool, optional
-        Replace the files of an earlier call in that folder.
-
-    Returns
-    -------
-    Effects
-        Table, fitted models, and files.
-
-    Examples
-    --------
-    >>> results = sweep("loads.toml")
-    >>> found = effects("loads.toml")
-    >>> bool(found.table.loc[("contact area", "load"), "effect"] > 0)
-    True
-    """
-    arguments = ["sweep", "effects", file_name(study, "a study")]
-    for flag, value in (("--model", model), ("--confidence", confidence), ("--output", output)):
-        if value is not None:
-            arguments += [flag, str(value)]
-    if force:
-        arguments.append("--force")
-    document = call(arguments, progress=False)
-    table = read_table(document["files"][0]).set_index(["response", "term"])
-    return Effects(table, document["responses"], document["files"])
 
 
 def command(*arguments: Any, json: bool = False, progress: bool | None = None, **options: Any) -> Any:

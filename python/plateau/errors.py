@@ -2,17 +2,21 @@
 
 import os
 import re
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 
 # Commands and options in messages of the program, and their names here; longer ones come first.
 WORDS = [
     (r"(?:[\w./-]*/)?plateau sweep run\b", "plateau.sweep"),
-    (r"(?:[\w./-]*/)?plateau (?:sweep )?(run|check|collect|effects)\b", r"plateau.\1"),
-    (r"--(force|resume|retry)\b", r"\1=True"),
+    (r"(?:[\w./-]*/)?plateau (?:sweep )?(run|check|collect)\b", r"plateau.\1"),
+    (r"(?:[\w./-]*/)?plateau (?:sweep )?(effects|predict|optimize|sensitivity|fit|compare)\b", r"plateau.study.\1"),
+    (r"(?:[\w./-]*/)?plateau sweep import\b", "plateau.study.import_values"),
+    (r"--(force|resume|retry|extrapolate|confirm)\b", r"\1=True"),
     (r"--set ([\w.-]+)=", r'set["\1"] = '),
     (r"--model (\w+)", r'model="\1"'),
     (r"--extend-to TIME\b", "extend_to=TIME"),
-    (r"--(set|workers|jobs|model|confidence|output)\b", r"\1"),
+    (r"--limit-on (\w+)", r'limit_on="\1"'),
+    (r"--(set|workers|jobs|model|terms|confidence|output|at|grid|points|limit|hold|maximize|minimize|target|importance|contour)\b", r"\1"),
     (r"--(extend|max)-(to|failures)\b", r"\1_\2"),
     (r"-o FILE\b", "output=FILE"),
     (r"-o\b", "output"),
@@ -23,6 +27,9 @@ IN_MESSAGES = [(re.compile(rf"(?<![\w./-]){word}"), here) for word, here in WORD
 
 class PlateauWarning(UserWarning):
     """A warning of the program."""
+
+    def __init__(self, message: object = "") -> None:
+        super().__init__(in_python(str(message)))
 
 
 class PlateauError(RuntimeError):
@@ -39,7 +46,7 @@ class PlateauError(RuntimeError):
     """
 
     def __init__(self, message: str, command: Sequence[str] = (), status: int | None = None) -> None:
-        super().__init__(message)
+        super().__init__(in_python(message))
         self.command = list(command)
         self.status = status
 
@@ -74,6 +81,17 @@ class RunFailed(PlateauError):
 
 class RunStopped(PlateauError):
     """A signal stopped the run (exit status 128 and the number of the signal); ``resume=True`` continues it."""
+
+
+@contextmanager
+def in_program_words() -> Iterator[None]:
+    """Leaves messages in the words of the program, for its commands."""
+    kept = IN_MESSAGES.copy()
+    IN_MESSAGES.clear()
+    try:
+        yield
+    finally:
+        IN_MESSAGES[:] = kept
 
 
 def in_python(message: str) -> str:

@@ -10,6 +10,9 @@ import xarray
 GROUND = "#ffffff"
 APART = "#e4e4e4"
 STATUS_COLOURS = [APART, "#005a9c", "#e69f00", GROUND]
+# Lines and groups of studies, after M. Okabe and K. Ito; what is less important; a place that was chosen.
+LINES = [STATUS_COLOURS[1], "#e69f00", "#009e73", "#cc79a7", "#56b4e9", "#000000"]
+QUIET, CHOSEN = "#6b6b6b", "#d55e00"
 # Fraction of the cells beyond each end of the colours.
 BEYOND = 0.005
 # If pressures differ by more than this factor, their scale is logarithmic.

@@ -13,7 +13,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
-from plateau.errors import InputError, InputTypeError, PlateauError, PlateauWarning, error_of, in_python
+from plateau.errors import InputError, InputTypeError, PlateauError, PlateauWarning, error_of
 from plateau.progress import Follow, follow_pipe, follow_terminal, shower
 
 # The beginning of every message of the program.
@@ -157,7 +157,7 @@ def listen(arguments: Sequence[str | os.PathLike[str]], progress: bool | None = 
         status, said = _wait(command, output, follow_pipe if show is None else follow_terminal, show)
         output.seek(0)
         printed = output.read().decode(errors="replace")
-    messages = [in_python(message.strip()) for message in BEGIN.split(said)]
+    messages = [message.strip() for message in BEGIN.split(said)]
     errors = [message for message in messages if message and not message.startswith("warning: ")]
     for message in messages:
         if message.startswith("warning: "):

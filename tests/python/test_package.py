@@ -135,7 +135,7 @@ class Runs(InFolder):
 
     def test_a_file_that_is_not_there_is_told_as_such(self):
         calls = [lambda path: plateau.run(path), lambda path: plateau.run(path, resume=True), plateau.check, plateau.sweep, plateau.collect,
-                 plateau.effects, plateau.open_run, plateau.open_study, lambda path: plateau.command("surface", path, json=True),
+                 plateau.study.effects, plateau.open_run, plateau.open_study, lambda path: plateau.command("surface", path, json=True),
                  lambda path: plateau.command("plot", path)]
         for call in calls:
             for path in ("none.toml", pathlib.Path("no/none.toml")):
@@ -149,7 +149,7 @@ class Runs(InFolder):
         self.assertIs(type(caught.exception), plateau.InputError)
 
     def test_what_is_no_path_and_what_is_no_key(self):
-        for call in (plateau.run, plateau.check, plateau.sweep, plateau.collect, plateau.effects, plateau.open_study, plateau.open_run):
+        for call in (plateau.run, plateau.check, plateau.sweep, plateau.collect, plateau.study.effects, plateau.open_study, plateau.open_run):
             for wrong in (None, 3, {}):
                 if (call, wrong) != (plateau.open_run, 3):  # the number of an open file
                     self.assertRaises(plateau.InputTypeError, call, wrong)
@@ -311,17 +311,25 @@ class Studies(InFolder):
         self.assertEqual(list(made.table), list(rows[0]))
         self.assertEqual(made.table["worn [m3]"].tolist(), [float(row["worn [m3]"]) for row in rows])
         np.testing.assert_array_equal(made.table["worn [m3]"], made.data["worn"].values)
-        found = plateau.effects("study.toml", model="main", confidence=0.9, output="effects")
-        with self.assertRaisesRegex(plateau.InputError, "give force=True to replace them, or name another folder with output"):
-            plateau.effects("study.toml", output="effects")
-        self.assertEqual(plateau.effects("study.toml", model="main", confidence=0.9, output="effects", force=True).files, found.files)
-        self.assertEqual(found.files[0], "effects/effects.csv")
-        [response] = found.responses
-        self.assertEqual((response["name"], response["unit"], response["model"]), ("worn", "m3", "main"))
+        found = plateau.study.effects("study.toml", model="main", confidence=0.9)
         # Main effects of two levels are differences of means.
         worn = made.table.groupby("load [N]")["worn [m3]"].mean()
-        self.assertAlmostEqual(found.table.loc[("worn", "load"), "effect"] / (worn[10.0] - worn[5.0]), 1.0, delta=1e-9)
-        self.assertAlmostEqual(response["mean"] / made.table["worn [m3]"].mean(), 1.0, delta=1e-9)
+        row = found.table.set_index("term").loc["load"]
+        self.assertAlmostEqual(row["effect"] / (worn[10.0] - worn[5.0]), 1.0, delta=1e-9)
+        self.assertEqual((row["response"], row["unit"], found["worn"].fit.model), ("worn", "m3", "main"))
+        self.assertAlmostEqual(found.summary.loc["worn", "mean"] / made.table["worn [m3]"].mean(), 1.0, delta=1e-9)
+        self.assertIn("worn-main-effects", found.figures())
+        # Messages are in the words of Python.
+        with self.assertRaisesRegex(plateau.InputError, "give extrapolate=True"):
+            plateau.study.predict("study.toml", {"load": "50 N"})
+
+    def test_what_answers_is_imported_when_it_is_called(self):
+        text = "import plateau, sys; print([name for name in ('scipy', 'matplotlib') if name in sys.modules]); plateau.study.effects"
+        environment = os.environ | {"PYTHONPATH": str(ROOT / "python")}
+        done = subprocess.run([sys.executable, "-c", text], env=environment, capture_output=True, text=True, timeout=120)
+        self.assertEqual((done.stdout, done.stderr), ("[]\n", ""))
+        for name in plateau.study.__all__:
+            self.assertTrue(hasattr(plateau.study, name), name)
 
     def test_the_table_has_the_units_of_the_study(self):
         study = STUDY.replace("operation.normal_force", "operation.rotational_speed").replace('"5 N", "10 N"', '"425 rpm", "850 rpm"')

@@ -76,13 +76,7 @@ def write(folder: Path, files: Mapping[str, bytes], *, of: str | None = None, fo
         return force or (name in own or (name == LIST and bool(own))) and path.is_file() and not path.is_symlink()
 
     for name in (*files, LIST):
-        path = folder / name
-        if os.path.realpath(path) in real and path.exists():
-            raise InputError(f"{path} is an input and is not replaced; name another folder with -o")
-        if path.is_dir():
-            raise InputError(f"{path} is not a regular file and is not replaced; name another folder with -o")
-        if os.path.lexists(path) and not is_own(name):
-            raise InputError(f"{path} exists; give --force to replace it, or write elsewhere")
+        refuse_file(folder / name, is_own(name), inputs, "name another folder with -o")
     for name in own:
         path = folder / name
         if name not in files and path.is_file() and is_own(name) and os.path.realpath(path) not in real:
@@ -92,6 +86,41 @@ def write(folder: Path, files: Mapping[str, bytes], *, of: str | None = None, fo
     for name, content in files.items():
         put(folder / name, content)
     return [str(folder / name) for name in files]
+
+
+def refuse_file(path: Path, force: bool, inputs: tuple[Path, ...], to_do: str = "write elsewhere with -o FILE") -> None:
+    """Refuses to write where something is that is not to be replaced.
+
+    Parameters
+    ----------
+    path : Path
+    force : bool
+        Whether a file there is replaced.
+    inputs : tuple of Path
+        Files that are never replaced.
+    to_do : str
+        What else can be done.
+    """
+    if path.exists() and os.path.realpath(path) in map(os.path.realpath, inputs):
+        raise InputError(f"{path} is an input and is not replaced; {to_do}")
+    if path.exists() and not path.is_file():
+        raise InputError(f"{path} is not a regular file and is not replaced; {to_do}")
+    if os.path.lexists(path) and not force:
+        raise InputError(f"{path} exists; give --force to replace it, or {to_do}")
+
+
+def relative(path: Path, folder: Path) -> str:
+    """The way from a folder to a file: the same wherever both are moved together.
+
+    Parameters
+    ----------
+    path, folder : Path
+
+    Returns
+    -------
+    str
+    """
+    return os.path.relpath(os.path.realpath(path), os.path.realpath(folder)).replace("\n", "\\n")
 
 
 def put(path: Path, content: bytes) -> None:

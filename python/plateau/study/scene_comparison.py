@@ -16,7 +16,7 @@ from scipy import stats
 from plateau.commands import _toml
 from plateau.errors import InputError, PlateauWarning
 from plateau.program import call, file_name
-from plateau.study.results import Numbers, Study
+from plateau.study.results import Numbers, Response, Study
 from plateau.study.runs import finished
 from plateau.study.units import unit_for
 
@@ -105,31 +105,10 @@ class Comparison:
         return {"scenes": scenes, "reference": scenes[0]["name"], "confidence": self.confidence, **rows, "cautions": self.cautions}
 
     def figures(self) -> dict[str, Any]:
-        """Each series against time, mean with the standard deviation of runs, and below it the differences with their intervals."""
-        from matplotlib.figure import Figure
+        """Draws each series against time, and the differences."""
+        from plateau.study.figures import comparison_figures
 
-        figures = {}
-        for series, curves in self.curves.groupby("series", sort=False):
-            figure = Figure(figsize=(8, 5), layout="constrained")
-            top, below = figure.subplots(2, sharex=True, height_ratios=[2, 1])
-            of = unit_for(curves["unit"].iloc[0], float(curves["mean"].abs().max()))
-            for number, (scene, curve) in enumerate(curves.groupby("scene", sort=False)):
-                time, band = curve["time"], {"color": f"C{number}", "alpha": 0.2, "linewidth": 0}
-                middle, half = of.value(curve["mean"].to_numpy()), of.per_si * curve["deviation"].fillna(0.0).to_numpy()
-                change, low, high = of.per_si * curve[ENDS].to_numpy().T
-                top.plot(time, middle, color=f"C{number}", label=scene)
-                top.fill_between(time, middle - half, middle + half, **band)
-                below.plot(time, change, color=f"C{number}")
-                below.fill_between(time, low, high, **band)
-            top.set(ylabel=", ".join(filter(None, [str(series).replace("_", " "), of.symbol])))
-            below.set(xlabel="time, s", ylabel=f"less {next(iter(self.scenes))}")
-            below.axhline(0.0, color="0.5", linewidth=0.8)
-            top.legend()
-            figure.set_label(
-                f"{str(series).replace('_', ' ')}: means, bands of one standard deviation of runs; differences with the interval at each time alone"
-            )
-            figures[str(series)] = figure
-        return figures
+        return comparison_figures(self)
 
 
 def compare(
@@ -229,7 +208,7 @@ def _compared(
             rows.append({**common, "scene": scene, **found, "words": _words(f"{scene}: {name}", response.unit, found, confidence)})
     table = pandas.concat(runs, names=["scene"])[[one.name for one in asked]].reset_index()
     return Comparison(
-        pandas.DataFrame(rows), pandas.DataFrame(means), table, _curves(made, confidence), scenes, confidence, cautions, directory
+        pandas.DataFrame(rows), pandas.DataFrame(means), table, _curves(made, asked, confidence), scenes, confidence, cautions, directory
     )
 
 
@@ -299,18 +278,20 @@ def _ratio(row: Any) -> str:
 ENDS = ["difference", "low", "high"]
 
 
-def _curves(made: dict[str, Study], confidence: float) -> pandas.DataFrame:
-    first, parts = next(iter(made.values())), []
-    # Its single steps pulse.
-    names = ["contact_area_mean" if one.series == "contact_area" else one.series for one in first.responses]
-    for name in dict.fromkeys(names):
+def _curves(made: dict[str, Study], asked: Sequence[Response], confidence: float) -> pandas.DataFrame:
+    first, parts = next(iter(made)), []
+    # The contact area of single steps pulses.
+    for name in dict.fromkeys("contact_area_mean" if one.series == "contact_area" else one.series for one in asked):
         data = {scene: study.data[name] for scene, study in made.items() if name in study.data and "time" in study.data[name].dims}
-        reference = next(iter(data.values()), None)
         for scene, values in data.items():
             time, y = values["time"].values, pandas.DataFrame(values.transpose("run", "time").values)
             part = pandas.DataFrame({"time": time, "mean": y.mean(), "deviation": y.std(), **dict.fromkeys(ENDS, np.nan)})
-            if scene != next(iter(made)) and reference is not None and np.array_equal(reference["time"], time):
-                change = pandas.DataFrame(y.to_numpy() - reference.transpose("run", "time").values)
+            reference = data.get(first)
+            if scene != first and reference is not None and (len(y) == reference.sizes["run"] or min(len(y), reference.sizes["run"]) == 1):
+                # Its samples may be at other times.
+                runs = reference.transpose("run", "time").values
+                others = [np.interp(time, reference["time"].values, run, left=np.nan, right=np.nan) for run in runs]
+                change = pandas.DataFrame(y.to_numpy() - np.array(others))
                 half = stats.t.ppf(0.5 + confidence / 2.0, change.count() - 1) * change.sem()
                 part[ENDS] = np.transpose([change.mean(), change.mean() - half, change.mean() + half])
             parts.append(part.assign(series=name, unit=values.attrs.get("units", "1"), scene=scene))

@@ -1,0 +1,302 @@
+"""Words that the package answers for the program: options, text, JSON, files, exit statuses."""
+
+import contextlib
+import csv
+import io
+import json
+import os
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+import unittest.mock
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
+sys.path.insert(0, str(ROOT / "python"))
+from plateau.errors import InputError, in_python  # noqa: E402
+from plateau.study import figures  # noqa: E402
+from plateau.study.command_line import main, shown  # noqa: E402
+from plateau.study.output_folder import HEAD, LIST, write  # noqa: E402
+
+PROGRAM = os.environ.setdefault("PLATEAU_PROGRAM", str(ROOT / "plateau"))
+QUICK = ROOT / "data" / "scenes" / "quick.toml"
+# Paths of members of the documents of the program before its statistics were in Python (revision 342d63de).
+BEFORE = json.loads((ROOT / "tests" / "python" / "expected" / "words.json").read_text())
+# Members that are gone with what they told: powers of desirabilities.
+GONE = {"optimize": {"goals[].weight"}}
+
+MEASURED = """
+version = 1
+title = "Seal and oil"
+design = "central-composite"
+alpha = "face"
+centre_points = 3
+[[factor]]
+name = "load"
+range = ["1 N", "3 N"]
+[[factor]]
+name = "dose"
+range = [0.0, 1.0]
+[[response]]
+name = "leak"
+imported = true
+unit = "mm3"
+measured = "2.2 mm3"
+uncertainty = "0.1 mm3"
+[[response]]
+name = "grip"
+imported = true
+measured = 0.6
+uncertainty = 0.05
+"""
+RUNS = """
+version = 1
+base = "{base}"
+set = ["operation.duration = '0.3 s'", "output.sample_every = '0.1 s'", "mesh.rows = 10"]
+design = "full-factorial"
+replicates = {{ keys = ["disc.surface.synthetic.seed"], seeds = [1, 2] }}
+[[factor]]
+name = "load"
+key = "operation.normal_force"
+levels = ["5 N", "10 N"]
+[[response]]
+name = "worn"
+dataset = "/series/worn_whole_pin"
+at = "end"
+"""
+
+
+def paths(value, at=""):
+    """Paths of all members of a document."""
+    if isinstance(value, dict):
+        return {path for name, one in value.items() for path in {f"{at}.{name}".lstrip(".")} | paths(one, f"{at}.{name}".lstrip("."))}
+    return {path for one in value for path in paths(one, f"{at}[]")} if isinstance(value, list) else set()
+
+
+class Words(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        here = os.getcwd()
+        self.addCleanup(os.chdir, here)
+        os.chdir(folder.name)
+        os.environ["PLATEAU_CALLED"] = "plateau"
+        # Most calls draw one format alone, which is quicker.
+        formats = unittest.mock.patch.object(figures, "FORMATS", {"svg": figures.FORMATS["svg"]})
+        formats.start()
+        self.addCleanup(formats.stop)
+
+    def call(self, *words, status=0):
+        """What is printed and said."""
+        out, err = io.StringIO(), io.StringIO()
+        with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
+            found = main([str(word) for word in words])
+        self.assertEqual(found, status, err.getvalue())
+        return out.getvalue(), err.getvalue()
+
+    def document(self, *words):
+        return json.loads(self.call(*words, "--json", "-q")[0])
+
+    def refused(self, *words, said):
+        out, err = self.call(*words, status=2)
+        self.assertEqual(out, "")
+        self.assertRegex(err, rf"^plateau: .*{said}")
+        self.assertEqual(err.count("\n"), 1, err)
+
+    def import_all(self, text=MEASURED, table="measured.csv"):
+        pathlib.Path("study.toml").write_text(text)
+        subprocess.run([PROGRAM, "sweep", "plan", "study.toml", "--csv", "plan.csv", "-q"], check=True, stdout=subprocess.DEVNULL, timeout=120)
+        with open("plan.csv", newline="") as file, open(table, "w", newline="") as to:
+            lines = csv.writer(to)
+            lines.writerow(["load", "dose", "leak [mm3]", "grip"])
+            for at, row in enumerate(csv.DictReader(file)):
+                load, dose = float(row["load"].split()[0]), float(row["dose"])
+                noise = 0.05 * (-1) ** at * (1 + at % 3)
+                lines.writerow([row["load"], row["dose"], 1 + load - dose + 0.3 * load * dose + 0.4 * dose**2 + noise, 0.5 + 0.2 * dose + 0.2 * noise])
+        return self.call("sweep", "import", "study.toml", table)[0]
+
+    def is_as_before(self, word, document):
+        self.assertEqual(set(BEFORE[word]) - paths(document) - GONE.get(word, set()), set(), word)
+        files = {"csv", "html", "png", "svg", "pdf"}
+        for file in document.get("files", []):
+            self.assertTrue(pathlib.Path(file).is_file() and pathlib.Path(file).suffix[1:] in files, file)
+
+    def test_measured_values(self):
+        self.assertEqual(
+            self.import_all().splitlines()[1:4],
+            ["  read      11 lines with leak, grip", "  values    22 new, 0 changed", "  complete  11 of 11 runs"],
+        )
+        self.is_as_before("import", self.document("sweep", "import", "study.toml", "measured.csv"))
+        for word in ("effects", "predict", "sensitivity"):
+            self.is_as_before(word, self.document("sweep", word, "study.toml"))
+        with unittest.mock.patch.object(figures, "FORMATS", {**figures.FORMATS, "png": {}, "pdf": {}}):
+            self.is_as_before("optimize", self.document("sweep", "optimize", "study.toml", "--minimize", "leak", "--limit", "grip>=0.55"))
+        self.is_as_before("fit", self.document("fit", "study.toml"))
+        self.is_as_before("fit --plan", self.document("fit", "study.toml", "--plan"))
+        with open("study/effects/effects.csv", newline="") as file:
+            rows = list(csv.DictReader(file))
+        self.assertEqual(list(rows[0])[:18], BEFORE["effects.csv"])
+        page = pathlib.Path("study/effects/effects.html").read_text()
+        kinds = {"leak-pareto", "leak-main-effects", "leak-interactions", "leak-residuals", "leak-surface", "grip-pareto"}
+        names = {path.stem for path in pathlib.Path("study/effects").glob("*.svg")}
+        self.assertTrue(kinds <= names, names)
+        self.assertEqual(page.count("<svg"), len(names))
+        self.assertNotIn("<script", page)
+        for folder, file in (("optimum", "profiler.pdf"), ("optimum", "contour.png"), ("sensitivity", "leak-indices.svg"), ("fit", "profiles.svg")):
+            self.assertTrue(pathlib.Path("study", folder, file).is_file(), file)
+        # Text has the same folders; those of an earlier call are replaced with --force alone.
+        self.refused("sweep", "effects", "study.toml", said="study/effects has the files of an earlier call; give --force")
+        text, _ = self.call("sweep", "effects", "study.toml", "--model", "main", "--force", "-q")
+        self.assertRegex(text, r"(?s)^leak\n  model: main effects.*\n\nSeal and oil\n  written  study/effects/effects.csv\n")
+        self.assertFalse(pathlib.Path("study/effects/leak-interactions.svg").exists())
+        self.refused("sweep", "sensitivity", "study.toml", "-o", "study/fit", said="has the files of an earlier call")
+
+    def test_predictions_and_optima(self):
+        self.import_all()
+        self.call("sweep", "predict", "study.toml", "--grid", 3, "-o", "grid.csv", "-q")
+        with open("grid.csv", newline="") as file:
+            rows = list(csv.DictReader(file))
+        self.assertEqual((len(rows), list(rows[0])[:4]), (9, ["load [N]", "dose", "leak [m3]", "leak mean low [m3]"]))
+        self.refused("sweep", "predict", "study.toml", "-o", "grid.csv", said="grid.csv exists; give --force to replace it, or write elsewhere")
+        self.refused("sweep", "predict", "study.toml", "-o", "study.toml", "--force", said="study.toml is an input and is not replaced")
+        self.refused("sweep", "predict", "study.toml", "--at", "load=9 N", said="give --extrapolate to see")
+        self.assertIn("load = 9 N", self.call("sweep", "predict", "study.toml", "--at", "load=9 N", "--extrapolate", "-q")[0])
+        out, err = self.call("sweep", "optimize", "study.toml", "--minimize", "leak", "--limit", "grip>=5", "-q", status=1)
+        self.assertIn("missed", out)
+        self.assertEqual(err, "plateau: no settings within the ranges keep all limits\n")
+        contour = ("--minimize", "leak", "--contour", "load,oil", "--force")
+        self.refused("sweep", "optimize", "study.toml", *contour, said="--contour load,oil: expected two different factors")
+
+    def test_wrong_words(self):
+        for words, said in (
+            (["sweep", "effects"], "STUDY; plateau sweep effects --help tells more"),
+            (["sweep", "effects", "no.toml"], "no.toml"),
+            (["sweep", "effects", "no.toml", "--model", "cubic"], "invalid choice: 'cubic'"),
+            (["sweep", "effects", "no.toml", "--confidence", "95"], "expected more than 0 and less than 1"),
+            (["sweep", "effects", "no.toml", "--conf", "0.9"], "unrecognized arguments: --conf"),
+            (["sweep", "predict", "no.toml", "--grid", "0"], "expected a whole number of at least 1"),
+            (["compare", str(QUICK)], "two scenes or more"),
+            (["sweep", "tell"], "invalid choice: 'tell'"),
+        ):
+            with self.subTest(words):
+                self.refused(*words, said=said)
+        pathlib.Path("study.toml").write_text(MEASURED)
+        out, err = self.call("sweep", "effects", "study.toml", status=1)
+        self.assertRegex(err, "^plateau: study.toml: there is no result to analyse yet; plateau sweep import")
+
+    def test_names_do_nothing_to_terminals_pages_and_spreadsheets(self):
+        name = "=<b>leak</b>"
+        text = MEASURED.replace('"leak"', f'"{name}"').replace("Seal and oil", "Seal & <i>oil</i>")
+        self.import_all(text.replace(name, "leak"))
+        pathlib.Path("study.toml").write_text(text)
+        kept = pathlib.Path("study/imported.csv")
+        kept.write_text(kept.read_text().replace("leak [m3]", f"{name} [m3]"))
+        self.call("sweep", "effects", "study.toml", "-q")
+        page = pathlib.Path("study/effects/effects.html").read_text()
+        self.assertIn("Seal &amp; &lt;i&gt;oil&lt;/i&gt;", page)
+        self.assertIn("&lt;b&gt;leak", page)
+        self.assertFalse({"<b>", "<i>"} & set(re.findall("<.*?>", page)))
+        self.assertIn(f"\n'{name},", pathlib.Path("study/effects/effects.csv").read_text())
+        self.assertEqual(shown("a\tb\n\x07\x1b[31m\u202e"), "a\tb\n\\u{7}\\u{1b}[31m\\u{202e}")
+
+    def test_real_runs(self):
+        pathlib.Path("study.toml").write_text(RUNS.format(base=QUICK))
+        subprocess.run([PROGRAM, "sweep", "run", "study.toml", "-q"], check=True, stdout=subprocess.DEVNULL, timeout=300)
+        document = self.document("sweep", "effects", "study.toml")
+        self.assertEqual([term["label"] for term in document["responses"][0]["terms"]], ["replicate", "load"])
+        _, err = self.call("sweep", "predict", "study.toml", "--at", "load=7 N")
+        self.assertRegex(err, "^plateau: warning: load: the runs have two values of it")
+        [place] = self.document("sweep", "predict", "study.toml", "--at", "load=7 N", "--confirm")["places"]
+        self.assertEqual(place["confirmed"][0]["runs"], 2)
+        # Another scene, and the same from the program, with the packages of this Python.
+        pathlib.Path("fast.toml").write_text(f'version = 1\nextends = "{QUICK}"\n[operation]\nrotational_speed = "1200 rpm"\n')
+        changes = [part for key in ("operation.duration = '0.3 s'", "mesh.rows = 10") for part in ("--set", key)]
+        words = ["compare", str(QUICK), "fast.toml", "--seeds", "2", *changes, "--response", "worn_whole_pin:end"]
+        document = self.document(*words)
+        self.assertEqual([row["scene"] for row in document["differences"]], ["fast"])
+        self.assertEqual({pathlib.Path(file).name for file in document["files"] if not file.endswith(("svg", "png", "pdf"))},
+                         {"comparison.html", "comparison.csv", "means.csv", "runs.csv", "curves.csv"})  # fmt: skip
+        environment = os.environ | {"PYTHONPATH": str(ROOT / "python")}
+        done = subprocess.run([sys.executable, "-m", "plateau.study.command_line", *words, "--json", "-q"], env=environment, capture_output=True,
+                              text=True, timeout=120)  # fmt: skip
+        self.assertEqual((done.stderr, done.returncode), ("", 0))
+        again = json.loads(done.stdout)
+        self.assertEqual((again.pop("files")[:3], again), (document.pop("files")[:3], document))
+
+    def test_messages_in_python(self):
+        for said, here in (
+            ("give --extrapolate to see", "give extrapolate=True to see"),
+            ("--limit-on runs keeps a margin", 'limit_on="runs" keeps a margin'),
+            ("`plateau sweep effects` tells", "`plateau.study.effects` tells"),
+            ("plateau sweep import a.toml TABLE.csv brings them", "plateau.study.import_values a.toml TABLE.csv brings them"),
+        ):
+            self.assertEqual(in_python(said), here)
+            self.assertEqual(in_python(here), here)
+
+
+class Folders(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+    def write(self, folder, names, *, force=False, inputs=(), of=None):
+        return write(folder, {name: name.encode() for name in names}, of=of, force=force, inputs=inputs)
+
+    def names(self, folder):
+        return sorted(path.name for path in folder.iterdir())
+
+    def test_files_of_an_earlier_call_are_replaced_and_removed_with_force_only(self):
+        folder = self.folder / "effects"
+        self.write(folder, ["a.png", "b.png"])
+        (folder / "mine.txt").write_text("mine")
+        with self.assertRaisesRegex(InputError, "replace them, or name another folder"):
+            self.write(folder, ["b.png", "c.png"])
+        self.assertEqual(self.names(folder), ["a.png", "b.png", LIST, "mine.txt"])
+        self.write(folder, ["b.png", "c.png"], force=True)
+        self.assertEqual(self.names(folder), ["b.png", "c.png", LIST, "mine.txt"])
+
+    def test_what_goes_on_replaces_its_own_files_and_no_others(self):
+        folder = self.folder / "fit"
+        self.write(folder, ["a.png", "b.png"], of="fit ../s.toml")
+        self.assertIn("\n# of fit ../s.toml\n", (folder / LIST).read_text())
+        self.write(folder, ["b.png"], of="fit ../s.toml")
+        self.assertEqual(self.names(folder), ["b.png", LIST])
+        # Of another study, of somebody else, and what is no file any more.
+        with self.assertRaisesRegex(InputError, "has the files of another call, of fit ../s.toml"):
+            self.write(folder, ["b.png"], of="fit ../t.toml")
+        (folder / "c.png").write_text("mine")
+        with self.assertRaisesRegex(InputError, "c.png exists"):
+            self.write(folder, ["b.png", "c.png"], of="fit ../s.toml")
+        (folder / "b.png").unlink()
+        (folder / "b.png").symlink_to("c.png")
+        with self.assertRaisesRegex(InputError, "b.png exists"):
+            self.write(folder, ["b.png"], of="fit ../s.toml")
+        self.write(folder, ["b.png"], of="fit ../s.toml", force=True)
+        self.assertEqual((folder / "c.png").read_text(), "mine")
+        self.assertFalse((folder / "b.png").is_symlink())
+
+    def test_a_file_of_someone_else_and_an_input_stay(self):
+        own = self.folder / "effects.csv"
+        own.write_text("mine")
+        with self.assertRaisesRegex(InputError, "exists"):
+            self.write(self.folder, ["effects.csv"])
+        with self.assertRaisesRegex(InputError, "is an input"):
+            self.write(self.folder, ["effects.csv"], force=True, inputs=(own,))
+        self.assertEqual(self.names(self.folder), ["effects.csv"])
+        # A list that was edited does not reach beyond the folder, and does not take away an input.
+        folder = self.folder / "in"
+        folder.mkdir()
+        (folder / LIST).write_text(f"{HEAD}\n../effects.csv\npoints.csv\n")
+        (folder / "points.csv").write_text("points")
+        self.write(folder, ["a.png"], force=True, inputs=(folder / "points.csv",))
+        self.assertEqual(self.names(folder), ["a.png", LIST, "points.csv"])
+        self.assertEqual(own.read_text(), "mine")
+        with self.assertRaisesRegex(InputError, "cannot make the folder"):
+            self.write(own, ["a.png"])
+
+
+if __name__ == "__main__":
+    unittest.main()
