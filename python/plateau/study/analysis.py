@@ -179,9 +179,6 @@ def error_from(fit: Fitted) -> str:
     return "replicates" if fit.lack_of_fit[0].freedom <= 0 else f"replicates, pooled with {said}"
 
 
-# The table of variances ------------------------------------------------------------------------------------------------------------
-
-
 def _aliases(fit: Fitted) -> tuple[set[int], list[list[str]]]:
     """Columns that the runs do not tell, and by mean, blocks and terms, the labels of the terms that they cannot be told from.
 
@@ -245,11 +242,12 @@ def _table(fit: Fitted) -> pandas.DataFrame:
                     row |= {"standard_error": deviation, "t": row["effect"] / deviation}
                     row |= {"low": row["effect"] - reach, "high": row["effect"] + reach}
         rows.append(row)
-    nothing, (missed, *test) = [np.nan, np.nan], fit.lack_of_fit
-    parts = [("lack of fit", missed, test), ("pure error", fit.scatter[0], nothing)] if fit.scatter[0].freedom > 0 else []
-    for name, squares, (f, p) in [("residual", fit.residual, nothing), *parts, ("total", fit.total, nothing)]:
+    missed, f, p = fit.lack_of_fit
+    parts = {"lack of fit": missed, "pure error": fit.scatter[0]} if fit.scatter[0].freedom > 0 else {}
+    for name, squares in {"residual": fit.residual, **parts, "total": fit.total}.items():
         row = {"term": name, "degrees_of_freedom": squares.freedom, "sum_of_squares": squares.sum, "mean_square": squares.mean}
-        rows.append(row | {"share": squares.sum / fit.total.sum, "f": f, "p": p, "aliased_with": []})
+        row |= {"f": f, "p": p} if name == "lack of fit" else {}
+        rows.append(row | {"share": squares.sum / fit.total.sum, "aliased_with": []})
     table = pandas.DataFrame(rows).reindex(columns=COLUMNS)
     table["response"], table["unit"] = fit.response.name, fit.response.unit if fit.response.transform == "none" else "1"
     if np.isnan(fit.error) and (judged := lenth(table.loc[table["factors"].str.len() > 0, "effect"], fit.confidence)) is not None:
@@ -271,9 +269,6 @@ def lenth(effects: pandas.Series, confidence: float) -> tuple[float, float, floa
     return error, margin, simultaneous
 
 
-# Powers ----------------------------------------------------------------------------------------------------------------------------
-
-
 def box_cox(fit: Fitted) -> tuple[float, float, float] | None:
     """Power of the response that the model fits best, and the powers that fit hardly worse; None unless all responses are above 0.
 
@@ -281,7 +276,7 @@ def box_cox(fit: Fitted) -> tuple[float, float, float] | None:
     of squares of (u^power - 1)/power, with u the response by its geometric mean.
     """
     responses, basis = fit.response.back(fit.values), fit.fit.basis
-    if np.isnan(fit.error) or not (responses > 0).all() or len(basis) < basis.shape[1] + 3:
+    if np.isnan(fit.error) or not (responses > 0).all() or fit.residual_freedom < 3:
         return None
     logarithms = np.log(responses) - np.log(responses).mean()
 
@@ -327,8 +322,6 @@ def _advice(fit: Fitted, found: tuple[float, float, float] | None) -> str:
     at_end = ", looked for between −5 and 5 alone" if low <= POWERS[0] or high >= POWERS[1] else ""
     return f"Box-Cox: lambda = {best:.2g} ({low:.2g} to {high:.2g}{at_end}): {said}"
 
-
-# Equations -------------------------------------------------------------------------------------------------------------------------
 
 # What a coefficient is multiplied by: numbers (0, factor), levels (1, factor, level) and centre points (2,), in this order.
 Product = tuple[tuple[int, ...], ...]
@@ -383,9 +376,6 @@ def _words(fit: Fitted, product: Product) -> str:
         level = f"[{factor.name} {factor.text(factor.levels[which[1]])}]" if factor and kind == 1 else "[centre points]"
         parts.append((named(factor) if factor and kind == 0 else level) + "²" * (len(list(same)) - 1))
     return "·".join(parts)
-
-
-# The answer ------------------------------------------------------------------------------------------------------------------------
 
 
 @dataclass(frozen=True, repr=False)
@@ -504,12 +494,9 @@ def usable(study: Study) -> Study:
 def together(study: Study) -> list[str]:
     """Pairs of factors that change together in all runs: a sentence each."""
     places = {one.name: study.runs[one.name] if one.is_number else pandas.factorize(study.runs[one.name])[0] for one in study.factors}
-    said = []
-    for one, other in itertools.combinations([name for name in places if np.ptp(places[name]) > 0], 2):
-        if abs(np.corrcoef(places[one], places[other])[0, 1]) > 0.999:
-            what = "what one of them does cannot be told from what the other does"
-            said.append(f"{one} and {other} change together in all runs: {what}")
-    return said
+    alike = pandas.DataFrame(places).corr().abs() > 0.999
+    said = "{} and {} change together in all runs: what one of them does cannot be told from what the other does"
+    return [said.format(*pair) for pair in itertools.combinations(places, 2) if alike.loc[pair]]
 
 
 def _effects(study: Study, response: Response, model: str | None, terms: str, confidence: float) -> ResponseEffects:
@@ -562,8 +549,7 @@ def _report(one: ResponseEffects) -> dict[str, Any]:
     if np.isnan(fit.error) and (judged := lenth(terms.loc[terms["factors"].str.len() > 0, "effect"], fit.confidence)):
         names = ("pseudo_standard_error", "margin_of_error", "simultaneous_margin_of_error")
         report["lenth"] = dict(zip(names, judged, strict=True))
-    copied = ["degrees_of_freedom", "sum_of_squares", "share", "variance_inflation", "f", "p", "effect", "standard_error"]
-    copied += ["aliased_with", "seed_ratio"]
+    copied = [*COLUMNS[3:5], "share", "variance_inflation", "f", "p", "effect", "standard_error", "aliased_with", "seed_ratio"]
     report["terms"] = [
         {"label": row["term"], "interval": None if np.isnan(row["low"]) else [row["low"], row["high"]]}
         | {name: _plain(row[name]) for name in copied}

@@ -4,8 +4,10 @@ import itertools
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 import pandas
 from scipy import stats
 
@@ -32,6 +34,7 @@ SOLE = 1e-9
 SAME = 1e-6
 # Most coefficients of a model, and of one that is tried beside it.
 MOST_COLUMNS, MOST_TRIED = 2000, 300
+NO_CURVE = "no factor that is a number has more than two values"
 # Degrees of freedom that squares should leave for the error; with fewer, intervals are too wide to tell anything.
 LEAST_FREEDOM = 3
 
@@ -45,7 +48,7 @@ def contrasts(levels: int) -> Numbers:
     return np.vstack([-np.ones(levels - 1), np.eye(levels - 1)])
 
 
-def rank(values: "pandas.Series | Numbers") -> Numbers:
+def rank(values: "pandas.Series | Numbers") -> "npt.NDArray[np.intp]":
     """Numbers of equal values, from 0, in ascending order."""
     return np.unique(np.asarray(values), axis=0, return_inverse=True)[1].reshape(-1)
 
@@ -90,7 +93,7 @@ def is_same(values: pandas.Series, level: object) -> Numbers:
     """Whether values are a level; numbers may differ by rounding."""
     if isinstance(level, str):
         return np.asarray(values == level)
-    return np.isclose(values.to_numpy(float), float(str(level)), rtol=1e-9, atol=0.0)
+    return np.asarray(np.isclose(values.to_numpy(float), float(str(level)), rtol=1e-9, atol=0.0))
 
 
 def named(factor: Factor) -> str:
@@ -180,8 +183,8 @@ class Fitted:
         The runs that were fitted, each once: factors, ``replicate`` and ``point``, numbered by equal settings, from 0.
     values : numpy.ndarray
         Their responses.
-    missing, repeated : int
-        Runs without a response, and those that repeat another one.
+    missing : int
+        Runs without a response.
     confidence : float
     seeds, point_count : int
         Numbers of sets of seeds, which are blocks of the model, and of different points.
@@ -200,12 +203,11 @@ class Fitted:
 
     def __init__(
         self, study: Study, response: Response, model: str, runs: pandas.DataFrame, values: Numbers, terms: list[Term] | None = None,
-        reason: str = "", confidence: float = 0.95, centre: bool = False, missing: int = 0, repeated: int = 0,
+        reason: str = "", confidence: float = 0.95, centre: bool = False, missing: int = 0,
     ) -> None:  # fmt: skip
         self.study, self.response, self.model, self.reason, self.confidence = study, response, model, reason, confidence
-        self.runs, self.values, self.missing, self.repeated = runs, values, missing, repeated
+        self.values, self.missing, self.aicc, self.aicc_of_all = values, missing, np.nan, np.nan
         self.left_out: list[Term] | None = None
-        self.aicc = self.aicc_of_all = np.nan
         self.codings = [Coding.of(factor, runs[factor.name], model) for factor in study.factors]
         keys = [np.round(one.coded(runs[one.name]) * 1e9) if one.is_number else rank(runs[one.name]) for one in study.factors]
         self.is_curved = [coding.classes is None and len(set(key)) > 2 for coding, key in zip(self.codings, keys, strict=True)]
@@ -290,7 +292,7 @@ class Fitted:
     @cached_property
     def within(self) -> Numbers:
         """Responses less the mean of their point."""
-        return (self.values - pandas.Series(self.values).groupby(self.runs["point"].to_numpy()).transform("mean")).to_numpy()
+        return np.asarray(self.values - pandas.Series(self.values).groupby(self.runs["point"].to_numpy()).transform("mean"))
 
     @cached_property
     def scatter(self) -> tuple[Squares, Numbers]:
@@ -431,9 +433,8 @@ class Fitted:
         parts = [own, (missed * (1.0 + leverage), np.full(len(rows), freedom))]
         mean = _satterthwaite(parts)
         one = mean if np.isnan(run) else _satterthwaite([*parts, (np.full(len(rows), run), np.full(len(rows), run_freedom))])
-        told = self.fit.tells(rows)
-        columns = dict(zip(("mean", "mean_freedom", "run", "run_freedom"), (*mean, *one), strict=True))
-        columns = {name: np.where(told, values, np.nan) for name, values in columns.items()}
+        told, names = self.fit.tells(rows), ("mean", "mean_freedom", "run", "run_freedom")
+        columns = {name: np.where(told, values, np.nan) for name, values in zip(names, (*mean, *one), strict=True)}
         return pandas.DataFrame({"value": rows @ self.coefficients, **columns, "leverage": leverage}, index=points.index)
 
     def forecast(self, points: pandas.DataFrame, confidence: float | None = None) -> pandas.DataFrame:
@@ -563,7 +564,7 @@ def _whole(study: Study, response: Response, model: str, reason: str = "", confi
         raise NothingToFit(f"the response {largest:e} is beyond ±1e150")
     if np.ptp(values) <= max(ROUNDING * largest, 1e-150):
         raise NothingToFit(f"the response is {float(values[0])!r} in all {len(values)} observations: no factor has an effect on it")
-    return Fitted(study, response, model, runs[has], values, None, reason, confidence, centre, missing, int((~own).sum()))
+    return Fitted(study, response, model, runs[has], values, None, reason, confidence, centre, missing)
 
 
 def _choice(study: Study, response: Response) -> tuple[str, str]:
@@ -575,7 +576,7 @@ def _choice(study: Study, response: Response) -> tuple[str, str]:
     if study.design not in ("full-factorial", "fractional-factorial"):
         problem = no_squares(_whole(study, response, "quadratic"))
     else:
-        problem = "no factor that is a number has more than two values"
+        problem = NO_CURVE
         if any(factor.is_range and study.runs[factor.name].nunique() > 2 for factor in study.factors):
             problem = "centre points tell of a curve, and not in which factor"
         if any(factor.is_number and not factor.is_range and len(factor.levels) > 2 for factor in study.factors):
@@ -586,7 +587,7 @@ def _choice(study: Study, response: Response) -> tuple[str, str]:
 def no_squares(fit: Fitted) -> str:
     """Why the runs do not allow a quadratic model, to which it is the fit; empty if they do."""
     if not any(fit.is_curved):
-        return "no factor that is a number has more than two values"
+        return NO_CURVE
     # Squares of numbers with two values are part of the mean.
     squares = {columns.start: term[0] for term, columns in zip(fit.terms, fit.columns[2:], strict=True) if len({*term}) < len(term)}
     straight = {column for column, at in squares.items() if not fit.is_curved[at]}
@@ -619,10 +620,9 @@ def _selected(whole: Fitted) -> Fitted:
         return 0 < len(terms[one]) < len(terms[other]) and set(terms[one]) <= set(terms[other])
 
     def may_change(kept: frozenset[int], term: int) -> bool:
-        others = [other for other in range(len(terms)) if other != term]
         if term in kept:
-            return not any(other in kept and is_part(term, other) for other in others)
-        return all(other in kept or not is_part(other, term) for other in others)
+            return not any(is_part(term, other) for other in kept)
+        return all(other in kept or not is_part(other, term) for other in range(len(terms)))
 
     def improved(kept: frozenset[int]) -> tuple[float, frozenset[int]]:
         least = criterion(kept)
@@ -635,15 +635,14 @@ def _selected(whole: Fitted) -> Fitted:
 
     everything = frozenset(at - 2 for at in map(whole.owner, whole.fit.kept) if at > 1)
     aicc, kept = min((improved(everything), improved(frozenset())), key=lambda found: found[0])
-    options = whole.reason, whole.confidence, bool(whole.centre), whole.missing, whole.repeated
-    own = whole.study, whole.response, whole.model, whole.runs, whole.values
-    chosen = Fitted(*own, [terms[at] for at in sorted(kept)], *options)
+    own = whole.study, whole.response, whole.model, whole.runs, whole.values, [terms[at] for at in sorted(kept)]
+    chosen = Fitted(*own, whole.reason, whole.confidence, bool(whole.centre), whole.missing)
     chosen.left_out = [term for at, term in enumerate(terms) if at not in kept]
     chosen.aicc, chosen.aicc_of_all = aicc, criterion(everything)
     return chosen
 
 
-def misfit(fit: Fitted) -> dict[str, object] | None:
+def misfit(fit: Fitted) -> dict[str, Any] | None:
     """Finds what a model misses, if that is significant at the confidence level, and the model to try, with its share.
 
     Replicates tell it, or a model that has all terms of this one and more: with several such models the level is divided by their
@@ -652,38 +651,32 @@ def misfit(fit: Fitted) -> dict[str, object] | None:
     if np.isnan(fit.error):
         return None
     own, level = fit.residual, 1.0 - fit.confidence
-    others = [other for model in ("main", "interactions", "quadratic", "full") if (other := _other(fit, model)) is not None]
-
-    def said(f: float, p: float, by_replicates: bool, found: Fitted | None) -> dict[str, object]:
-        share = None if found is None else 1.0 - found.residual.sum / found.total.sum
-        model = None if found is None else found.model
-        return {"f": f if np.isfinite(f) else None, "p": p, "by_replicates": by_replicates, "model_to_try": model, "r_squared": share}
-
+    others = [other for model in ("main", "interactions", "quadratic", "full") if model != fit.model and (other := _other(fit, model))]
     _, f, p = fit.lack_of_fit
-    if p < level:
-        better = [other for other in others if other.residual.mean < own.mean and other.residual.sum < own.sum]
-        return said(f, p, True, min(better, key=lambda other: other.residual.mean, default=None))
-    # That terms which were left out explain something is no news.
-    larger = [other for other in others if other.residual_freedom < own.freedom and _contains(other, fit)]
-    larger, tested = larger if fit.left_out is None else [], []
-    for other in larger:
-        added = Squares(own.freedom - other.residual_freedom, max(own.sum - other.residual.sum, 0.0))
-        f, p = f_test(added, other.residual) if other.residual.sum > 0 else (np.inf, 0.0)
-        if p < level / len(larger):
-            tested.append((other.residual.mean, f, p, other))
-    _, f, p, best = min(tested, key=lambda found: found[0], default=(np.nan, np.nan, np.nan, None))
-    return said(f, p, False, best) if best else None
+    if by_replicates := p < level:
+        found = [(f, p, other) for other in others if other.residual.mean < own.mean and other.residual.sum < own.sum]
+    else:
+        # That terms which were left out explain something is no news.
+        larger = [other for other in others if fit.left_out is None and other.residual_freedom < own.freedom and _contains(other, fit)]
+        added = [Squares(own.freedom - other.residual_freedom, max(own.sum - other.residual.sum, 0.0)) for other in larger]
+        tests = [f_test(new, other.residual) if other.residual.sum > 0 else (np.inf, 0.0) for new, other in zip(added, larger, strict=True)]
+        found = [(*test, other) for test, other in zip(tests, larger, strict=True) if test[1] < level / len(larger)]
+        if not found:
+            return None
+    f, p, best = min(found, key=lambda one: one[2].residual.mean, default=(f, p, None))
+    tried = {"model_to_try": best and best.model, "r_squared": best and 1.0 - best.residual.sum / best.total.sum}
+    return {"f": f if np.isfinite(f) else None, "p": p, "by_replicates": by_replicates, **tried}
 
 
 def _other(fit: Fitted, model: str) -> Fitted | None:
     """Another model of the same response; None if it cannot be fitted or leaves no error."""
     try:
-        other = _whole(fit.study, fit.response, model, "", fit.confidence, bool(fit.centre)) if model != fit.model else None
+        other = _whole(fit.study, fit.response, model, "", fit.confidence, bool(fit.centre))
     except InputError:
         return None
     # Squares that the runs do not allow are no advice.
-    is_told = other is not None and other.design.shape[1] <= MOST_TRIED and other.residual_freedom > 0
-    return other if is_told and not (model == "quadratic" and other is not None and no_squares(other)) else None
+    is_told = other.design.shape[1] <= MOST_TRIED and other.residual_freedom > 0
+    return other if is_told and not (model == "quadratic" and no_squares(other)) else None
 
 
 def _contains(larger: Fitted, smaller: Fitted) -> bool:
