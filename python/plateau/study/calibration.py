@@ -833,7 +833,10 @@ def _notes(fit: Fit) -> list[str]:
     for _, row in fit.responses.iterrows():
         far = abs(row["forecast"] - row["measured"]) / math.hypot(row["uncertainty"], row["seeds_deviation"], row["discrepancy"])
         if not fit.freedom and far > 2.0:
-            notes.append(f"At the most likely values runs give a {row['response']} that is {far:.2g} standard deviations away from what was measured: no values within these ranges give all that was measured.")
+            notes.append(
+                f"At the most likely values {row['response']} of the runs is {far:.2g} standard deviations away from what was measured: no values "
+                "within these ranges give all that was measured."
+            )
     for at in likelihood.components:
         away, times = _away(likelihood, at), fit.target.measured[at].times
         alike = float((away[1:] * away[:-1]).sum() / max((away**2).sum(), 1e-300))
