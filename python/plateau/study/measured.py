@@ -122,6 +122,31 @@ def imported_values(study: Study) -> pandas.DataFrame:
     return _Kept(study).values
 
 
+def read_points(path: str | os.PathLike[str], study: Study) -> pandas.DataFrame:
+    """Points of a table in CSV with a column for each factor; other columns are left aside.
+
+    Parameters
+    ----------
+    path : path
+    study : Study
+
+    Returns
+    -------
+    pandas.DataFrame
+        Factors by name, numbers in SI units; a row for each line.
+
+    Raises
+    ------
+    InputError
+        With file and line.
+    """
+    table = read_text_table(Path(path))
+    columns = zip(study.factors, _factors(table, study), strict=True)
+    return pandas.DataFrame({
+        factor.name: [_factor_value(table, row, column, factor) for row in range(len(table.rows))] for factor, column in columns
+    })
+
+
 def _file(study: Study) -> Path:
     return study.directory / "imported.csv"
 
