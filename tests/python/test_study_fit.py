@@ -231,7 +231,14 @@ uncertainty = "0.1 mm3"
     def test_what_cannot_be_fitted_is_told(self):
         for change, words in (
             (lambda text: text.replace('measured = "3 mm^3"\nuncertainty = "0.1 mm3"\n', ""), "nothing was measured"),
-            (lambda text: text.replace('range = [1.0, 10.0]\nscale = "logarithmic"', "levels = [1, 2]").replace("latin-hypercube", "full-factorial").replace("points = 12\n", ""), "give range = [lower, upper]"),
+            (
+                lambda text: (
+                    text.replace('range = [1.0, 10.0]\nscale = "logarithmic"', "levels = [1, 2]")
+                    .replace("latin-hypercube", "full-factorial")
+                    .replace("points = 12\n", "")
+                ),
+                "give range = [lower, upper]",
+            ),
         ):
             with self.assertRaises(InputError) as raised:
                 fit(self.study(change))
