@@ -16,7 +16,7 @@ ROOT = Path(__file__).resolve().parent.parent.parent
 os.environ.setdefault("PLATEAU_PROGRAM", str(ROOT / "plateau"))
 
 from plateau.errors import InputError, MissingFileError
-from plateau.study.measured import import_values, measurements
+from plateau.study.measured import import_values, measurements, read_points
 from plateau.study.quantities import quantity
 from plateau.study.results import Response, analysed
 from plateau.study.text_tables import read_text_table, written_table
@@ -82,7 +82,10 @@ class TextTableTest(InFolder):
 
     def test_what_is_wrong_is_refused_with_its_place(self):
         for text, words in (
-            ("time [s];force [N]\n0;10,5\n3; 1.200\n", '/t.csv:3:4: "1.200" in line 3, column 4 and "10,5" in line 2, column 3: a decimal point'),
+            (
+                "time [s];force [N]\n0;10,5\n3; 1.200\n",
+                '/t.csv:3:4: "1.200" in line 3, column 4 and "10,5" in line 2, column 3: a decimal point',
+            ),
             ("a,b\n1,2\n\n3,4\n", "/t.csv:4: another table begins here, below a blank line"),
             ("a,b\n1,2\n\n# more\na,b\n3,4\n", "/t.csv:4: another table begins here, below a blank line"),
             ("a,b\n1,2\na,b\n3,4\n", "/t.csv:3: another table begins here, with a header"),
@@ -92,12 +95,19 @@ class TextTableTest(InFolder):
             ("a,b\n", "no points"),
             ("a,b\n1\n", "/t.csv:2: 1 cells, expected 2"),
             ("a,b\n5 N\x07,1\n", '/t.csv:2: "a" has a character that is no text'),
-            (b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1\0\0", "this is a workbook (.xls) or another document, expected text: save its sheet as CSV"),
+            (
+                b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1\0\0",
+                "this is a workbook (.xls) or another document, expected text: save its sheet as CSV",
+            ),
             (b"\x89HDF\r\n\x1a\n\0\0", "this is no text"),
         ):
             with self.subTest(text):
                 self.refused(words, read_text_table, self.file(text))
-        for entry, words in (("xl/workbook.xml", "a workbook (.xlsx)"), ("content.xml", "a workbook (.ods)"), ("t.csv", "a zip archive, expected text: unpack it")):
+        for entry, words in (
+            ("xl/workbook.xml", "a workbook (.xlsx)"),
+            ("content.xml", "a workbook (.ods)"),
+            ("t.csv", "a zip archive, expected text: unpack it"),
+        ):
             content = io.BytesIO()
             with zipfile.ZipFile(content, "w") as archive:
                 archive.writestr(entry, "1")
@@ -134,7 +144,17 @@ class QuantityTest(unittest.TestCase):
         self.assertEqual(quantity("5 degC", "K", is_difference=True), 5.0)
 
     def test_what_is_none_is_refused(self):
-        for said, si in (("5", "m"), ("x %", "1"), ("1e400 m", "m"), ("1 kg", "m"), ("5 parsec", "m"), (True, "m"), (float("nan"), "m"), ("0.15", "1"), ("14 Hz", "rad s-1")):
+        for said, si in (
+            ("5", "m"),
+            ("x %", "1"),
+            ("1e400 m", "m"),
+            ("1 kg", "m"),
+            ("5 parsec", "m"),
+            (True, "m"),
+            (float("nan"), "m"),
+            ("0.15", "1"),
+            ("14 Hz", "rad s-1"),
+        ):
             with self.subTest(said), self.assertRaises(InputError):
                 quantity(said, si)
 
@@ -151,9 +171,20 @@ class ImportTest(InFolder):
 
     def test_values_are_those_of_their_runs(self):
         found = self.take("humidity [%RH];batch;wear [mm3]\n20,00001;A;1,5\n80 %RH;'=B;\n")
-        self.assertEqual(found.document() | {"file": ""}, {
-            "study": "Rig", "lines": 2, "responses": ["wear"], "new": 1, "changed": 0, "runs": 4, "complete": 0, "idle": [], "file": "",
-        })
+        self.assertEqual(
+            found.document() | {"file": ""},
+            {
+                "study": "Rig",
+                "lines": 2,
+                "responses": ["wear"],
+                "new": 1,
+                "changed": 0,
+                "runs": 4,
+                "complete": 0,
+                "idle": [],
+                "file": "",
+            },
+        )
         self.assertEqual(self.take("batch,humidity,wear [m3],friction\nA,20,,0.4\n").complete, 1)
         self.assertEqual(self.kept(), "humidity [%RH],batch,replicate,wear [m3],friction\n20.0,A,1,1.5e-09,0.4\n")
         study = analysed(self.study())
@@ -167,6 +198,11 @@ class ImportTest(InFolder):
         self.refused("/t.csv:2: 0.4 was imported before and 0.5 differs; --force replaces it", self.take, head + "20,A,0.5\n")
         self.assertEqual(self.take(head + "20,A,0.5\n", force=True).changed, 1)
         self.assertIn("0.5", self.kept())
+
+    def test_points_of_a_table_are_in_the_units_of_the_study(self):
+        points = read_points(self.file("batch;humidity [%RH];note\n'=B;35,5;x\nA;20 %RH;\n"), analysed(self.study()))
+        self.assertEqual(points.to_dict("list"), {"humidity": [35.5, 20.0], "batch": ["=B", "A"]})
+        self.refused('/t.csv:2: "humidity [N]" is "5"', read_points, self.file("humidity [N],batch\n5,A\n"), analysed(self.study()))
 
     def test_what_is_wrong_changes_nothing(self):
         head = "humidity,batch,friction\n"
@@ -200,7 +236,10 @@ class ImportTest(InFolder):
 
     def test_imports_at_the_same_time_lose_nothing(self):
         study = self.study()
-        tables = [self.file(f"humidity,batch,friction\n{h},{b},0.{at + 1}\n", f"{at}.csv") for at, (b, h) in enumerate((b, h) for b in ("A", "'=B") for h in (20, 80))]
+        tables = [
+            self.file(f"humidity,batch,friction\n{h},{b},0.{at + 1}\n", f"{at}.csv")
+            for at, (b, h) in enumerate((b, h) for b in ("A", "'=B") for h in (20, 80))
+        ]
         with ThreadPoolExecutor(4) as pool:
             list(pool.map(lambda table: import_values(study, table), tables))
         self.assertEqual(analysed(study).runs["friction"].tolist(), [0.1, 0.2, 0.3, 0.4])

@@ -163,7 +163,14 @@ def _check(likelihood: Likelihood, place: Numbers, asked: Any, more: Runs | None
     squares = (found - means) ** 2 / (variances + SETTLED * np.diag(likelihood.covariance))
     told = asked & np.isfinite(squares)
     held = told.any() and bool(squares[told].sum() <= stats.chi2.ppf(CHECK, told.sum()))
-    return {"place": place, "forecast": means, "deviation": np.sqrt(variances), "runs": found, "held": held, "of": [t.of for t in likelihood.terms]}
+    return {
+        "place": place,
+        "forecast": means,
+        "deviation": np.sqrt(variances),
+        "runs": found,
+        "held": held,
+        "of": [t.of for t in likelihood.terms],
+    }
 
 
 @dataclass(frozen=True, repr=False)
@@ -243,9 +250,7 @@ class Fit:
         side = SIDES[len(factors) > 2]
         for one, other in itertools.combinations(range(len(factors)), 2):
             likely = likelihood.places[likelihood.values <= likelihood.least + 12.0]
-            axes = [
-                np.linspace(max(likely[:, at].min() - 0.1, -1.0), min(likely[:, at].max() + 0.1, 1.0), side) for at in (one, other)
-            ]
+            axes = [np.linspace(max(likely[:, at].min() - 0.1, -1.0), min(likely[:, at].max() + 0.1, 1.0), side) for at in (one, other)]
             if len(factors) == 2:
                 rises = likelihood.rise(np.stack(np.meshgrid(*axes), -1).reshape(-1, 2)).reshape(side, side)
             else:
@@ -299,16 +304,18 @@ class Fit:
         for at, components in likelihood.components.items():
             one = self.target.measured[at]
             away = _away(likelihood, at)
-            found.append({
-                "name": one.response.name,
-                "unit": one.response.unit,
-                "points": len(one.times),
-                "correlation_time": one.correlation_time,
-                "independent_points": float(np.linalg.solve(one.correlations, np.ones(len(one.times))).sum()),
-                "components": components.basis.shape[1],
-                "apart": float(np.sqrt((away**2).mean())),
-                "successive": float((away[1:] * away[:-1]).sum() / max((away**2).sum(), 1e-300)),
-            })
+            found.append(
+                {
+                    "name": one.response.name,
+                    "unit": one.response.unit,
+                    "points": len(one.times),
+                    "correlation_time": one.correlation_time,
+                    "independent_points": float(np.linalg.solve(one.correlations, np.ones(len(one.times))).sum()),
+                    "components": components.basis.shape[1],
+                    "apart": float(np.sqrt((away**2).mean())),
+                    "successive": float((away[1:] * away[:-1]).sum() / max((away**2).sum(), 1e-300)),
+                }
+            )
         return found
 
     def text(self) -> str:
@@ -327,13 +334,15 @@ class Fit:
             deviation = math.hypot(row["surrogate_deviation"], row["seeds_deviation"])
             away = (row["forecast"] - row["measured"]) / math.hypot(row["uncertainty"], deviation, row["discrepancy"])
             scatter = row["seed_to_seed"]
-            lines.append({
-                "response": row["response"],
-                "measured": unit.text(row["measured"], row["uncertainty"]),
-                "runs give": unit.text(row["forecast"], deviation),
-                "seed to seed": f"{scatter * unit.per_si:.2g} {unit.symbol}".strip() if math.isfinite(scatter) else "not known",
-                "apart": f"{away:.1f} deviations".replace("-0.0", "0.0").replace("-", "−"),
-            })
+            lines.append(
+                {
+                    "response": row["response"],
+                    "measured": unit.text(row["measured"], row["uncertainty"]),
+                    "runs give": unit.text(row["forecast"], deviation),
+                    "seed to seed": f"{scatter * unit.per_si:.2g} {unit.symbol}".strip() if math.isfinite(scatter) else "not known",
+                    "apart": f"{away:.1f} deviations".replace("-0.0", "0.0").replace("-", "−"),
+                }
+            )
         blocks += ["\nResponses at the most likely values", _columns(lines)] if lines else []
         lines = [
             {
@@ -365,7 +374,9 @@ class Fit:
             "runs": f"{len(runs.x)} of at most {max(self.most, len(runs.x))}: {more}; {ENDS[self.outcome.ended]}",
             "check": check[self._check_word()],
             "misfit": chi + (test if self.freedom else "; there are no more measurements than keys, so the misfit cannot be tested"),
-            "model": f"standard uncertainty of the model: {stated}" if stated else "taken for exact; [fit] discrepancy = 0.05 gives it an uncertainty of 5 %",
+            "model": f"standard uncertainty of the model: {stated}"
+            if stated
+            else "taken for exact; [fit] discrepancy = 0.05 gives it an uncertainty of 5 %",
         }
         return "\n".join([*blocks, "", self.study.title, *(f"  {name:<8} {words}" for name, words in summary.items())])
 
@@ -391,7 +402,9 @@ class Fit:
             panel.set(ylim=(-0.125 * threshold, 2.5 * threshold), xscale=scale, xlabel=labels[name], ylabel="rise of −2 ln L")
         for one, other, x, y, rises in self.regions:
             figure, (panel,) = axes(1)
-            panel.contourf(factors[one].in_study_unit(x), factors[other].in_study_unit(y), rises, [-1.0, stats.chi2.ppf(self.confidence, 2)], alpha=0.3)
+            panel.contourf(
+                factors[one].in_study_unit(x), factors[other].in_study_unit(y), rises, [-1.0, stats.chi2.ppf(self.confidence, 2)], alpha=0.3
+            )
             at = [factors[name].in_study_unit(self.runs[name]) for name in (one, other)]
             panel.plot(*at, ".", color="0.4")
             scales = {f"{axis}scale": "log" for axis, name in (("x", one), ("y", other)) if factors[name].logarithmic}
@@ -508,7 +521,7 @@ def fit(
 
 
 def _table(study: Study) -> pandas.DataFrame:
-    names = [one.name for one in (*study.factors, *study.responses)]
+    names = [*(factor.name for factor in study.factors), *(response.name for response in study.responses)]
     return study.runs[["point", "replicate", "state", *names]].assign(error=study.data["error"].values)
 
 
@@ -526,7 +539,9 @@ def _task(study: Study) -> tuple[Target, int, float]:
             said = f'{where}: factor "{factor.name}" ({factor.keys}) has levels, and a fit looks for numbers between two ends'
             if factor.is_number and not factor.whole:
                 raise InputError(f"{said}: give range = [lower, upper] in place of levels")
-            raise InputError(f"{said}: make one study for each of {', '.join(map(factor.text, factor.levels))}, fit each, and compare the misfits")
+            raise InputError(
+                f"{said}: make one study for each of {', '.join(map(factor.text, factor.levels))}, fit each, and compare the misfits"
+            )
     number: dict[str, Any] = {key: asked.get(key, usual) for key, usual in (("runs", 60), ("confidence", 0.95), ("discrepancy", 0.0))}
     stated, names = number["discrepancy"], [one.response.name for one in measured]
     if isinstance(stated, dict) and (unknown := [name for name in stated if name not in names]):
@@ -539,8 +554,16 @@ def _task(study: Study) -> tuple[Target, int, float]:
     singles = [one.response.name for one in measured if not one.is_series]
     correlations = np.eye(len(singles))
     for entry in asked.get("correlations", []):
-        if not (isinstance(entry, list) and len(entry) == 3 and set(entry[:2]) <= set(singles) and entry[0] != entry[1] and -1.0 < entry[2] < 1.0):
-            raise InputError(f'{where}: fit.correlations: {entry}, expected two responses with measured and a number, such as ["a", "b", 0.6]')
+        if not (
+            isinstance(entry, list)
+            and len(entry) == 3
+            and set(entry[:2]) <= set(singles)
+            and entry[0] != entry[1]
+            and -1.0 < entry[2] < 1.0
+        ):
+            raise InputError(
+                f'{where}: fit.correlations: {entry}, expected two responses with measured and a number, such as ["a", "b", 0.6]'
+            )
         one, other = map(singles.index, entry[:2])
         correlations[one, other] = correlations[other, one] = entry[2]
     if len(singles) and np.linalg.eigvalsh(correlations).min() <= 1e-9:
@@ -648,7 +671,12 @@ def told(study: Study, target: Target, outcome: Outcome, confidence: float, most
         is_anywhere = pieces == [(-1.0, 1.0)]
         likely = math.nan if is_anywhere or outcome.has_failed else float(factor.value(likelihood.best[at]))
         for low, high in [(math.nan, math.nan)] if outcome.has_failed else pieces:
-            ends = {"low": float(factor.value(low)), "high": float(factor.value(high)), "open_below": low == -1.0, "open_above": high == 1.0}
+            ends = {
+                "low": float(factor.value(low)),
+                "high": float(factor.value(high)),
+                "open_below": low == -1.0,
+                "open_above": high == 1.0,
+            }
             keys.append({"key": factor.name, "unit": factor.unit, "most_likely": likely, **ends})
     means, own, of_seeds = (each[0] for each in likelihood.moments(likelihood.best[None]))
     responses, series = [], []
@@ -664,17 +692,19 @@ def told(study: Study, target: Target, outcome: Outcome, confidence: float, most
             continue
         (number,) = terms
         process = likelihood.terms[number].process
-        responses.append({
-            **about,
-            "measured": one.values[0],
-            "uncertainty": one.uncertainties[0],
-            "forecast": means[number],
-            "surrogate_deviation": math.sqrt(own[number]),
-            "seeds_deviation": math.sqrt(of_seeds[number]),
-            "seed_to_seed": math.sqrt(process.run_variance + of_seeds[number] * process.seeds) if process.seeds > 1 else math.nan,
-            "leave_one_out_error": float(np.sqrt(np.square(process.loo()[0]).mean())),
-            "discrepancy": abs(target.discrepancies[at] * one.values[0]),
-        })
+        responses.append(
+            {
+                **about,
+                "measured": one.values[0],
+                "uncertainty": one.uncertainties[0],
+                "forecast": means[number],
+                "surrogate_deviation": math.sqrt(own[number]),
+                "seeds_deviation": math.sqrt(of_seeds[number]),
+                "seed_to_seed": math.sqrt(process.run_variance + of_seeds[number] * process.seeds) if process.seeds > 1 else math.nan,
+                "leave_one_out_error": float(np.sqrt(np.square(process.loo()[0]).mean())),
+                "discrepancy": abs(target.discrepancies[at] * one.values[0]),
+            }
+        )
     names = ["response", "unit", "measured", "uncertainty", "forecast", "surrogate_deviation", "seeds_deviation", "seed_to_seed"]
     names += ["leave_one_out_error", "discrepancy"]
     checks = []
@@ -756,13 +786,19 @@ def _determined(factors: Sequence[Factor], likelihood: Likelihood, threshold: fl
     ends, best = np.array([factor.ends for factor in factors]), likelihood.best
     if (ends <= 0.0).any():
         return None
-    halves, values = 0.5 * np.log(ends[:, 1] / ends[:, 0]), np.array([float(factor.value(at)) for factor, at in zip(factors, best, strict=True)])
+    halves, values = (
+        0.5 * np.log(ends[:, 1] / ends[:, 0]),
+        np.array([float(factor.value(at)) for factor, at in zip(factors, best, strict=True)]),
+    )
     by_log = np.where([factor.logarithmic for factor in factors], 1.0 / halves, 2.0 * values / (ends[:, 1] - ends[:, 0]))
     found, better = products(likelihood.slopes(best) * (by_log * halves), halves, threshold)
     where = "near the most likely values"
 
     def words(row: Numbers, times: float) -> str:
-        powers = [(factors[at], round(float(row[at]), 4), values[at]) for at in sorted(np.flatnonzero(row).tolist(), key=lambda at: (row[at] != 1.0, at))]
+        powers = [
+            (factors[at], round(float(row[at]), 4), values[at])
+            for at in sorted(np.flatnonzero(row).tolist(), key=lambda at: (row[at] != 1.0, at))
+        ]
         name = " × ".join(factor.name if power == 1.0 else f"{factor.name}^{power:g}".replace("-", "−") for factor, power, _ in powers)
         value = math.prod(float(factor.in_study_unit(value)) ** power for factor, power, value in powers)
         units = " and ".join(factor.study_unit for factor, _, _ in powers if factor.study_unit)
@@ -793,8 +829,14 @@ def _notes(fit: Fit) -> list[str]:
     names = [one.response.name for one in fit.target.measured]
     if outcome.has_failed:
         check = outcome.checks[-1]
-        where = ", ".join(f"{factor.name} = {_said(factor, value)}" for factor, value in zip(fit.study.factors, [
-            float(factor.value(at)) for factor, at in zip(fit.study.factors, check["place"], strict=True)], strict=True))
+        where = ", ".join(
+            f"{factor.name} = {_said(factor, value)}"
+            for factor, value in zip(
+                fit.study.factors,
+                [float(factor.value(at)) for factor, at in zip(fit.study.factors, check["place"], strict=True)],
+                strict=True,
+            )
+        )
         worst = int(np.nanargmax(np.abs(check["runs"] - check["forecast"]) / check["deviation"]))
         notes.append(
             f"Runs at the most likely place ({where}) contradict the forecast, most in {names[check['of'][worst]]}, and no runs were left to find "
@@ -833,7 +875,10 @@ def _notes(fit: Fit) -> list[str]:
     for _, row in fit.responses.iterrows():
         far = abs(row["forecast"] - row["measured"]) / math.hypot(row["uncertainty"], row["seeds_deviation"], row["discrepancy"])
         if not fit.freedom and far > 2.0:
-            notes.append(f"At the most likely values runs give a {row['response']} that is {far:.2g} standard deviations away from what was measured: no values within these ranges give all that was measured.")
+            notes.append(
+                f"At the most likely values {row['response']} of the runs is {far:.2g} standard deviations away from what was measured: no values "
+                "within these ranges give all that was measured."
+            )
     for at in likelihood.components:
         away, times = _away(likelihood, at), fit.target.measured[at].times
         alike = float((away[1:] * away[:-1]).sum() / max((away**2).sum(), 1e-300))
@@ -847,14 +892,14 @@ def _notes(fit: Fit) -> list[str]:
             )
     shares = likelihood.share_by_term()
     if shares.max() > SETTLED:
-        share = f"{100.0 * shares.max():.0f} % of" if shares.max() < 2.0 else f"{shares.max():.2g} times"
-        worst = names[likelihood.terms[int(shares.argmax())].of]
+        part = f"{100.0 * shares.max():.0f} % of" if shares.max() < 2.0 else f"{shares.max():.2g} times"
+        name = names[likelihood.terms[int(shares.argmax())].of]
         more = {
             "no gain": "all runs that [fit] allows besides would hardly lessen it: runs scatter from one surface, or one place, to the next. More sets of "
             "seeds in [replicates] lessen that; if a single specimen was measured, add its scatter to the uncertainty.",
             "no runs": "more points in the design make the intervals shorter.",
         }
-        known = f"The forecasts are not exact: near the most likely values their variance is up to {share} that of the measurement of {worst}"
+        known = f"The forecasts are not exact: near the most likely values their variance is up to {part} that of the measurement of {name}"
         notes.append(f"{known}; {more.get(outcome.ended, 'more runs in [fit] make the intervals shorter.')}")
     return notes
 
@@ -897,7 +942,11 @@ class Plan:
         measured = []
         for one in self.target.measured:
             unit = unit_for(one.response.unit, float(np.abs(one.values).max()))
-            said = f"{len(one.times)} points from {one.times[0]:g} to {one.times[-1]:g} s" if one.is_series else unit.text(one.values[0], one.uncertainties[0])
+            said = (
+                f"{len(one.times)} points from {one.times[0]:g} to {one.times[-1]:g} s"
+                if one.is_series
+                else unit.text(one.values[0], one.uncertainties[0])
+            )
             measured.append({"response": one.response.name, "measured": said})
         rows = {"first runs": f"{self.first_runs} runs", "at most": f"{self.most} runs"}
         if math.isfinite(self.estimated_time):

@@ -28,7 +28,7 @@ NEAR, STEP = 0.1, 1.0 / 256.0
 
 @dataclass(frozen=True)
 class Runs:
-    """Runs of a fit: ``x`` coded keys by run, ``group`` the set of seeds, ``values`` for each measurement, by run and time (one for a single value)."""
+    """Runs of a fit: ``x`` coded keys by run, ``group`` the set of seeds, ``values`` for each measurement, by run and time."""
 
     x: Numbers
     group: Numbers
@@ -42,7 +42,7 @@ class Runs:
 
 @dataclass(frozen=True)
 class Target:
-    """What is fitted to: measurements, the discrepancy of the model for each (relative, the same at all times), correlations of single values."""
+    """What is fitted to: measurements, the discrepancy of the model for each (relative), correlations of single values."""
 
     measured: Sequence[Measurement]
     discrepancies: Sequence[float]
@@ -160,11 +160,13 @@ class Likelihood:
     @property
     def agrees_by_ignorance(self) -> bool:
         """Whether what was measured is likely at the most likely place only because little is known there."""
-        known, all_in_all = (stats.chi2.sf(self.misfit(self.best[None], with_processes=each)[0], max(self.freedom, 1)) for each in (False, True))
+        known, all_in_all = (
+            stats.chi2.sf(self.misfit(self.best[None], with_processes=each)[0], max(self.freedom, 1)) for each in (False, True)
+        )
         return bool(known < 0.01 and all_in_all > 10.0 * known)
 
     def _added(self, own: Numbers, seeds: Numbers) -> Numbers:
-        """Variances of processes and seeds; few sets of seeds tell theirs badly, by so much as quantiles of t exceed normal ones (Satterthwaite)."""
+        """Variances of processes and seeds, larger by what few sets of seeds leave open (quantiles of t, Satterthwaite)."""
         total = np.diag(self.covariance) + own + seeds
         freedom = np.array([(term.process.freedom, max(term.process.seeds - 1, 1)) for term in self.terms]).T
         freedom = total**2 / np.maximum(own**2 / freedom[0] + seeds**2 / freedom[1], 1e-9 * total**2)
@@ -209,7 +211,11 @@ class Likelihood:
         means = self.moments(at)[0]
         differences = (means[: self.keys] - means[self.keys :]).T / (at[: self.keys] - at[self.keys :]).sum(axis=1)
         _, own, seeds = self.moments(place[None])
-        return np.asarray(linalg.solve_triangular(linalg.cholesky(self.covariance + np.diag(self._added(own, seeds)[0]), lower=True), differences, lower=True))
+        return np.asarray(
+            linalg.solve_triangular(
+                linalg.cholesky(self.covariance + np.diag(self._added(own, seeds)[0]), lower=True), differences, lower=True
+            )
+        )
 
     def shape(self, place: Numbers) -> tuple[Numbers, Numbers]:
         """Axes and deviations of the normal distribution that the likelihood is near a place; no wider than the ranges."""
@@ -232,7 +238,9 @@ class Likelihood:
             value = self.value(places)
             return value[0], (value[1 : 1 + len(free)] - value[1 + len(free) :]) / 2e-3
 
-        found = optimize.minimize(both, place[free], jac=True, bounds=[(-1.0, 1.0)] * len(free), options={"gtol": 1e-2, "ftol": 1e-6, "maxls": 6})
+        found = optimize.minimize(
+            both, place[free], jac=True, bounds=[(-1.0, 1.0)] * len(free), options={"gtol": 1e-2, "ftol": 1e-6, "maxls": 6}
+        )
         place[free] = found.x
         return place, float(found.fun)
 
@@ -280,7 +288,9 @@ class Likelihood:
 
         def variances(x: Numbers, share: Numbers) -> Numbers:
             # The values do not matter.
-            return Equations(x, np.linspace(0.0, 1.0, len(x)), share, sets.replicates, middle, sets.axes).forecast(self.places)[1][0]
+            return np.asarray(
+                Equations(x, np.linspace(0.0, 1.0, len(x)), share, sets.replicates, middle, sets.axes).forecast(self.places)[1][0]
+            )
 
         more = variances(np.vstack([sets.x, new]), np.concatenate([sets.share, np.full(len(new), 1.0 / seeds)]))
         return np.asarray((more + 1e-12) / (variances(sets.x, sets.share) + 1e-12)).clip(max=1.0)

@@ -122,6 +122,31 @@ def imported_values(study: Study) -> pandas.DataFrame:
     return _Kept(study).values
 
 
+def read_points(path: str | os.PathLike[str], study: Study) -> pandas.DataFrame:
+    """Points of a table in CSV with a column for each factor; other columns are left aside.
+
+    Parameters
+    ----------
+    path : path
+    study : Study
+
+    Returns
+    -------
+    pandas.DataFrame
+        Factors by name, numbers in SI units; a row for each line.
+
+    Raises
+    ------
+    InputError
+        With file and line.
+    """
+    table = read_text_table(Path(path))
+    columns = zip(study.factors, _factors(table, study), strict=True)
+    return pandas.DataFrame(
+        {factor.name: [_factor_value(table, row, column, factor) for row in range(len(table.rows))] for factor, column in columns}
+    )
+
+
 def _file(study: Study) -> Path:
     return study.directory / "imported.csv"
 
@@ -195,7 +220,9 @@ def _factor_value(table: TextTable, row: int, column: int, factor: Factor) -> An
         return _finite(number) * factor.one + factor.zero
     except (InputError, ValueError) as error:
         why = f": {error}" if isinstance(error, InputError) else ""
-        raise InputError(f'{table.place(row)}: "{table.heads[column]}" is "{cell}", expected a number such as "{factor.text(factor.levels[0])}"{why}') from None
+        raise InputError(
+            f'{table.place(row)}: "{table.heads[column]}" is "{cell}", expected a number such as "{factor.text(factor.levels[0])}"{why}'
+        ) from None
 
 
 def _finite(text: str) -> float:
@@ -274,7 +301,9 @@ class _Kept:
                     value = None
                 if value is None:
                     has = ", ".join(factor.text(level) for level in levels[:12].tolist()) + (", …" if len(levels) > 12 else "")
-                    raise InputError(f"{table.place(row)}: {factor.name} = {table.rows[row][column]} is in no point of the design, which has {has}")
+                    raise InputError(
+                        f"{table.place(row)}: {factor.name} = {table.rows[row][column]} is in no point of the design, which has {has}"
+                    )
                 point.append(value)
             runs = self.points.get(tuple(point))
             if runs is None:
@@ -314,12 +343,16 @@ class _Kept:
         """The table as it is kept."""
         study = self.study
         heads = [_head(factor.name, factor.unit) for factor in study.factors] + [REPLICATE]
-        rows = [[*heads, *(_head(response.name, response.unit) for response in study.responses if response.name in self.names), *self.others]]
+        rows = [
+            [*heads, *(_head(response.name, response.unit) for response in study.responses if response.name in self.names), *self.others]
+        ]
         for run, values in zip(self.replicates, self.values.to_numpy(), strict=True):
             others = self.other_cells.get(run, [""] * len(self.others))
             if not np.isnan(values).all() or any(others):
                 levels = [_written(study.runs.loc[run, factor.name]) for factor in study.factors]
-                rows.append([*levels, str(self.replicates[run]), *("" if math.isnan(value) else repr(float(value)) for value in values), *others])
+                rows.append(
+                    [*levels, str(self.replicates[run]), *("" if math.isnan(value) else repr(float(value)) for value in values), *others]
+                )
         return written_table([*rows, *self.idle_rows])
 
     def idle(self) -> list[str]:
@@ -435,7 +468,9 @@ def _series(path: Path, response: Response, uncertainty: float | None, correlati
         raise InputError(f'{path}:1: column "time" has no unit, expected one such as "time [s]"')
     if (deviation is None) == (uncertainty is None):
         what = "no column uncertainty; give one, or uncertainty = ... in the response for all points"
-        raise InputError(f"{path}: {what if deviation is None else 'a column of uncertainties, and the key uncertainty of the response; keep one'}")
+        raise InputError(
+            f"{path}: {what if deviation is None else 'a column of uncertainties, and the key uncertainty of the response; keep one'}"
+        )
 
     def numbers(column: int, si: str, is_difference: bool = False) -> Numbers:
         found, head, unit = [], table.heads[column], table.named(column)[1]

@@ -360,6 +360,8 @@ def _with_imported(study: Study) -> Study:
     for name in map(str, values):
         study.runs[name] = values[name]
         study.table[name if units[name] == "1" else f"{name} [{units[name]}]"] = values[name].to_numpy()
+    if "error" in study.table:
+        study.table["error"] = study.table.pop("error")
     if "base" not in study.document:
         # Where no runs are made, those with values are finished.
         state = study.runs["state"].where(~values.notna().any(axis=1), "finished")

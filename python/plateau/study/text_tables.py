@@ -153,7 +153,9 @@ def _text(path: Path) -> str:
         except zipfile.BadZipFile:
             names = []
         book = next((said for name, said in WORKBOOKS.items() if any(entry.startswith(name) for entry in names)), None)
-        what = f"{book}, expected text: save its sheet as CSV" if book else "a zip archive, expected text: unpack it, and name the file in it"
+        what = (
+            f"{book}, expected text: save its sheet as CSV" if book else "a zip archive, expected text: unpack it, and name the file in it"
+        )
     elif content.startswith(b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1"):
         what = "a workbook (.xls) or another document, expected text: save its sheet as CSV"
     low, high = content[1:4:2] == b"\0\0", content[0:3:2] == b"\0\0"

@@ -38,7 +38,14 @@ class Experiment:
     def responses(self, x):
         a, b, c = x[:, 0], x[:, 1], self.shape
         bump = self.sharp * np.exp(-8.0 * ((a - 0.3) ** 2 + (b + 0.2) ** 2))
-        return np.stack([np.exp(0.7 * c[0] * a + 0.3 * b) + bump, 3.0 + c[1] * a + np.tanh(c[2] * b), 2.0 + c[3] * np.sin(c[4] * a) + b + c[5] * b * b / 2.0], -1)
+        return np.stack(
+            [
+                np.exp(0.7 * c[0] * a + 0.3 * b) + bump,
+                3.0 + c[1] * a + np.tanh(c[2] * b),
+                2.0 + c[3] * np.sin(c[4] * a) + b + c[5] * b * b / 2.0,
+            ],
+            -1,
+        )
 
     def curves(self, x):
         level, rate, trend = self.responses(x).T[:, :, None]
@@ -58,7 +65,14 @@ class Experiment:
         response = Response("", "1", "", "none", -np.inf, np.inf, {})
         measured = [Measurement(response, times, values, np.full(len(values), ERROR), correlation_time, "") for values in self.measured]
         first = self.runs(2.0 * qmc.Sobol(2, scramble=False).random(points) - 1.0)
-        return calibrated(Target(measured, [discrepancy] * len(measured), np.eye(len(measured))), first, self.runs, self.seeds, most, [True] * len(measured))
+        return calibrated(
+            Target(measured, [discrepancy] * len(measured), np.eye(len(measured))),
+            first,
+            self.runs,
+            self.seeds,
+            most,
+            [True] * len(measured),
+        )
 
 
 def inside(outcome, truth):
@@ -95,8 +109,15 @@ def budgets(number, budgets=(30, 31, 40, 60), **made):
                 # Intervals exclude each other if no value of the key is in both.
                 values = np.linspace(-1.0, 1.0, 41)
                 both = [
-                    max(best_with(each.likelihood, {key: value}, each.likelihood.best)[1] - each.likelihood.least for each in (one, other)) for value in
-                    np.unique(np.concatenate([values[np.abs(values - one.likelihood.best[key]) < 0.2], [one.likelihood.best[key], other.likelihood.best[key]]]))
+                    max(best_with(each.likelihood, {key: value}, each.likelihood.best)[1] - each.likelihood.least for each in (one, other))
+                    for value in np.unique(
+                        np.concatenate(
+                            [
+                                values[np.abs(values - one.likelihood.best[key]) < 0.2],
+                                [one.likelihood.best[key], other.likelihood.best[key]],
+                            ]
+                        )
+                    )
                 ]
                 exclusive += min(both) > limit if one is not other else 0
     return len(good), exclusive // 2, [outcome.likelihood.best for outcome in outcomes]
@@ -122,7 +143,9 @@ def main():
         print(f"| {name} | {100.0 * region:.1f} % | {100.0 * intervals:.1f} % | {100.0 * failed:.1f} % | {runs:.0f} |", flush=True)
     found = [budgets(number, sharp=1.5, seeds=2)[:2] for number in range(experiments // 4)]
     good, exclusive = np.sum(found, axis=0)
-    print(f"budgets 30, 31, 40, 60 in {len(found)} experiments: {good} of {4 * len(found)} fits have intervals, {exclusive} pairs exclude each other")
+    print(
+        f"budgets 30, 31, 40, 60 in {len(found)} experiments: {good} of {4 * len(found)} fits have intervals, {exclusive} pairs exclude each other"
+    )
 
 
 if __name__ == "__main__":
