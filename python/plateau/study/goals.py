@@ -220,6 +220,8 @@ def wanted(
         if name in goals:
             raise InputError(f'"{name}" has two goals, expected one; a --limit may stand beside it')
         if not values and aim != "target":
+            if low == high:
+                raise InputError(f'--{aim} "{text}": all runs have {low:g}, so there is nothing to choose; give NAME=LOW..HIGH to go on')
             values = [low, high]
         elif len(values) == 1 and aim == "target":
             if not low <= values[0] <= high:
@@ -229,11 +231,7 @@ def wanted(
             reach = max(high - values[0], values[0] - low)
             values = [values[0] - reach, values[0], values[0] + reach]
         if len(values) != (3 if aim == "target" else 2) or not all(a < b for a, b in itertools.pairwise(values)):
-            expected = (
-                "NAME=VALUE or NAME=LOW..VALUE..HIGH"
-                if aim == "target"
-                else "NAME, of which not all runs have the same value, or NAME=LOW..HIGH"
-            )
+            expected = "NAME=VALUE or NAME=LOW..VALUE..HIGH" if aim == "target" else "NAME or NAME=LOW..HIGH"
             raise InputError(f'--{aim} "{text}": expected {expected}, with values that ascend')
         goals[name] = Goal(name, aim, tuple(values[::-1] if aim == "minimize" else values), is_of_runs=not said)
     if not goals:

@@ -58,9 +58,8 @@ def improved(
                 break
             if len(chosen) < min(at_a_time, left):
                 guess = {name: surrogate.response.back(surrogate.mean(point))[0] for name, surrogate in believed.surrogates.items()}
-                believed = with_processes(
-                    believed, _with_runs(believed.study, [point.assign(**guess, replicate=1 + at) for at in range(problem.study.seeds)])
-                )
+                as_if = [point.assign(**guess, replicate=1 + at) for at in range(problem.study.seeds)]
+                believed = with_processes(believed, _with_runs(believed.study, as_if))
         if not chosen:
             break
         left -= len(chosen)
@@ -75,10 +74,8 @@ def _with_runs(study: Study, new: Sequence[pandas.DataFrame]) -> Study:
     runs = pandas.concat([study.runs, *(each.assign(state="finished") for each in new)], ignore_index=True)[study.runs.columns]
     # Equal points have one number.
     points = runs.groupby([factor.name for factor in study.factors], sort=False).ngroup() + 1
-    return replace(
-        study,
-        runs=runs.assign(point=points, order=range(1, len(runs) + 1), same_as=range(1, len(runs) + 1)).set_axis(range(1, len(runs) + 1)),
-    )
+    numbers = pandas.RangeIndex(1, len(runs) + 1, name="run")
+    return replace(study, runs=runs.assign(point=points, order=numbers, same_as=numbers).set_axis(numbers))
 
 
 def with_processes(problem: Problem, study: Study) -> Problem:
@@ -142,10 +139,8 @@ def _promising(problem: Problem) -> tuple[pandas.DataFrame, float]:
             at = problem.points(levels, np.clip(x, -1.0, 1.0)[None])
             return 0.0 if is_run(problem, at)[0] else -float(expected_improvement(problem, at)[0])
 
-        options = {
-            "maxfev": 40 * len(place),
-            "initial_simplex": np.clip(place + 0.1 * np.vstack([0.0 * place, np.eye(len(place))]) * np.where(place > 0, -1, 1), -1, 1),
-        }
+        inward = 0.1 * np.where(place > 0.0, -1.0, 1.0) * np.eye(len(place))
+        options = {"maxfev": 40 * len(place), "initial_simplex": np.vstack([place, place + inward])}
         found = minimize(fall, place, method="Nelder-Mead", bounds=[(-1.0, 1.0)] * len(place), options=options)
         if -found.fun > gain:
             gain, place = -float(found.fun), np.clip(found.x, -1.0, 1.0)

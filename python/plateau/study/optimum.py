@@ -116,13 +116,14 @@ class Optimum:
             least, most = (limit.value, None) if limit.is_least else (None, limit.value)
             said = {"response": limit.response, "least": least, "most": most, "on": limit.on}
             limits.append({**said, "is_kept": margin >= -ROUNDING, "holds_back": abs(margin) < ON_LIMIT})
+        settings: list[dict[str, Any]] = []
+        for place in self.settings.to_dict("records"):
+            number = None if isinstance(place["value"], str) else float(place["value"])
+            settings.append({"factor": place["factor"], "value": place["text"], "number": number, "given": True})
         return {
             "study": self.problem.study.title,
             "confidence": self.problem.confidence,
-            "settings": [
-                {"factor": row.factor, "value": row.text, "number": None if isinstance(row.value, str) else row.value, "given": True}
-                for row in self.settings.itertuples()
-            ],
+            "settings": settings,
             "responses": responses,
             "goals": [
                 {
@@ -326,7 +327,8 @@ def _told(problem: Problem, best: pandas.DataFrame, confirming: pandas.DataFrame
         value = best[factor.name].iloc[0]
         settings.append({"factor": factor.name, "unit": factor.unit, "value": value, "text": factor.text(value)})
         if axis is None and abs(factor.coded(value)) > 1.0 - AT_END:
-            at_ends.append(f"{factor.name} ({factor.text(value)})".replace("(-", "(\N{MINUS SIGN}"))
+            end, blank, unit = factor.text(value).partition(" ")
+            at_ends.append(f"{factor.name} ({end.replace('-', chr(0x2212))}{blank}{unit})")
     total = float(overall(problem.goals, [worth[goal.response] for goal in problem.goals])) if keeps else 0.0
     if keeps and total <= 0.0:
         cautions.append("a goal is worth nothing wherever the others are worth something; give wider values, such as NAME=LOW..HIGH")

@@ -81,12 +81,8 @@ class Comparison:
         lines = []
         for _, row in both.iterrows():
             of = unit_for(row["unit"], float(self.means.loc[self.means["response"] == row["response"], "mean"].abs().max()))
-            line = {
-                "response": row["response"],
-                "scene": row["scene"],
-                "runs": row["runs"],
-                "mean ± of a run": of.text(row["mean"], row["deviation"]),
-            }
+            line = {name: row[name] for name in ("response", "scene", "runs")}
+            line["mean ± of a run"] = of.text(row["mean"], row["deviation"])
             if np.isfinite(row["difference"]):
                 line["difference"] = of.text(row["difference"], 0.5 * (row["high"] - row["low"]), is_difference=True)
                 line |= {"ratio": _ratio(row), "sure at": _sure(row["sureness"])}
@@ -178,16 +174,8 @@ def compare(
         folder.mkdir(parents=True, exist_ok=True)
         (folder / "seeds.csv").write_text("\n".join(["seed", *map(str, range(1, seeds + 1) if keys else ["none"]), ""]))
         # A title is no part of what a run is known by.
-        study = {
-            "version": 1,
-            "title": name,
-            "base": os.path.abspath(file),
-            "set": changes,
-            "design": "csv",
-            "file": "seeds.csv",
-            "order": "standard",
-        }
-        study |= {"directory": ".", "factor": [{"name": "seed", "key": keys or "title"}], "response": tables}
+        study = {"version": 1, "title": name, "base": os.path.abspath(file), "set": changes, "directory": ".", "order": "standard"}
+        study |= {"design": "csv", "file": "seeds.csv", "factor": [{"name": "seed", "key": keys or "title"}], "response": tables}
         (folder / "study.toml").write_text("".join(f"{key} = {_toml(value)}\n" for key, value in study.items()), encoding="utf-8")
         made[name] = finished(folder / "study.toml", progress, jobs=jobs, workers=workers)
     if len({scene["operation"].get("duration") for scene in resolved}) > 1:
@@ -214,11 +202,7 @@ def _compared(
         for scene in others:
             pair = pandas.DataFrame({0: pairs[first][name], 1: pairs[scene][name]}).dropna()
             if len(pair) < len(most):
-                late = (
-                    "; runs that have not run in lack it, so the difference is biased: make the runs longer"
-                    if name == "running-in time"
-                    else ""
-                )
+                late = "; runs that have not run in lack it, so that it is biased: make them longer" if name == "running-in time" else ""
                 cautions.append(f"{scene}: {name} has a value in {len(pair)} of {len(most)} pairs of runs{late}")
             found = difference(pair[0], pair[1], confidence, len(others))
             rows.append({**common, "scene": scene, **found, "words": _words(f"{scene}: {name}", response.unit, found, confidence)})
@@ -298,24 +282,18 @@ def _curves(made: dict[str, Study], asked: Sequence[Response], confidence: float
     parts = []
     for name in dict.fromkeys("contact_area_mean" if one.series == "contact_area" else one.series for one in asked):
         data = {scene: study.data[name] for scene, study in made.items() if name in study.data and "time" in study.data[name].dims}
+        reference = next(iter(data.values()), None)
         for scene, values in data.items():
-            y, reference = values.transpose("run", "time"), next(iter(data.values())).transpose("run", "time")
-            part = {
-                "series": name,
-                "unit": values.attrs.get("units", "1"),
-                "scene": scene,
-                "time": y["time"].values,
-                "mean": y.values.mean(0),
-            }
-            part |= {"deviation": y.values.std(0, ddof=1) if len(y) > 1 else np.nan, **dict.fromkeys(ENDS, np.nan)}
-            if scene != next(iter(made)) and (len(y) == len(reference) or min(len(y), len(reference)) == 1):
+            time, y = values["time"].values, pandas.DataFrame(values.transpose("run", "time").values)
+            part = pandas.DataFrame({"time": time, "mean": y.mean(), "deviation": y.std(), **dict.fromkeys(ENDS, np.nan)})
+            others = [] if reference is None else reference.transpose("run", "time").values
+            if scene != next(iter(made)) and reference is not None and (len(others) == len(y) or 1 in (len(others), len(y))):
                 # Samples of the reference may be at other times.
-                options = {"left": np.nan, "right": np.nan}
-                others = [np.interp(y["time"].values, reference["time"].values, run, **options) for run in reference.values]
-                d = y.values - np.array(others)
-                half = stats.t.ppf(0.5 + confidence / 2.0, len(d) - 1) * stats.sem(d) if len(d) > 1 else np.nan
-                part |= dict(zip(ENDS, (d.mean(0), d.mean(0) - half, d.mean(0) + half), strict=True))
-            parts.append(pandas.DataFrame(part))
+                at_times = [np.interp(time, reference["time"].values, run, left=np.nan, right=np.nan) for run in others]
+                change = pandas.DataFrame(y.to_numpy() - np.array(at_times))
+                half = stats.t.ppf(0.5 + confidence / 2.0, change.count() - 1) * change.sem()
+                part[ENDS] = np.transpose([change.mean(), change.mean() - half, change.mean() + half])
+            parts.append(part.assign(series=name, unit=values.attrs.get("units", "1"), scene=scene))
     return pandas.concat(parts, ignore_index=True) if parts else pandas.DataFrame(columns=["series", "scene"])
 
 
@@ -330,10 +308,8 @@ def _response(name: str, asked: str) -> dict[str, Any]:
     dataset, _, question = (part.strip() for part in asked.partition(":"))
     dataset = dataset if dataset.startswith("/") else f"/series/{dataset}"
     word, _, rest = question.partition(" ")
-    table: dict[str, Any] = {
-        "name": name or re.sub(r"^/series/|^/", "", asked).replace("_", " ").replace(":", ", ").replace("/", " "),
-        "dataset": dataset,
-    }
+    name = name or re.sub(r"^/series/|^/", "", asked).replace("_", " ").replace(":", ", ").replace("/", " ")
+    table: dict[str, Any] = {"name": name, "dataset": dataset}
     if question == "mean" or not question and dataset == "/series/contact_area":
         return table | {"mean": "last tenth"}
     if word == "mean":

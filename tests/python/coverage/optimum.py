@@ -1,0 +1,98 @@
+#!/usr/bin/env python3
+"""How often intervals of comparisons cover, and how near to the best place runs of expected improvement come.
+
+    optimum.py [STUDY.toml]
+
+With a study that has many sets of seeds, its points are taken as scenes, too: intervals of a few seeds should cover the difference of all.
+"""
+
+import itertools
+import math
+import pathlib
+import sys
+import warnings
+
+import numpy as np
+import pandas
+from plateau.study.goals import Goal, Problem, beyond_runs
+from plateau.study.improvement import improved, with_processes
+from plateau.study.results import Factor, Response, Study, analysed
+from plateau.study.scene_comparison import difference
+from scipy.stats import qmc
+
+# Branin's function upside down: three equal peaks of -0.397887.
+ENDS, PEAK = ((-5.0, 10.0), (0.0, 15.0)), -0.397887
+
+
+def branin(x, y):
+    return -((y - 5.1 / (4 * math.pi**2) * x**2 + 5 / math.pi * x - 6) ** 2 + 10 * (1 - 1 / (8 * math.pi)) * np.cos(x) + 10)
+
+
+def study(points, seeds, noise, random):
+    """Runs at points, each with so many seeds: what a seed adds everywhere, and noise of the same size."""
+    factors = [Factor(name, "key", "1", ends, True, False, False, "", 1.0, 0.0) for name, ends in zip("xy", ENDS, strict=True)]
+    at = np.repeat(points, len(seeds), axis=0)
+    z = branin(*at.T) + np.tile(seeds, len(points)) + noise * random.standard_normal(len(at))
+    index = pandas.RangeIndex(1, len(at) + 1)
+    own = {"point": (index - 1) // len(seeds) + 1, "replicate": (index - 1) % len(seeds) + 1, "order": index, "same_as": index, "state": "finished"}
+    runs = pandas.DataFrame({**own, "x": at[:, 0], "y": at[:, 1], "z": z}, index=index)
+    response = Response("z", "1", "z", "none", -math.inf, math.inf, {})
+    return Study("", "sobol", factors, [response], runs, pandas.DataFrame(), pandas.DataFrame(), None, {}, None, pathlib.Path("."))
+
+
+def regrets(number, noise, first=8, more=8, count=2):
+    """How far from the peak the chosen place is: by expected improvement, and with as many runs that are spread."""
+    random = np.random.default_rng(number)
+    seeds = noise * random.standard_normal(count)
+    places = qmc.scale(qmc.Sobol(2, rng=number).random(first + more), *np.transpose(ENDS))
+
+    def make(points):
+        return study(points[["x", "y"]].to_numpy(), seeds, noise, random).runs
+
+    given, spread = study(places[:first], seeds, noise, random), study(places, seeds, noise, random)
+    goal = Goal("z", "maximize", (given.runs["z"].min(), given.runs["z"].max()), is_of_runs=True)
+    asked = Problem(given, {}, [goal], [], [None, None], 0.95)
+    found, _ = improved(asked, more * count, make)
+    points = found.study.runs.drop_duplicates("point")[["x", "y"]]
+    best = points.iloc[int(beyond_runs(found).merit(points).argmax())]
+    other = beyond_runs(with_processes(asked, spread)).best().iloc[0]
+    return [PEAK - branin(place["x"], place["y"]) for place in (best, other)]
+
+
+def simulated(seeds, scenes, trials=4000):
+    """Part of the trials in which all intervals cover; the difference scatters between seeds as much as runs do."""
+    random, covered = np.random.default_rng(seeds * 10 + scenes), 0
+    for _ in range(trials):
+        values = random.standard_normal(seeds) + random.standard_normal((scenes, seeds))
+        found = [difference(values[0], other, 0.95, scenes - 1) for other in values[1:]]
+        covered += all(one["low"] <= 0.0 <= one["high"] for one in found)
+    return covered / trials
+
+
+def real(path, seeds):
+    """Part of intervals of so many seeds that cover the difference of all, by response."""
+    opened, parts = analysed(path), {}
+    for response in opened.responses:
+        table = opened.runs.pivot(index="replicate", columns="point", values=response.name).to_numpy()
+        random, inside = np.random.default_rng(seeds), []
+        for _ in range(200):
+            own = table[random.choice(len(table), seeds, replace=False)]
+            for a, b in itertools.combinations(range(table.shape[1]), 2):
+                found = difference(own[:, a], own[:, b])
+                inside.append(found["low"] <= (table[:, b] - table[:, a]).mean() <= found["high"])
+        parts[response.name] = f"{100 * np.mean(inside):.1f} %"
+    return parts
+
+
+if __name__ == "__main__":
+    warnings.simplefilter("ignore")
+    print("95 % intervals of differences cover, by seeds and scenes")
+    for seeds in (2, 3, 5):
+        print(f"  {seeds} seeds:", ", ".join(f"{scenes} scenes {100 * simulated(seeds, scenes):.1f} %" for scenes in (2, 3, 4)))
+    for path in sys.argv[1:]:
+        for seeds in (2, 3, 5):
+            print(f"  points of {path}, {seeds} seeds:", real(path, seeds))
+    for noise in (0.5, 2.0):
+        found = np.array([regrets(number, noise) for number in range(12)])
+        said = [f"median {np.median(own):.2f}, mean {own.mean():.2f}" for own in found.T]
+        print(f"Branin's function, 8 points and 8 more, two seeds, noise {noise}: below the peak by {said[0]}; if all are spread, {said[1]}")
