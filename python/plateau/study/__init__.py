@@ -9,12 +9,12 @@ from typing import TYPE_CHECKING, Any
 from plateau.study.results import Factor, Response, Study, open_study
 
 if TYPE_CHECKING:
-    from plateau.study.scene_comparison import compare
     from plateau.study.analysis import effects
     from plateau.study.calibration import fit
     from plateau.study.level_differences import levels
     from plateau.study.optimum import optimize
     from plateau.study.prediction import predict
+    from plateau.study.scene_comparison import compare
     from plateau.study.seed_counts import seeds_needed
     from plateau.study.variance_parts import sensitivity
 
