@@ -204,7 +204,7 @@ class Wishes(unittest.TestCase):
             ({"maximize": ["gain"], "importance": ["gain=0"]}, "between 0.01 and 100"),
             ({"maximize": ["gain"], "importance": ["cost=1"]}, "'gain'"),
             ({"maximize": ["gain"], "hold": ["A=2"]}, "beyond"),
-            ({"maximize": ["gain"], "hold": ["B=1 m"]}, "unit of N"),
+            ({"maximize": ["gain"], "hold": ["B=1 m"]}, "N"),
         ]:
             with self.subTest(options), self.assertRaisesRegex(InputError, message):
                 optimize(given, **options)

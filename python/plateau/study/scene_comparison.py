@@ -279,18 +279,19 @@ ENDS = ["difference", "low", "high"]
 
 
 def _curves(made: dict[str, Study], asked: Sequence[Response], confidence: float) -> pandas.DataFrame:
-    parts = []
+    first, parts = next(iter(made)), []
+    # The contact area of single steps pulses.
     for name in dict.fromkeys("contact_area_mean" if one.series == "contact_area" else one.series for one in asked):
         data = {scene: study.data[name] for scene, study in made.items() if name in study.data and "time" in study.data[name].dims}
-        reference = next(iter(data.values()), None)
         for scene, values in data.items():
             time, y = values["time"].values, pandas.DataFrame(values.transpose("run", "time").values)
             part = pandas.DataFrame({"time": time, "mean": y.mean(), "deviation": y.std(), **dict.fromkeys(ENDS, np.nan)})
-            others = [] if reference is None else reference.transpose("run", "time").values
-            if scene != next(iter(made)) and reference is not None and (len(others) == len(y) or 1 in (len(others), len(y))):
-                # Samples of the reference may be at other times.
-                at_times = [np.interp(time, reference["time"].values, run, left=np.nan, right=np.nan) for run in others]
-                change = pandas.DataFrame(y.to_numpy() - np.array(at_times))
+            reference = data.get(first)
+            if scene != first and reference is not None and (len(y) == reference.sizes["run"] or min(len(y), reference.sizes["run"]) == 1):
+                # Its samples may be at other times.
+                runs = reference.transpose("run", "time").values
+                others = [np.interp(time, reference["time"].values, run, left=np.nan, right=np.nan) for run in runs]
+                change = pandas.DataFrame(y.to_numpy() - np.array(others))
                 half = stats.t.ppf(0.5 + confidence / 2.0, change.count() - 1) * change.sem()
                 part[ENDS] = np.transpose([change.mean(), change.mean() - half, change.mean() + half])
             parts.append(part.assign(series=name, unit=values.attrs.get("units", "1"), scene=scene))
