@@ -23,7 +23,7 @@ from plateau.study.variance_parts import sensitivity, sobol
 
 HERE = Path(__file__).parent
 sys.path.insert(0, str(HERE / "coverage"))
-import forecasts  # noqa: E402
+import forecasts
 
 # Values of scikit-learn's GaussianProcessRegressor and of DiceKriging (R).
 REFERENCES = json.loads((HERE / "expected" / "processes.json").read_text(encoding="utf-8"))

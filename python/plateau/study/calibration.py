@@ -239,7 +239,7 @@ class Fit:
     @cached_property
     def regions(self) -> list[tuple[str, str, Numbers, Numbers, Numbers]]:
         """For each pair of keys: their names, values of both, and how far -2 ln L rises, a row for each value of the second."""
-        likelihood, factors, found = self.outcome.likelihood, self.study.factors, []
+        likelihood, factors, found = self.outcome.likelihood, self.study.factors, list[tuple[str, str, Numbers, Numbers, Numbers]]()
         side = SIDES[len(factors) > 2]
         for one, other in itertools.combinations(range(len(factors)), 2):
             likely = likelihood.places[likelihood.values <= likelihood.least + 12.0]
@@ -254,7 +254,7 @@ class Fit:
                     held = {one: float(axes[0][column]), other: float(axes[1][row])}
                     rises[row, column] = best_with(likelihood, held, likelihood.best)[1] - likelihood.least
             values = [factors[at].value(axis) for at, axis in zip((one, other), axes, strict=True)]
-            found.append((factors[one].name, factors[other].name, *values, rises))
+            found.append((factors[one].name, factors[other].name, values[0], values[1], rises))
         return found
 
     def document(self, files: Sequence[str] = ()) -> dict[str, Any]:
@@ -359,15 +359,15 @@ class Fit:
         check = {
             "held": "the last runs, at the most likely place, agree with what was forecast there",
             "failed": "failed: runs at the most likely place contradict what was forecast there, so there is no interval",
-            "none": "none: no run was left for the most likely place",
+            "none": f"none: no runs {'are made' if self.outcome.ended == 'no runs' else 'were left for the most likely place'}",
         }
-        rows = {
+        summary = {
             "runs": f"{len(runs.x)} of at most {max(self.most, len(runs.x))}: {more}; {ENDS[self.outcome.ended]}",
             "check": check[self._check_word()],
             "misfit": chi + (test if self.freedom else "; there are no more measurements than keys, so the misfit cannot be tested"),
             "model": f"standard uncertainty of the model: {stated}" if stated else "taken for exact; [fit] discrepancy = 0.05 gives it an uncertainty of 5 %",
         }
-        return "\n".join([*blocks, "", self.study.title, *(f"  {name:<8} {words}" for name, words in rows.items())])
+        return "\n".join([*blocks, "", self.study.title, *(f"  {name:<8} {words}" for name, words in summary.items())])
 
     def figures(self) -> dict[str, Any]:
         """Draws profiles of the keys, regions of their pairs, series."""
@@ -488,14 +488,14 @@ def _task(study: Study) -> tuple[Target, int, float]:
             if factor.is_number and not factor.whole:
                 raise InputError(f"{said}: give range = [lower, upper] in place of levels")
             raise InputError(f"{said}: make one study for each of {', '.join(map(factor.text, factor.levels))}, fit each, and compare the misfits")
-    number = {key: asked.get(key, usual) for key, usual in (("runs", 60), ("confidence", 0.95), ("discrepancy", 0.0))}
-    relative = [one.response.asked.get("discrepancy", number["discrepancy"]) for one in measured]
-    for key, value, is_right in (
-        ("fit.runs", number["runs"], lambda value: value >= 1),
-        ("fit.confidence", number["confidence"], lambda value: 0.0 < value < 1.0),
-        *(("discrepancy", value, lambda value: 0.0 <= value < 10.0) for value in relative),
-    ):
-        if not isinstance(value, int | float) or isinstance(value, bool) or not is_right(value):
+    number: dict[str, Any] = {key: asked.get(key, usual) for key, usual in (("runs", 60), ("confidence", 0.95), ("discrepancy", 0.0))}
+    stated, names = number["discrepancy"], [one.response.name for one in measured]
+    if isinstance(stated, dict) and (unknown := [name for name in stated if name not in names]):
+        raise InputError(f'{where}: fit.discrepancy: "{unknown[0]}" is no response that was measured; there are {", ".join(names)}')
+    relative = [stated.get(name, 0.0) if isinstance(stated, dict) else stated for name in names]
+    limits = [("fit.runs", number["runs"], 1.0, 1e6), ("fit.confidence", number["confidence"], 1e-6, 1.0 - 1e-9)]
+    for key, value, low, high in (*limits, *(("fit.discrepancy", value, 0.0, 10.0) for value in relative)):
+        if not isinstance(value, int | float) or isinstance(value, bool) or not low <= value <= high:
             raise InputError(f"{where}: {key} = {value}, expected {'at least 1' if key == 'fit.runs' else 'a part of 1, such as 0.05'}")
     singles = [one.response.name for one in measured if not one.is_series]
     correlations = np.eye(len(singles))
@@ -580,7 +580,7 @@ def profile(likelihood: Likelihood, key: int, threshold: float) -> tuple[Numbers
         return float(optimize.brentq(above, values[at], values[at + 1], xtol=1e-4) if ends[0] * ends[1] < 0.0 else values[at])
 
     inside = rises <= threshold
-    ends = [crossing(at) for at in np.flatnonzero(inside[1:] != inside[:-1])]
+    ends = [crossing(int(at)) for at in np.flatnonzero(inside[1:] != inside[:-1])]
     ends = [*([-1.0] if inside[0] else []), *ends, *([1.0] if inside[-1] else [])]
     return values, np.maximum(rises, 0.0), list(zip(ends[::2], ends[1::2], strict=True))
 
@@ -723,7 +723,7 @@ def _determined(factors: Sequence[Factor], likelihood: Likelihood, threshold: fl
     where = "near the most likely values"
 
     def words(row: Numbers, times: float) -> str:
-        powers = [(factors[at], round(float(row[at]), 4), values[at]) for at in sorted(np.flatnonzero(row), key=lambda at: (row[at] != 1.0, at))]
+        powers = [(factors[at], round(float(row[at]), 4), values[at]) for at in sorted(np.flatnonzero(row).tolist(), key=lambda at: (row[at] != 1.0, at))]
         name = " × ".join(factor.name if power == 1.0 else f"{factor.name}^{power:g}".replace("-", "−") for factor, power, _ in powers)
         value = math.prod(float(factor.in_study_unit(value)) ** power for factor, power, value in powers)
         units = " and ".join(factor.study_unit for factor, _, _ in powers if factor.study_unit)
@@ -769,7 +769,7 @@ def _notes(fit: Fit) -> list[str]:
             f"No values within these ranges give all that was measured: misfit χ² = {fit.misfit:.3g} with {degrees}, p = {fit.p:.2g}. The "
             "intervals are those of a model that does not fit; [fit] discrepancy states by how much the model may be off."
         )
-    if fit.study.seeds < 2:
+    if fit.study.seeds < 2 and outcome.ended != "no runs":
         notes.append(
             "Each point was run with one set of surfaces, so what differs from one to the next is not known; a process may take it for shape, and "
             "an interval may be too short. [replicates] with several seeds tells it."

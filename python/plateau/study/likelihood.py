@@ -138,7 +138,7 @@ class Likelihood:
     @property
     def keys(self) -> int:
         """Number of keys."""
-        return self.runs.x.shape[1]
+        return int(self.runs.x.shape[1])
 
     def moments(self, places: Numbers) -> tuple[Numbers, Numbers, Numbers]:
         """Means, variances of the processes, and of the mean over the seeds: arrays of place and term."""
@@ -224,15 +224,15 @@ class Likelihood:
         place[list(held)] = list(held.values())
         if not free:
             return place, float(self.value(place[None])[0])
-        step = 1e-4 * np.vstack([np.zeros(len(free)), np.eye(len(free)), -np.eye(len(free))])
+        step = 1e-3 * np.vstack([np.zeros(len(free)), np.eye(len(free)), -np.eye(len(free))])
 
         def both(at: Numbers) -> tuple[float, Numbers]:
             places = np.tile(place, (len(step), 1))
             places[:, free] = at + step
             value = self.value(places)
-            return value[0], (value[1 : 1 + len(free)] - value[1 + len(free) :]) / 2e-4
+            return value[0], (value[1 : 1 + len(free)] - value[1 + len(free) :]) / 2e-3
 
-        found = optimize.minimize(both, place[free], jac=True, bounds=[(-1.0, 1.0)] * len(free), options={"gtol": 1e-3, "ftol": 1e-9})
+        found = optimize.minimize(both, place[free], jac=True, bounds=[(-1.0, 1.0)] * len(free), options={"gtol": 1e-2, "ftol": 1e-6, "maxls": 6})
         place[free] = found.x
         return place, float(found.fun)
 
@@ -288,7 +288,7 @@ class Likelihood:
     def snapped(self, places: Numbers) -> Numbers:
         """The nearest places at which runs are made, so that rounding asks for no other run; finer where the likelihood is narrow."""
         step = min(STEP, 2.0 ** np.floor(np.log2(0.2 * self.shape(self.best)[1].min()))) if hasattr(self, "best") else STEP
-        return np.clip(np.round(np.asarray(places) / step) * step, -1.0, 1.0)
+        return np.asarray(np.clip(np.round(np.asarray(places) / step) * step, -1.0, 1.0))
 
     def of_runs(self, runs: Runs) -> Numbers:
         """What runs give of each term, by run."""

@@ -10,7 +10,7 @@ from plateau.study.units import ICE, plain
 
 NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
 # Powers of m, kg, s, rad and K, and how many SI units it is; these take a prefix.
-PREFIXED = {
+PREFIXED: dict[str, tuple[tuple[int, ...], int | Fraction]] = {
     "m": ((1, 0, 0, 0, 0), 1),
     "s": ((0, 0, 1, 0, 0), 1),
     "N": ((1, 1, -2, 0, 0), 1),
@@ -22,7 +22,7 @@ PREFIXED = {
     "K": ((0, 0, 0, 0, 1), 1),
 }
 TURN = Fraction(math.tau)
-ALONE = {
+ALONE: dict[str, tuple[tuple[int, ...], int | Fraction]] = {
     "1": ((0, 0, 0, 0, 0), 1),
     "%": ((0, 0, 0, 0, 0), Fraction(1, 100)),
     "min": ((0, 0, 1, 0, 0), 60),
@@ -37,7 +37,7 @@ ALONE = {
     "Nm": ((2, 1, -2, 0, 0), 1),
 }
 PREFIXES = {"p": -12, "n": -9, "u": -6, "m": -3, "c": -2, "k": 3, "M": 6, "G": 9, "T": 12}
-UNITS = {f"{prefix}{name}": (powers, one * Fraction(10) ** tens) for prefix, tens in PREFIXES.items() for name, (powers, one) in PREFIXED.items()}
+UNITS = {f"{prefix}{name}": (powers, one * Fraction(f"1e{tens}")) for prefix, tens in PREFIXES.items() for name, (powers, one) in PREFIXED.items()}
 UNITS |= PREFIXED | ALONE
 TOKEN = re.compile(r"\s*(?:([()/*·⋅])|([A-Za-z]+|[1%])(-?[1-9])?)\s*")
 

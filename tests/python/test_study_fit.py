@@ -1,0 +1,214 @@
+"""Fits to experiments: intervals against closed forms, runs at the most likely place, coverage in artificial experiments."""
+
+import os
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+import numpy as np
+
+ROOT = Path(__file__).resolve().parent.parent.parent
+os.environ.setdefault("PLATEAU_PROGRAM", str(ROOT / "plateau"))
+sys.path.insert(0, str(Path(__file__).parent / "coverage"))
+
+import fit as experiments
+from plateau.errors import InputError
+from plateau.study.calibration import calibrated, fit, plan, products, profile
+from plateau.study.likelihood import Components, Likelihood, Runs, Target
+from plateau.study.measured import Measurement, import_values
+from plateau.study.results import Response, analysed
+from scipy import stats
+
+PLAIN = Response("", "1", "", "none", -np.inf, np.inf, {})
+
+
+def value(number, uncertainty):
+    return Measurement(PLAIN, np.array([]), np.array([number]), np.array([uncertainty]), 0.0, "")
+
+
+def places(count, keys):
+    return 2.0 * stats.qmc.Sobol(keys, scramble=False).random(count) - 1.0
+
+
+class LikelihoodTest(unittest.TestCase):
+    def interval(self, likelihood, key=0):
+        ((low, high),) = profile(likelihood, key, stats.chi2.ppf(0.95, 1))[2]
+        return (low + high) / 2.0, (high - low) / 2.0
+
+    def test_linear_responses_give_the_intervals_of_least_squares(self):
+        # y = J x + (1, 2): the covariance of the keys is (J' C^-1 J)^-1, and the interval 1.96 deviations.
+        slopes, uncertainty = np.array([[1.0, 0.5], [-0.3, 0.8], [0.4, 0.4]]), np.array([0.10, 0.05, 0.08])
+        x, truth = places(16, 2), np.array([0.2, -0.1])
+        runs = Runs(x, np.zeros(16), list((x @ slopes.T).T[:, :, None]))
+        for correlation, discrepancy in ((0.0, 0.0), (0.7, 0.0), (0.0, 0.1)):
+            correlations = np.eye(3)
+            correlations[0, 1] = correlations[1, 0] = correlation
+            numbers = slopes @ truth
+            covariance = correlations * np.outer(uncertainty, uncertainty) + np.diag((discrepancy * numbers) ** 2)
+            likelihood = Likelihood(Target(list(map(value, numbers, uncertainty)), [discrepancy] * 3, correlations), runs)
+            expected = np.linalg.inv(slopes.T @ np.linalg.inv(covariance) @ slopes)
+            for key in (0, 1):
+                middle, half = self.interval(likelihood, key)
+                self.assertAlmostEqual(middle, truth[key], delta=0.01)
+                self.assertAlmostEqual(half / (1.959964 * expected[key, key] ** 0.5), 1.0, delta=0.02)
+            self.assertLess(likelihood.misfit(likelihood.best[None], with_processes=False)[0], 1e-3)
+
+    def test_correlated_points_of_a_series_count_for_fewer(self):
+        # A constant with errors of correlation R has the variance u²/(1' R^-1 1), and 1' R^-1 1 = 1 + Σ tanh(step/2τ).
+        times, tau, u = np.arange(20.0), 4.0, 0.3
+        measured = Measurement(PLAIN, times, np.full(20, 0.1), np.full(20, u), tau, "")
+        x = places(8, 1)
+        likelihood = Likelihood(Target([measured], [0.0], np.eye(0)), Runs(x, np.zeros(8), [np.tile(x, (1, 20))]))
+        expected = 1.959964 * u / np.sqrt(1.0 + 19.0 * np.tanh(0.5 / tau))
+        self.assertAlmostEqual(self.interval(likelihood)[1] / expected, 1.0, delta=0.02)
+        self.assertEqual(likelihood.freedom, 19)
+
+    def test_curves_of_two_shapes_have_two_components_and_lose_nothing(self):
+        times, weights = np.arange(40.0), np.array([[1.0, 0.0], [2.0, 0.05], [1.0, 0.1], [3.0, 0.02], [2.5, 0.07]])
+        curves = 3.0 + weights @ np.array([np.exp(-times / 8.0), times])
+        measured = 3.0 + 1.5 * np.exp(-times / 8.0) + 0.04 * times
+        root = np.linalg.cholesky(0.01 * np.exp(-np.abs(np.subtract.outer(times, times)) / 3.0))
+        components = Components(root, measured, curves)
+        self.assertEqual(components.basis.shape[1], 2)
+        self.assertLess(components.rest, 1e-9)
+        # Squares of distances are those of the scores.
+        distance = (components.scores(curves[3:4]) - components.scores(measured[None])).ravel()
+        away = curves[3] - measured
+        self.assertAlmostEqual(distance @ distance / (away @ np.linalg.solve(root @ root.T, away)), 1.0, places=8)
+
+    def test_what_cannot_be_reached_is_a_misfit_and_no_ignorance(self):
+        # y is the key, at most 1, and 2 ± 0.1 was measured twice: χ² is 2·10² however little is known between the points.
+        x = places(8, 1)
+        target = Target([value(2.0, 0.1), value(2.0, 0.1)], [0.0, 0.0], np.eye(2))
+        likelihood = Likelihood(target, Runs(x, np.zeros(8), [x, x]))
+        self.assertAlmostEqual(likelihood.misfit(likelihood.best[None], with_processes=False)[0] / 200.0, 1.0, delta=0.1)
+
+
+class ProductTest(unittest.TestCase):
+    def test_a_product_is_found_where_the_response_is_a_function_of_it(self):
+        # ln y = ln a + 0.5 ln b does not see c; halves of the ranges 1, 2, 3. -2 ln L is (50·(u₁ + u₂))².
+        ((powers, factor),), better = products(np.array([[50.0, 50.0, 0.0]]), np.array([1.0, 2.0, 3.0]), 3.84)
+        np.testing.assert_allclose(powers, [1.0, 0.5, 0.0], atol=1e-12)
+        self.assertAlmostEqual(np.log(factor), 3.84**0.5 / 50.0, places=9)
+        self.assertEqual(better, [])
+
+    def test_two_responses_leave_one_ridge_of_three_keys(self):
+        found, _ = products(np.array([[90.0, 90.0, 0.0], [0.0, 70.0, 70.0]]), np.ones(3), 3.84)
+        self.assertEqual(len(found), 2)
+        for powers, _ in found:
+            self.assertAlmostEqual(float(powers @ [1.0, -1.0, 1.0]), 0.0, places=12)
+
+    def test_along_a_strip_the_product_is_known_better_than_the_keys(self):
+        # ln a + ln b and ln a - ln b are measured with deviations s and t, so that of either key is √(s² + t²)/2.
+        def rows(s, t):
+            return np.array([[2.0 / s, 3.0 / s], [2.0 / t, -3.0 / t]])
+
+        halves = np.array([2.0, 3.0])
+        none, ((powers, factor),) = products(rows(0.02, 0.3), halves, 3.84)
+        self.assertIsNone(none)
+        np.testing.assert_allclose(powers, [1.0, 1.0], atol=1e-9)
+        self.assertAlmostEqual(np.log(factor), 0.02 * 3.84**0.5, places=9)
+        # Three times as well begins where 2 s = √(s² + t²)/3, at t = 5.92 s.
+        self.assertEqual([len(products(rows(0.02, t), halves, 3.84)[1]) for t in (0.117, 0.120)], [0, 1])
+        self.assertEqual(products(np.diag([9.0, 9.0]), np.ones(2), 3.84), (None, []))
+        self.assertEqual(products(np.array([[0.1, 0.2]]), np.ones(2), 3.84)[0], [])
+
+
+class OutcomeTest(unittest.TestCase):
+    def outcome(self, most, jump):
+        """Of y = x, measured as 0.3, where runs beyond the design jump."""
+        x = places(8, 1)
+
+        def make(where):
+            return Runs(where, np.zeros(len(where)), [where + jump * (np.abs(where - 0.3) < 0.2)])
+
+        return calibrated(Target([value(0.3, 0.02)], [0.0], np.eye(1)), Runs(x, np.zeros(8), [x]), make, 1, most, [True])
+
+    def test_the_last_runs_are_at_the_most_likely_place(self):
+        outcome = self.outcome(12, 0.0)
+        self.assertFalse(outcome.has_failed)
+        self.assertAlmostEqual(outcome.checks[-1]["place"][0], 0.3, delta=0.02)
+        np.testing.assert_array_equal(outcome.likelihood.runs.x[-1], outcome.checks[-1]["place"])
+
+    def test_runs_that_contradict_leave_no_interval_or_move_the_place(self):
+        self.assertTrue(self.outcome(9, 5.0).has_failed)
+        moved = self.outcome(40, 5.0)
+        best = moved.likelihood.best[0]
+        self.assertTrue(moved.has_failed or abs(best - 0.3) > 0.15, best)
+
+    def test_true_keys_are_inside(self):
+        shares = experiments.coverage(8)
+        self.assertGreaterEqual(shares[0], 6 / 8)
+        self.assertGreaterEqual(shares[1], 13 / 16)
+        self.assertGreaterEqual(experiments.coverage(4, bias=0.1, given={"discrepancy": 0.1})[0], 3 / 4)
+
+    def test_budgets_do_not_exclude_each_other(self):
+        good, exclusive, _ = experiments.budgets(1, sharp=1.5, seeds=2)
+        self.assertGreaterEqual(good, 2)
+        self.assertEqual(exclusive, 0)
+
+
+class StudyTest(unittest.TestCase):
+    STUDY = """
+version = 1
+title = "Rig"
+design = "latin-hypercube"
+points = 12
+[[factor]]
+name = "load"
+range = ["1 N", "10 N"]
+scale = "logarithmic"
+[[factor]]
+name = "speed"
+range = [1.0, 10.0]
+scale = "logarithmic"
+[[response]]
+name = "wear"
+imported = true
+unit = "m3"
+measured = "3 mm^3"
+uncertainty = "0.1 mm3"
+"""
+
+    def study(self, change=lambda text: text):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        path = Path(folder.name) / "s.toml"
+        path.write_text(change(self.STUDY))
+        return path
+
+    def test_imported_responses_are_fitted_without_runs(self):
+        path = self.study()
+        runs = analysed(path).runs
+        wear = 0.5 * runs["load"] * runs["speed"] ** 0.5
+        lines = [f"{load!r},{speed!r},{w!r}" for load, speed, w in zip(runs["load"], runs["speed"], wear, strict=True)]
+        table = path.with_suffix(".csv")
+        table.write_text("\n".join(["load,speed,wear [mm3]", *lines]))
+        import_values(path, table)
+        found = fit(path)
+        document = found.document(["a.csv"])
+        self.assertEqual((document["ended"], document["check"], document["runs"]), ("no runs", "none", 12))
+        # Keys of the document of the program before.
+        before = "study keys responses confidence misfit degrees_of_freedom p determined notes runs runs_at_most rounds ended surrogate_share files"
+        self.assertLessEqual(set(before.split()), set(document))
+        self.assertLessEqual({"name", "keys", "unit", "most_likely", "interval", "undetermined"}, set(document["keys"][0]))
+        # load × speed^0.5 = 6.
+        self.assertRegex(document["determined"], r"^Only load × speed\^0\.[345]\d* = .* is determined by these data")
+        self.assertIn("load", found.text())
+        self.assertEqual(set(found.figures()), {"profiles", "region-load-speed"})
+        self.assertEqual(set(found.tables), {"keys.csv", "responses.csv", "profiles.csv", "runs.csv"})
+        self.assertEqual(plan(path).document()["responses"], ["wear"])
+
+    def test_what_cannot_be_fitted_is_told(self):
+        for change, words in (
+            (lambda text: text.replace('measured = "3 mm^3"\nuncertainty = "0.1 mm3"\n', ""), "nothing was measured"),
+            (lambda text: text.replace('range = [1.0, 10.0]\nscale = "logarithmic"', "levels = [1, 2]").replace("latin-hypercube", "full-factorial").replace("points = 12\n", ""), "give range = [lower, upper]"),
+        ):
+            with self.assertRaises(InputError) as raised:
+                fit(self.study(change))
+            self.assertIn(words, str(raised.exception))
+
+
+if __name__ == "__main__":
+    unittest.main()
