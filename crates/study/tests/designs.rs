@@ -6,7 +6,7 @@ use std::fs;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-use plateau_study::design::{Aliases, Alpha, Design, Factor, Fraction, Kind, Setting, design};
+use plateau_study::design::{Aliases, Alpha, Design, Factor, Fraction, Kind, Setting, design, design_with_centre};
 use proptest::prelude::*;
 
 /// The letters of factors.
@@ -351,4 +351,17 @@ fn large_designs_are_quick_and_small_in_memory() {
     assert!(start.elapsed() < Duration::from_millis(500), "{:?}", start.elapsed());
     assert_eq!(design.points(), 100_000);
     assert!(size_of::<Setting>() <= 16);
+}
+
+#[test]
+fn centre_points_follow_a_factorial_and_leave_its_aliases() {
+    // By hand: the corners in standard order, then the centre twice.
+    let factors = [Factor::Range, Factor::Levels(2), Factor::Range];
+    let kind = Kind::FractionalFactorial(Fraction::Generators(vec!["C = AB".into()]));
+    let (plain, with) = (made(kind.clone(), &factors), design_with_centre(&kind, 2, &factors).unwrap());
+    let expected = [[-1, -1, 1], [1, -1, -1], [-1, 1, -1], [1, 1, 1], [0, 0, 0], [0, 0, 0]];
+    assert_eq!(rows(&with), expected.map(|row| row.map(f64::from).to_vec()));
+    assert_eq!((with.aliases(), rows(&plain)), (plain.aliases(), rows(&with)[..4].to_vec()));
+    let three = design_with_centre(&Kind::FullFactorial, 1, &[Factor::Range, Factor::Levels(3)]).unwrap_err();
+    assert!(three.0.contains("centre points needs ranges or two levels"), "{three}");
 }

@@ -25,6 +25,9 @@ const DESIGNS: [&str; 9] = [
     "csv",
 ];
 
+/// Those that have no centre points of their own, but may have some.
+const FACTORIALS: [&str; 3] = ["full-factorial", "fractional-factorial", "plackett-burman"];
+
 /// Trajectories of a Morris design and levels of its ranges, unless given.
 const TRAJECTORIES: usize = 10;
 const GRID_LEVELS: usize = 4;
@@ -53,7 +56,8 @@ pub(super) fn source(
     only("trajectories", start(&document.trajectories), &["morris"])?;
     only("levels", start(&document.levels), &["morris"])?;
     only("alpha", start(&document.alpha), &["central-composite"])?;
-    only("centre_points", start(&document.centre_points), &["central-composite", "box-behnken"])?;
+    let with_centre = [&FACTORIALS[..], &["central-composite", "box-behnken"]].concat();
+    only("centre_points", start(&document.centre_points), &with_centre)?;
     only("file", start(&document.file), &["csv"])?;
     let missing = |what: &str| Err(place.problem(&document.design, "design", format!("\"{design}\" needs {what}")));
     let points = || document.points.as_ref().map(|points| *points.get_ref()).filter(|points| *points > 0);
@@ -110,5 +114,6 @@ pub(super) fn source(
             return Err(place.problem(&document.design, "design", message));
         }
     };
-    Ok(DesignSource::Kind(kind))
+    let centre = centre.filter(|_| FACTORIALS.contains(&design)).unwrap_or(0);
+    Ok(DesignSource::Kind(kind, centre))
 }

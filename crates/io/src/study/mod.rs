@@ -90,8 +90,8 @@ pub struct Study {
 /// Where the points of a study come from.
 #[derive(Debug, Clone, PartialEq)]
 pub enum DesignSource {
-    /// A design that the program makes.
-    Kind(Kind),
+    /// A design that the program makes, with so many centre points besides those of its kind.
+    Kind(Kind, usize),
     /// A table of one's own.
     File(Points),
 }

@@ -51,9 +51,10 @@ impl Plan {
         };
         let points = match &study.source {
             DesignSource::File(_) => Points::File,
-            DesignSource::Kind(kind) => {
+            DesignSource::Kind(kind, centre) => {
                 let kinds: Vec<_> = study.factors.iter().map(super::factor::Factor::kind).collect();
-                let design = design::design(kind, &kinds).map_err(|error| refuse(error.to_string()))?;
+                let design =
+                    design::design_with_centre(kind, *centre, &kinds).map_err(|error| refuse(error.to_string()))?;
                 let tests: Vec<_> = study.factors.iter().map(|factor| (factor, factor.has_value())).collect();
                 for point in 0..design.points() {
                     let mut pairs = tests.iter().zip(design.point(point));
@@ -86,7 +87,7 @@ impl Plan {
         match (&self.points, &self.study.source) {
             (Points::Design(design), _) => design.points(),
             (Points::File, DesignSource::File(points)) => points.len(),
-            (Points::File, DesignSource::Kind(_)) => 0,
+            (Points::File, DesignSource::Kind(..)) => 0,
         }
     }
 
@@ -124,7 +125,7 @@ impl Plan {
                 factors.iter().zip(design.point(point)).filter_map(|(factor, setting)| factor.at(*setting)).collect()
             }
             (Points::File, DesignSource::File(points)) => points[point].clone(),
-            (Points::File, DesignSource::Kind(_)) => Vec::new(),
+            (Points::File, DesignSource::Kind(..)) => Vec::new(),
         };
         let mut sets = self.study.sets.clone();
         for (factor, level) in factors.iter().zip(&levels) {

@@ -120,7 +120,7 @@ fn points(study: &Study) -> Option<usize> {
     let all = levels.fold(1_usize, usize::saturating_mul);
     match &study.source {
         DesignSource::File(points) => Some(points.len()),
-        DesignSource::Kind(kind) => match kind {
+        DesignSource::Kind(kind, _) => match kind {
             Kind::LatinHypercube { points, .. } | Kind::Sobol { points } => Some(*points),
             Kind::CentralComposite { centre, .. } => centre[0].checked_add(centre[1]),
             Kind::BoxBehnken { centre } => Some(*centre),

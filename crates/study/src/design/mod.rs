@@ -151,6 +151,27 @@ pub struct DesignError(pub String);
 /// There is no such design: no factors, factors of fewer than two levels, or for designs of coded settings of more than
 /// two; more factors than the kind has designs for; wrong generators; no points, or more than ten million.
 pub fn design(kind: &Kind, factors: &[Factor]) -> Result<Design, DesignError> {
+    design_with_centre(kind, 0, factors)
+}
+
+/// The same, with so many more points at the centre of all ranges, which show whether the response is curved.
+///
+/// # Errors
+///
+/// As [`design`], and a factor of more than two levels, which has no centre.
+pub fn design_with_centre(kind: &Kind, centre: usize, factors: &[Factor]) -> Result<Design, DesignError> {
+    let design = of_kind(kind, factors)?;
+    if centre == 0 {
+        return Ok(design);
+    }
+    only_ends(factors, "a design with centre points")?;
+    room(design.points().checked_add(centre), factors.len())?;
+    let settings = (0..design.points()).flat_map(|point| design.point(point).to_vec());
+    let centre = std::iter::repeat_n(Setting::Coded(0.0), centre * factors.len());
+    Design::from_settings(factors.len(), settings.chain(centre).collect(), design.aliases().cloned())
+}
+
+fn of_kind(kind: &Kind, factors: &[Factor]) -> Result<Design, DesignError> {
     if factors.is_empty() {
         return Err(DesignError("a design needs at least one factor".into()));
     }

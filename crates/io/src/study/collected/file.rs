@@ -192,8 +192,9 @@ fn factor_attributes(factor: &Factor, found: Vec<&Level>) -> Vec<(&'static str, 
     if let Some([Some(low), Some(high)]) = ends.map(|ends| ends.map(|end| end.number)) {
         attributes.extend([("low", Attribute::Number(low)), ("high", Attribute::Number(high))]);
     }
-    // The upper end first: the lower one may be 0, which is so in any unit.
-    let stated = ends.into_iter().flatten().rev().chain(listed.iter().copied()).chain(found);
+    // Of a range the upper end first: the lower one may be 0, which is so in any unit.
+    let range = ends.filter(|_| listed.is_empty()).into_iter().flatten().rev();
+    let stated = range.chain(listed.iter().copied()).chain(found);
     if let Some((unit, one, zero)) = stated.filter_map(|level| stated_unit(factor, level)).next() {
         attributes.extend([
             ("study_units", Attribute::Text(unit)),
