@@ -469,7 +469,7 @@ def fit(
 
 
 def _table(study: Study) -> pandas.DataFrame:
-    names = [one.name for one in (*study.factors, *study.responses)]
+    names = [*(one.name for one in study.factors), *(one.name for one in study.responses)]
     return study.runs[["point", "replicate", "state", *names]].assign(error=study.data["error"].values)
 
 
@@ -809,13 +809,13 @@ def _notes(fit: Fit) -> list[str]:
     shares = likelihood.share_by_term()
     if shares.max() > SETTLED:
         share = f"{100.0 * shares.max():.0f} % of" if shares.max() < 2.0 else f"{shares.max():.2g} times"
-        worst = names[likelihood.terms[int(shares.argmax())].of]
+        largest = names[likelihood.terms[int(shares.argmax())].of]
         more = {
             "no gain": "all runs that [fit] allows besides would hardly lessen it: runs scatter from one surface, or one place, to the next. More sets of "
             "seeds in [replicates] lessen that; if a single specimen was measured, add its scatter to the uncertainty.",
             "no runs": "more points in the design make the intervals shorter.",
         }
-        known = f"The forecasts are not exact: near the most likely values their variance is up to {share} that of the measurement of {worst}"
+        known = f"The forecasts are not exact: near the most likely values their variance is up to {share} that of the measurement of {largest}"
         notes.append(f"{known}; {more.get(outcome.ended, 'more runs in [fit] make the intervals shorter.')}")
     return notes
 

@@ -4,8 +4,10 @@ import itertools
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 import pandas
 from scipy import stats
 
@@ -45,7 +47,7 @@ def contrasts(levels: int) -> Numbers:
     return np.vstack([-np.ones(levels - 1), np.eye(levels - 1)])
 
 
-def rank(values: "pandas.Series | Numbers") -> Numbers:
+def rank(values: "pandas.Series | Numbers") -> "npt.NDArray[np.intp]":
     """Numbers of equal values, from 0, in ascending order."""
     return np.unique(np.asarray(values), axis=0, return_inverse=True)[1].reshape(-1)
 
@@ -90,7 +92,7 @@ def is_same(values: pandas.Series, level: object) -> Numbers:
     """Whether values are a level; numbers may differ by rounding."""
     if isinstance(level, str):
         return np.asarray(values == level)
-    return np.isclose(values.to_numpy(float), float(str(level)), rtol=1e-9, atol=0.0)
+    return np.asarray(np.isclose(values.to_numpy(float), float(str(level)), rtol=1e-9, atol=0.0))
 
 
 def named(factor: Factor) -> str:
@@ -290,7 +292,7 @@ class Fitted:
     @cached_property
     def within(self) -> Numbers:
         """Responses less the mean of their point."""
-        return (self.values - pandas.Series(self.values).groupby(self.runs["point"].to_numpy()).transform("mean")).to_numpy()
+        return np.asarray(self.values - pandas.Series(self.values).groupby(self.runs["point"].to_numpy()).transform("mean"))
 
     @cached_property
     def scatter(self) -> tuple[Squares, Numbers]:
@@ -643,7 +645,7 @@ def _selected(whole: Fitted) -> Fitted:
     return chosen
 
 
-def misfit(fit: Fitted) -> dict[str, object] | None:
+def misfit(fit: Fitted) -> dict[str, Any] | None:
     """Finds what a model misses, if that is significant at the confidence level, and the model to try, with its share.
 
     Replicates tell it, or a model that has all terms of this one and more: with several such models the level is divided by their
