@@ -55,7 +55,7 @@ fn reason(entry: &Entry, scenes: &HashMap<&str, &Identity>) -> String {
     }
     let Some(now) = scenes.get(scene.as_str()) else {
         return "of scenes that no run of the study has now: its levels or points, `set`, the base scene or what that extends were others, or \
-                `plateau fit`, a confirmation or an optimization added them"
+                fit, optimize or --confirm added them"
             .to_owned();
     };
     let changed = now.files.iter().filter(|(key, digest)| files.get(*key) != Some(digest)).map(|(key, _)| key.as_str());

@@ -128,8 +128,7 @@ impl Study {
     /// All that is read of a study but its scenes and what those read: the study file, the tables that it names, its base scene, and
     /// what is kept of its results.
     pub fn inputs(&self) -> Vec<PathBuf> {
-        let kept =
-            ["journal", "under-way", "confirm/journal", "confirm/under-way"].map(|name| self.directory.join(name));
+        let kept = ["journal", "under-way"].map(|name| self.directory.join(name));
         let files =
             |folder: PathBuf| std::fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path());
         let mut inputs = self.files.clone();
