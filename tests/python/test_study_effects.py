@@ -16,7 +16,7 @@ from scipy import stats
 HERE = Path(__file__).parent
 sys.path.insert(0, str(HERE / "coverage"))
 
-from effects import cube, number, simulated, study_of, word
+from effects import SEEDS_STUDY, cube, number, of_runs, simulated, study_of, word
 from plateau.errors import InputError, PlateauWarning
 from plateau.study.analysis import effects
 from plateau.study.level_differences import levels
@@ -147,6 +147,15 @@ class Seeds(unittest.TestCase):
             shares = simulated(3, 2.0, 300, missing)
             self.assertLess(shares[0, 1], 0.75)  # From the residual: 52 %.
             self.assertTrue((np.abs(shares[:, 0] - 0.95) < 0.045).all(), shares)
+
+    def test_intervals_of_real_runs_hold_the_mean_of_thirty_sets(self) -> None:
+        # Effects of three of thirty sets against the mean of all; of 24 intervals in 25 draws.
+        found = of_runs(SEEDS_STUDY, 25)
+        shares = found[found["seeds"] == 3][["over all seeds", "from the residual"]].mean()
+        self.assertTrue(0.90 < shares["over all seeds"] < 0.99, shares)
+        fibres = found[(found["response"] == "secondary on the pin") & (found["term"] == "fibre fraction") & (found["seeds"] == 3)]
+        self.assertLess(fibres["from the residual"].item(), 0.75)
+        self.assertGreater(fibres["over all seeds"].item(), 0.80)
 
     def test_what_one_set_of_seeds_tells_alone_has_no_test(self) -> None:
         runs = cube(2, 2)
