@@ -4,9 +4,12 @@ import os
 import sys
 import tempfile
 import unittest
+from dataclasses import replace
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
+import pandas
 
 ROOT = Path(__file__).resolve().parent.parent.parent
 os.environ.setdefault("PLATEAU_PROGRAM", str(ROOT / "plateau"))
@@ -14,10 +17,10 @@ sys.path.insert(0, str(Path(__file__).parent / "coverage"))
 
 import fit as experiments
 from plateau.errors import InputError
-from plateau.study.calibration import calibrated, fit, plan, products, profile
+from plateau.study.calibration import calibrated, fit, plan, products, profile, told
 from plateau.study.likelihood import Components, Likelihood, Runs, Target
 from plateau.study.measured import Measurement, import_values
-from plateau.study.results import Response, analysed
+from plateau.study.results import Factor, Response, analysed
 from scipy import stats
 
 PLAIN = Response("", "1", "", "none", -np.inf, np.inf, {})
@@ -132,7 +135,16 @@ class OutcomeTest(unittest.TestCase):
         np.testing.assert_array_equal(outcome.likelihood.runs.x[-1], outcome.checks[-1]["place"])
 
     def test_runs_that_contradict_leave_no_interval_or_move_the_place(self):
-        self.assertTrue(self.outcome(9, 5.0).has_failed)
+        failed = self.outcome(9, 5.0)
+        self.assertTrue(failed.has_failed)
+        key = Factor("load", "operation.normal_force", "N", (1.0, 3.0), True, False, False, "N", 1.0, 0.0)
+        runs = pandas.DataFrame({"point": range(8)})
+        study = SimpleNamespace(title="Rig", factors=[key], seeds=1, runs=runs)
+        found = told(study, failed.likelihood.target, failed, 0.95, 9, runs)
+        (of_key,) = found.document()["keys"]
+        self.assertEqual((of_key["most_likely"], of_key["interval"], found.document()["check"]), (None, [], "failed"))
+        self.assertIn("Runs at the most likely place (load = 2.", found.text())
+        self.assertIsNone(found.determined)
         moved = self.outcome(40, 5.0)
         best = moved.likelihood.best[0]
         self.assertTrue(moved.has_failed or abs(best - 0.3) > 0.15, best)
@@ -199,6 +211,22 @@ uncertainty = "0.1 mm3"
         self.assertEqual(set(found.figures()), {"profiles", "region-load-speed"})
         self.assertEqual(set(found.tables), {"keys.csv", "responses.csv", "profiles.csv", "runs.csv"})
         self.assertEqual(plan(path).document()["responses"], ["wear"])
+
+    def test_errors_that_go_together_and_discrepancy_are_checked(self):
+        study = analysed(self.study())
+        for given, words in (
+            ({"discrepancy": -0.1}, "fit.discrepancy = -0.1"),
+            ({"discrepancy": {"x": 0.1}}, '"x" is no response that was measured; there are wear'),
+            ({"correlations": [["wear", "x", 0.5]]}, "expected two responses with measured and a number"),
+            ({"confidence": 1.0}, "fit.confidence = 1.0"),
+            ({"runs": 0}, "fit.runs = 0, expected at least 1"),
+        ):
+            with self.subTest(given), self.assertRaises(InputError) as raised:
+                plan(replace(study, document={**study.document, "fit": given}))
+            self.assertIn(words, str(raised.exception))
+        stated = plan(replace(study, document={**study.document, "fit": {"discrepancy": {"wear": 0.1}}})).target
+        # 0.1² + 0.3² mm⁶.
+        self.assertAlmostEqual(stated.covariance[0, 0] / 0.1e-18, 1.0, places=9)
 
     def test_what_cannot_be_fitted_is_told(self):
         for change, words in (

@@ -370,10 +370,49 @@ class Fit:
         return "\n".join([*blocks, "", self.study.title, *(f"  {name:<8} {words}" for name, words in summary.items())])
 
     def figures(self) -> dict[str, Any]:
-        """Draws profiles of the keys, regions of their pairs, series."""
-        from plateau.study.figures import fit_figures
+        """Profiles of the keys, regions of their pairs, series."""
+        from matplotlib.figure import Figure
 
-        return dict(fit_figures(self))
+        def axes(count: int, width: float = 0.0) -> tuple[Any, list[Any]]:
+            figure = Figure(figsize=(width or min(3.5 * count, 7.1), 2.6 * math.ceil(count / 3)), layout="constrained")
+            return figure, list(np.ravel(figure.subplots(math.ceil(count / min(count, 3)), min(count, 3), squeeze=False)))
+
+        found, factors = {}, {factor.name: factor for factor in self.study.factors}
+        labels = {name: f"{name}, {factor.study_unit}" if factor.study_unit else name for name, factor in factors.items()}
+        found["profiles"], panels = axes(len(factors))
+        for panel, name in zip(panels, factors, strict=False):
+            rows = self.profiles[self.profiles["key"] == name]
+            factor, threshold = factors[name], rows["threshold"].iloc[0]
+            panel.plot(factor.in_study_unit(rows["value"]), rows["rise"])
+            panel.axhline(threshold, color="0.5", linewidth=0.8)
+            for _, piece in self.keys[(self.keys["key"] == name) & self.keys["low"].notna()].iterrows():
+                panel.axvspan(*factor.in_study_unit(piece[["low", "high"]].to_numpy(float)), alpha=0.2)
+            scale = "log" if factor.logarithmic else "linear"
+            panel.set(ylim=(-0.125 * threshold, 2.5 * threshold), xscale=scale, xlabel=labels[name], ylabel="rise of −2 ln L")
+        for one, other, x, y, rises in self.regions:
+            figure, (panel,) = axes(1)
+            panel.contourf(factors[one].in_study_unit(x), factors[other].in_study_unit(y), rises, [-1.0, stats.chi2.ppf(self.confidence, 2)], alpha=0.3)
+            at = [factors[name].in_study_unit(self.runs[name]) for name in (one, other)]
+            panel.plot(*at, ".", color="0.4")
+            scales = {f"{axis}scale": "log" for axis, name in (("x", one), ("y", other)) if factors[name].logarithmic}
+            panel.set(xlabel=labels[one], ylabel=labels[other], **scales)
+            found[f"region-{_file(one)}-{_file(other)}"] = figure
+        for name in self.series["response"].unique():
+            rows = self.series[self.series["response"] == name]
+            figure, (panel,) = axes(1)
+            unit, time = unit_for(rows["unit"].iloc[0], rows["measured"].abs().max()), unit_for("s", rows["time"].max())
+            at, center, spread = (time.value(rows["time"]), unit.value(rows["forecast"]), rows["forecast_deviation"] * unit.per_si)
+            panel.errorbar(at, unit.value(rows["measured"]), rows["uncertainty"] * unit.per_si, fmt=".", color="0.3", label="measured")
+            panel.plot(at, center, label="runs")
+            panel.fill_between(at, center - spread, center + spread, alpha=0.3)
+            panel.legend()
+            panel.set(xlabel=f"time, {time.symbol}", ylabel=f"{name}, {unit.symbol}".strip(", "))
+            found[f"series-{_file(name)}"] = figure
+        return found
+
+
+def _file(name: str) -> str:
+    return "".join(letter if letter.isalnum() else "-" for letter in name.lower())
 
 
 def _columns(lines: list[dict[str, Any]]) -> str:
@@ -469,7 +508,7 @@ def fit(
 
 
 def _table(study: Study) -> pandas.DataFrame:
-    names = [*(one.name for one in study.factors), *(one.name for one in study.responses)]
+    names = [*(factor.name for factor in study.factors), *(response.name for response in study.responses)]
     return study.runs[["point", "replicate", "state", *names]].assign(error=study.data["error"].values)
 
 
@@ -794,7 +833,10 @@ def _notes(fit: Fit) -> list[str]:
     for _, row in fit.responses.iterrows():
         far = abs(row["forecast"] - row["measured"]) / math.hypot(row["uncertainty"], row["seeds_deviation"], row["discrepancy"])
         if not fit.freedom and far > 2.0:
-            notes.append(f"At the most likely values runs give a {row['response']} that is {far:.2g} standard deviations away from what was measured: no values within these ranges give all that was measured.")
+            notes.append(
+                f"At the most likely values {row['response']} of the runs is {far:.2g} standard deviations away from what was measured: no values "
+                "within these ranges give all that was measured."
+            )
     for at in likelihood.components:
         away, times = _away(likelihood, at), fit.target.measured[at].times
         alike = float((away[1:] * away[:-1]).sum() / max((away**2).sum(), 1e-300))
@@ -808,14 +850,14 @@ def _notes(fit: Fit) -> list[str]:
             )
     shares = likelihood.share_by_term()
     if shares.max() > SETTLED:
-        share = f"{100.0 * shares.max():.0f} % of" if shares.max() < 2.0 else f"{shares.max():.2g} times"
-        largest = names[likelihood.terms[int(shares.argmax())].of]
+        part = f"{100.0 * shares.max():.0f} % of" if shares.max() < 2.0 else f"{shares.max():.2g} times"
+        name = names[likelihood.terms[int(shares.argmax())].of]
         more = {
             "no gain": "all runs that [fit] allows besides would hardly lessen it: runs scatter from one surface, or one place, to the next. More sets of "
             "seeds in [replicates] lessen that; if a single specimen was measured, add its scatter to the uncertainty.",
             "no runs": "more points in the design make the intervals shorter.",
         }
-        known = f"The forecasts are not exact: near the most likely values their variance is up to {share} that of the measurement of {largest}"
+        known = f"The forecasts are not exact: near the most likely values their variance is up to {part} that of the measurement of {name}"
         notes.append(f"{known}; {more.get(outcome.ended, 'more runs in [fit] make the intervals shorter.')}")
     return notes
 

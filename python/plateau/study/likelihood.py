@@ -280,8 +280,7 @@ class Likelihood:
 
         def variances(x: Numbers, share: Numbers) -> Numbers:
             # The values do not matter.
-            equations = Equations(x, np.linspace(0.0, 1.0, len(x)), share, sets.replicates, middle, sets.axes)
-            return np.asarray(equations.forecast(self.places)[1][0])
+            return np.asarray(Equations(x, np.linspace(0.0, 1.0, len(x)), share, sets.replicates, middle, sets.axes).forecast(self.places)[1][0])
 
         more = variances(np.vstack([sets.x, new]), np.concatenate([sets.share, np.full(len(new), 1.0 / seeds)]))
         return np.asarray((more + 1e-12) / (variances(sets.x, sets.share) + 1e-12)).clip(max=1.0)

@@ -38,9 +38,10 @@ ALONE: dict[str, tuple[tuple[int, ...], int | Fraction]] = {
 }
 PREFIXES = {"p": -12, "n": -9, "u": -6, "m": -3, "c": -2, "k": 3, "M": 6, "G": 9, "T": 12}
 UNITS: dict[str, tuple[tuple[int, ...], int | Fraction]] = {
-    f"{prefix}{name}": (powers, one * Fraction(f"1e{tens}")) for prefix, tens in PREFIXES.items() for name, (powers, one) in PREFIXED.items()
+    **{prefix + name: (powers, one * Fraction(f"1e{tens}")) for prefix, tens in PREFIXES.items() for name, (powers, one) in PREFIXED.items()},
+    **PREFIXED,
+    **ALONE,
 }
-UNITS |= PREFIXED | ALONE
 TOKEN = re.compile(r"\s*(?:([()/*·⋅])|([A-Za-z]+|[1%])(-?[1-9])?)\s*")
 
 
