@@ -67,7 +67,7 @@ class Studies(unittest.TestCase):
         return blocks[0]
 
     def run_python(self, text):
-        environment = {**os.environ, "MPLBACKEND": "agg"}
+        environment = {**os.environ, "MPLBACKEND": "agg", "PYTHONPATH": str(ROOT / "python")}
         command = [sys.executable, "-c", text]
         done = subprocess.run(command, cwd=self.folder, env=environment, capture_output=True, text=True, timeout=300)
         self.assertEqual(done.returncode, 0, text + done.stderr)
@@ -79,7 +79,7 @@ class Studies(unittest.TestCase):
         names = {"load": "load", "mean": "mean", "Time": "time_factor", "contact area": "contact_area_factor", "µ (1)": "µ__1"}
         for name, variable in names.items():
             self.collect(name)
-            text = self.block().replace('"load [N]"', f'"{name} [N]"').replace('study["load"]', f'study["{variable}"]')
+            text = self.block().replace('"load [N]"', f'"{name} [N]"').replace('data["load"]', f'data["{variable}"]')
             out = self.run_python(text + "\nprint(areas.shape, *areas[areas.dims[0]].values)\n")
             self.assertIn("(2, 4) 5.0 10.0", out, name)
 

@@ -195,7 +195,7 @@ class ImportTest(InFolder):
     def test_values_change_by_force_only(self):
         head = "humidity,batch,friction\n"
         self.take(head + "20,A,0.4\n")
-        self.refused("/t.csv:2: 0.4 was imported before and 0.5 differs; --force replaces it", self.take, head + "20,A,0.5\n")
+        self.refused("/t.csv:2: 0.4 was imported before and 0.5 differs; force=True replaces it", self.take, head + "20,A,0.5\n")
         self.assertEqual(self.take(head + "20,A,0.5\n", force=True).changed, 1)
         self.assertIn("0.5", self.kept())
 

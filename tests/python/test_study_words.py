@@ -107,14 +107,18 @@ class Words(unittest.TestCase):
 
     def import_all(self, text=MEASURED, table="measured.csv"):
         pathlib.Path("study.toml").write_text(text)
-        subprocess.run([PROGRAM, "sweep", "plan", "study.toml", "--csv", "plan.csv", "-q"], check=True, stdout=subprocess.DEVNULL, timeout=120)
+        subprocess.run(
+            [PROGRAM, "sweep", "plan", "study.toml", "--csv", "plan.csv", "-q"], check=True, stdout=subprocess.DEVNULL, timeout=120
+        )
         with open("plan.csv", newline="") as file, open(table, "w", newline="") as to:
             lines = csv.writer(to)
             lines.writerow(["load", "dose", "leak [mm3]", "grip"])
             for at, row in enumerate(csv.DictReader(file)):
                 load, dose = float(row["load"].split()[0]), float(row["dose"])
                 noise = 0.05 * (-1) ** at * (1 + at % 3)
-                lines.writerow([row["load"], row["dose"], 1 + load - dose + 0.3 * load * dose + 0.4 * dose**2 + noise, 0.5 + 0.2 * dose + 0.2 * noise])
+                lines.writerow(
+                    [row["load"], row["dose"], 1 + load - dose + 0.3 * load * dose + 0.4 * dose**2 + noise, 0.5 + 0.2 * dose + 0.2 * noise]
+                )
         return self.call("sweep", "import", "study.toml", table)[0]
 
     def is_as_before(self, word, document):
@@ -144,7 +148,12 @@ class Words(unittest.TestCase):
         self.assertTrue(kinds <= names, names)
         self.assertEqual(page.count("<svg"), len(names))
         self.assertNotIn("<script", page)
-        for folder, file in (("optimum", "profiler.pdf"), ("optimum", "contour.png"), ("sensitivity", "leak-indices.svg"), ("fit", "profiles.svg")):
+        for folder, file in (
+            ("optimum", "profiler.pdf"),
+            ("optimum", "contour.png"),
+            ("sensitivity", "leak-indices.svg"),
+            ("fit", "profiles.svg"),
+        ):
             self.assertTrue(pathlib.Path("study", folder, file).is_file(), file)
         # Text has the same folders; those of an earlier call are replaced with --force alone.
         self.refused("sweep", "effects", "study.toml", said="study/effects has the files of an earlier call; give --force")
@@ -159,7 +168,9 @@ class Words(unittest.TestCase):
         with open("grid.csv", newline="") as file:
             rows = list(csv.DictReader(file))
         self.assertEqual((len(rows), list(rows[0])[:4]), (9, ["load [N]", "dose", "leak [m3]", "leak mean low [m3]"]))
-        self.refused("sweep", "predict", "study.toml", "-o", "grid.csv", said="grid.csv exists; give --force to replace it, or write elsewhere")
+        self.refused(
+            "sweep", "predict", "study.toml", "-o", "grid.csv", said="grid.csv exists; give --force to replace it, or write elsewhere"
+        )
         self.refused("sweep", "predict", "study.toml", "-o", "study.toml", "--force", said="study.toml is an input and is not replaced")
         self.refused("sweep", "predict", "study.toml", "--at", "load=9 N", said="give --extrapolate to see")
         self.assertIn("load = 9 N", self.call("sweep", "predict", "study.toml", "--at", "load=9 N", "--extrapolate", "-q")[0])

@@ -1,7 +1,7 @@
 """Studies: their results, and what these tell.
 
-``open_study`` opens what was collected; ``effects``, ``levels``, ``seeds_needed``, ``predict``, ``optimize``, ``sensitivity``, ``fit`` and ``compare``
-answer. They need the packages of ``pip install 'plateau-brake[all]'``, which are imported when they are called.
+``open_study`` opens what was collected; ``effects``, ``levels``, ``seeds_needed``, ``predict``, ``optimize``, ``sensitivity``, ``fit`` and
+``compare`` answer. They need the packages of ``pip install 'plateau-brake[all]'``, which are imported when they are called.
 """
 
 from typing import TYPE_CHECKING, Any
@@ -9,12 +9,13 @@ from typing import TYPE_CHECKING, Any
 from plateau.study.results import Factor, Response, Study, open_study
 
 if TYPE_CHECKING:
-    from plateau.study.scene_comparison import compare
     from plateau.study.analysis import effects
     from plateau.study.calibration import fit
     from plateau.study.level_differences import levels
+    from plateau.study.measured import import_values
     from plateau.study.optimum import optimize
     from plateau.study.prediction import predict
+    from plateau.study.scene_comparison import compare
     from plateau.study.seed_counts import seeds_needed
     from plateau.study.variance_parts import sensitivity
 
@@ -27,10 +28,12 @@ ANSWERS = {
     "optimize": "optimum",
     "sensitivity": "variance_parts",
     "fit": "calibration",
+    "import_values": "measured",
     "compare": "scene_comparison",
 }
 
-__all__ = ["Factor", "Response", "Study", "compare", "effects", "fit", "levels", "open_study", "optimize", "predict", "seeds_needed", "sensitivity"]
+__all__ = ["Factor", "Response", "Study", "compare", "effects", "fit", "import_values", "levels", "open_study", "optimize", "predict"]
+__all__ += ["seeds_needed", "sensitivity"]
 
 
 def __getattr__(name: str) -> Any:

@@ -381,51 +381,10 @@ class Fit:
         return "\n".join([*blocks, "", self.study.title, *(f"  {name:<8} {words}" for name, words in summary.items())])
 
     def figures(self) -> dict[str, Any]:
-        """Profiles of the keys, regions of their pairs, series."""
-        from matplotlib.figure import Figure
+        """Draws profiles of the keys, regions of their pairs, series."""
+        from plateau.study.figures import fit_figures
 
-        def axes(count: int, width: float = 0.0) -> tuple[Any, list[Any]]:
-            figure = Figure(figsize=(width or min(3.5 * count, 7.1), 2.6 * math.ceil(count / 3)), layout="constrained")
-            return figure, list(np.ravel(figure.subplots(math.ceil(count / min(count, 3)), min(count, 3), squeeze=False)))
-
-        found, factors = {}, {factor.name: factor for factor in self.study.factors}
-        labels = {name: f"{name}, {factor.study_unit}" if factor.study_unit else name for name, factor in factors.items()}
-        found["profiles"], panels = axes(len(factors))
-        for panel, name in zip(panels, factors, strict=False):
-            rows = self.profiles[self.profiles["key"] == name]
-            factor, threshold = factors[name], rows["threshold"].iloc[0]
-            panel.plot(factor.in_study_unit(rows["value"]), rows["rise"])
-            panel.axhline(threshold, color="0.5", linewidth=0.8)
-            for _, piece in self.keys[(self.keys["key"] == name) & self.keys["low"].notna()].iterrows():
-                panel.axvspan(*factor.in_study_unit(piece[["low", "high"]].to_numpy(float)), alpha=0.2)
-            scale = "log" if factor.logarithmic else "linear"
-            panel.set(ylim=(-0.125 * threshold, 2.5 * threshold), xscale=scale, xlabel=labels[name], ylabel="rise of −2 ln L")
-        for one, other, x, y, rises in self.regions:
-            figure, (panel,) = axes(1)
-            panel.contourf(
-                factors[one].in_study_unit(x), factors[other].in_study_unit(y), rises, [-1.0, stats.chi2.ppf(self.confidence, 2)], alpha=0.3
-            )
-            at = [factors[name].in_study_unit(self.runs[name]) for name in (one, other)]
-            panel.plot(*at, ".", color="0.4")
-            scales = {f"{axis}scale": "log" for axis, name in (("x", one), ("y", other)) if factors[name].logarithmic}
-            panel.set(xlabel=labels[one], ylabel=labels[other], **scales)
-            found[f"region-{_file(one)}-{_file(other)}"] = figure
-        for name in self.series["response"].unique():
-            rows = self.series[self.series["response"] == name]
-            figure, (panel,) = axes(1)
-            unit, time = unit_for(rows["unit"].iloc[0], rows["measured"].abs().max()), unit_for("s", rows["time"].max())
-            at, center, spread = (time.value(rows["time"]), unit.value(rows["forecast"]), rows["forecast_deviation"] * unit.per_si)
-            panel.errorbar(at, unit.value(rows["measured"]), rows["uncertainty"] * unit.per_si, fmt=".", color="0.3", label="measured")
-            panel.plot(at, center, label="runs")
-            panel.fill_between(at, center - spread, center + spread, alpha=0.3)
-            panel.legend()
-            panel.set(xlabel=f"time, {time.symbol}", ylabel=f"{name}, {unit.symbol}".strip(", "))
-            found[f"series-{_file(name)}"] = figure
-        return found
-
-
-def _file(name: str) -> str:
-    return "".join(letter if letter.isalnum() else "-" for letter in name.lower())
+        return dict(fit_figures(self))
 
 
 def _columns(lines: list[dict[str, Any]]) -> str:

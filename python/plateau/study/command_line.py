@@ -23,7 +23,9 @@ if TYPE_CHECKING:
 
 MODELS = ("main", "interactions", "full", "quadratic")
 # Columns of effects.csv that come first, as ever.
-EFFECTS = "response term degrees_of_freedom sum_of_squares mean_square f p share variance_inflation effect coefficient standard_error t low high"
+EFFECTS = (
+    "response term degrees_of_freedom sum_of_squares mean_square f p share variance_inflation effect coefficient standard_error t low high"
+)
 EFFECTS += " margin_of_error simultaneous_margin_of_error aliased_with"
 
 
@@ -123,7 +125,9 @@ def shown(text: str) -> str:
     >>> shown("a\x1b[31mb\n")
     'a\\\\u{1b}[31mb\\n'
     """
-    return "".join(f"\\u{{{ord(one):x}}}" if unicodedata.category(one) in ("Cc", "Cf", "Zl", "Zp") and one not in "\n\t" else one for one in text)
+    return "".join(
+        f"\\u{{{ord(one):x}}}" if unicodedata.category(one) in ("Cc", "Cf", "Zl", "Zp") and one not in "\n\t" else one for one in text
+    )
 
 
 def _parser() -> Parser:
@@ -137,7 +141,12 @@ def _parser() -> Parser:
         made.set_defaults(answer=answer)
         return made
 
-    def common(made: Any, *, output: str | None = None, force: str = "Replace the files of an earlier call, and remove those that this call does not write") -> None:
+    def common(
+        made: Any,
+        *,
+        output: str | None = None,
+        force: str = "Replace the files of an earlier call, and remove those that this call does not write",
+    ) -> None:
         if output is not None:
             made.add_argument("-o", "--output", type=Path, metavar="DIR", help=output)
         made.add_argument("--force", action="store_true", help=force)
@@ -177,9 +186,15 @@ def _parser() -> Parser:
     made = word(study, "optimize", "Find the settings at which responses are best", _optimize)
     made.add_argument("study", type=Path, metavar="STUDY", help="Study file (TOML)")
     for flag, example in (("maximize", "contact area=1 mm2..2 mm2"), ("minimize", "worn=0..1 mm3"), ("target", "filled=0.5..0.7..0.8")):
-        made.add_argument(f"--{flag}", action="append", default=[], metavar="RESPONSE", help=f'A goal, such as "{example}"; may be repeated')
-    made.add_argument("--limit", action="append", default=[], metavar="RESPONSE<=VALUE", help='Keep a response below or above a value: "filled<=0.9"')
-    made.add_argument("--limit-on", choices=("mean", "means", "runs"), default="mean", help="What keeps the limits: the mean, its interval, that of a run")
+        made.add_argument(
+            f"--{flag}", action="append", default=[], metavar="RESPONSE", help=f'A goal, such as "{example}"; may be repeated'
+        )
+    made.add_argument(
+        "--limit", action="append", default=[], metavar="RESPONSE<=VALUE", help='Keep a response below or above a value: "filled<=0.9"'
+    )
+    made.add_argument(
+        "--limit-on", choices=("mean", "means", "runs"), default="mean", help="What keeps the limits: the mean, its interval, that of a run"
+    )
     made.add_argument("--hold", action="append", default=[], metavar="FACTOR=VALUE", help='Hold a factor at a value, such as load="8 N"')
     made.add_argument("--importance", action="append", default=[], metavar="RESPONSE=NUMBER", help="How much a goal counts; 1 unless given")
     made.add_argument("--contour", metavar="FACTOR,FACTOR", help="Draw the desirability over two factors")
@@ -196,7 +211,9 @@ def _parser() -> Parser:
 
     made = word(study, "import", "Take in responses that were measured or computed elsewhere", _import)
     made.add_argument("study", type=Path, metavar="STUDY", help="Study file (TOML)")
-    made.add_argument("table", type=Path, metavar="TABLE", help="Table (CSV) with a column for each factor and for each response with imported = true")
+    made.add_argument(
+        "table", type=Path, metavar="TABLE", help="Table (CSV) with a column for each factor and for each response with imported = true"
+    )
     common(made, force="Replace values that were imported before")
 
     made = word(words, "fit", "Find the values of keys with which runs give what was measured", _fit)
@@ -281,9 +298,11 @@ def csv_of(table: "pandas.DataFrame") -> bytes:
         if isinstance(value, list | tuple):
             return "; ".join(map(str, value))
         value = _plain(value)
-        return "" if value is None or value != value else str(value).lower() if isinstance(value, bool) else str(value)
+        return "" if value is None else str(value).lower() if isinstance(value, bool) else str(value)
 
-    return written_table([list(map(str, table.columns)), *([cell(value) for value in row] for row in table.itertuples(index=False, name=None))])
+    return written_table(
+        [list(map(str, table.columns)), *([cell(value) for value in row] for row in table.itertuples(index=False, name=None))]
+    )
 
 
 def _opened(given: argparse.Namespace, name: str, of: str | None = None) -> tuple["Study", Path, str | None]:

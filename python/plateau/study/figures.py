@@ -140,7 +140,9 @@ def _unit(response: Response, values: Any) -> Unit:
 
 def _positions(factor: Factor, values: Any) -> Any:
     """Where values of a factor are on its axis: numbers in the unit of the study, words side by side."""
-    return factor.in_study_unit(np.asarray(values, float)) if factor.is_number else np.array([factor.levels.index(value) for value in values])
+    return (
+        factor.in_study_unit(np.asarray(values, float)) if factor.is_number else np.array([factor.levels.index(value) for value in values])
+    )
 
 
 def _axis(axis: Any, factor: Factor, way: str = "x") -> None:
@@ -252,7 +254,11 @@ def _main_effects(one: "ResponseEffects", fit: "Fitted") -> Any:
     caption = f"{one.response.name}: means at the levels of each factor, {averaged or 'with intervals'}"
     # With squares, means over runs are not those at the middle of the others.
     is_straight = fit.model != "quadratic"
-    said = [f"Bars and bands: {level} interval of the model's mean" if np.isfinite(fit.error) else "", "rings: means of runs" if is_straight else "", averaged]
+    said = [
+        f"Bars and bands: {level} interval of the model's mean" if np.isfinite(fit.error) else "",
+        "rings: means of runs" if is_straight else "",
+        averaged,
+    ]
     note = "; ".join(filter(None, said))
     width = WIDE if columns > 2 else NARROW
     figure, axes = _new(width, 12 + 46 * rows, caption, rows, columns, note, sharey=True)
@@ -271,7 +277,9 @@ def _shown(response: Response, unit: Unit, values: Any) -> Numbers:
     return np.asarray(unit.value(response.back(values)))
 
 
-def _means(axis: Any, response: Response, unit: Unit, factor: Factor, means: pandas.DataFrame, colour: str, dashes: Any, **options: Any) -> None:
+def _means(
+    axis: Any, response: Response, unit: Unit, factor: Factor, means: pandas.DataFrame, colour: str, dashes: Any, **options: Any
+) -> None:
     """Means with intervals: a line with a band over numbers, else points with bars."""
     x = _positions(factor, means[factor.name])
     middle, low, high = (_shown(response, unit, means[name]) for name in ("mean", "low", "high"))
@@ -317,7 +325,11 @@ def _interactions(one: "ResponseEffects", fit: "Fitted") -> Any:
         if line.is_range:
             # Within the range: axial points are beyond it.
             levels = [level for level in levels if abs(line.coded(level)) < 1.0 + 1e-6]
-        shown = [levels[0], *([levels[len(levels) // 2]] if len(levels) % 2 else []), levels[-1]] if len(levels) > len(LINES) or line.is_range else levels
+        shown = (
+            [levels[0], *([levels[len(levels) // 2]] if len(levels) % 2 else []), levels[-1]]
+            if len(levels) > len(LINES) or line.is_range
+            else levels
+        )
         for number, level in enumerate(dict.fromkeys(shown)):
             own = means[[value == level for value in means[line.name]]]
             aside = 0.0 if x.is_number else 0.08 * (number - (len(shown) - 1) / 2)
@@ -344,7 +356,12 @@ def _residuals(one: "ResponseEffects", fit: "Fitted") -> Any:
     quantiles[np.argsort(residuals, kind="stable")] = stats.probplot(residuals, fit=False)[0]
     standardised = table["standardised"].to_numpy()
     panels = [
-        (of_fit.value(table["fitted"].to_numpy()), residuals, _labelled("fitted", of_fit.symbol or one.title), _labelled("residual", symbol)),
+        (
+            of_fit.value(table["fitted"].to_numpy()),
+            residuals,
+            _labelled("fitted", of_fit.symbol or one.title),
+            _labelled("residual", symbol),
+        ),
         (table["made_as"].to_numpy(), residuals, "order of the runs", _labelled("residual", symbol)),
         (quantiles, standardised, "normal quantile", "residual, standard deviations"),
     ]
@@ -365,7 +382,11 @@ def _surface(one: "ResponseEffects", fit: "Fitted") -> Any:
 
     def goes_between(at: int) -> bool:
         classes = codings[at].classes
-        return factors[at].is_number and any(at in term for term in fit.terms) and (classes is None or len(factors[at].levels) == len(classes) == 2)
+        return (
+            factors[at].is_number
+            and any(at in term for term in fit.terms)
+            and (classes is None or len(factors[at].levels) == len(classes) == 2)
+        )
 
     weights = {at: sum(row["share"] for row in one.table.to_dict("records") if at in _of(row["factors"])) for at in range(len(factors))}
     pair = sorted((at for at in weights if goes_between(at)), key=lambda at: -weights[at])[:2]
@@ -386,7 +407,17 @@ def _surface(one: "ResponseEffects", fit: "Fitted") -> Any:
     caption = f"{one.response.name}: what the model expects over {x.name} and {y.name}" + (f", at {held}" if held else "")
     note = "; ".join(filter(None, [f"At {held}" if held else "", "dots: runs, whatever the others are" if held else "dots: runs"]))
     unit = _unit(one.response, values)
-    return _map(x, y, grid, unit.value(values), _labelled(one.response.name, unit.symbol), caption, note, fit.study.runs, one.response.transform == "log")
+    return _map(
+        x,
+        y,
+        grid,
+        unit.value(values),
+        _labelled(one.response.name, unit.symbol),
+        caption,
+        note,
+        fit.study.runs,
+        one.response.transform == "log",
+    )
 
 
 def _of(term: Any) -> tuple[int, ...]:
@@ -400,7 +431,15 @@ def _grid_points(x: Factor, y: Factor, grid: Sequence[Numbers], others: dict[str
 
 
 def _map(
-    x: Factor, y: Factor, grid: Sequence[Numbers], values: Numbers, label: str, caption: str, note: str, runs: pandas.DataFrame | None = None, is_log: bool = False
+    x: Factor,
+    y: Factor,
+    grid: Sequence[Numbers],
+    values: Numbers,
+    label: str,
+    caption: str,
+    note: str,
+    runs: pandas.DataFrame | None = None,
+    is_log: bool = False,
 ) -> Any:
     """A map over two factors with lines of equal values."""
     from matplotlib.ticker import LogLocator
@@ -420,7 +459,15 @@ def _map(
     if runs is not None:
         places = runs[[x.name, y.name]].drop_duplicates()
         axis.plot(
-            x.in_study_unit(places[x.name]), y.in_study_unit(places[y.name]), "o", mfc="white", mec="black", mew=0.6, ms=3.5, clip_on=False, zorder=5
+            x.in_study_unit(places[x.name]),
+            y.in_study_unit(places[y.name]),
+            "o",
+            mfc="white",
+            mec="black",
+            mew=0.6,
+            ms=3.5,
+            clip_on=False,
+            zorder=5,
         )
     _axis(axis, x)
     _axis(axis, y, "y")
@@ -504,7 +551,15 @@ def optimum_figures(found: "Optimum", contour: str | None = None) -> Figures:
         if np.isfinite(values).any() and np.nanmax(values) > np.nanmin(values):
             held = [f"{row.factor} = {row.text}" for row in found.settings.itertuples() if row.factor not in (x.name, y.name)]
             at = f", at {', '.join(held)}" if held else ""
-            map_ = _map(x, y, grid, values, "desirability", f"Desirability over {x.name} and {y.name}{at}", f"Star: best settings{at}" + ("; grey: a limit is missed" if problem.limits else ""))
+            map_ = _map(
+                x,
+                y,
+                grid,
+                values,
+                "desirability",
+                f"Desirability over {x.name} and {y.name}{at}",
+                f"Star: best settings{at}" + ("; grey: a limit is missed" if problem.limits else ""),
+            )
             map_.axes[0].set_facecolor(APART)
             star = x.in_study_unit(best[x.name]), y.in_study_unit(best[y.name])
             map_.axes[0].plot(*star, "*", mfc="white", mec="black", ms=9, mew=0.6, clip_on=False, zorder=5)
@@ -531,7 +586,9 @@ def contour_pair(factors: Sequence[Factor], free: Sequence[str], asked: str | No
         if one in by_name and other in by_name and one != other and one in free and other in free:
             return by_name[one], by_name[other]
     wanted = ", ".join(free) or "none here"
-    raise InputError(f"--contour {asked}: expected two different factors that are numbers and not held, with a comma between; there are {wanted}")
+    raise InputError(
+        f"--contour {asked}: expected two different factors that are numbers and not held, with a comma between; there are {wanted}"
+    )
 
 
 # Sensitivity -----------------------------------------------------------------------------------------------------------------------
@@ -565,7 +622,9 @@ def _indices(found: "Sensitivity", response: Response, table: pandas.DataFrame) 
     level = f"{100 * found.confidence:g} %"
     is_seeds = (table["factor"] == "seeds") & table["first_order"].isna()
     table = pandas.concat([table[~is_seeds].sort_values("total", ascending=False, kind="stable"), table[is_seeds]])
-    note = f"Bars: {level} intervals of what the runs leave open" + ("; seeds: part of the variance of single runs" if is_seeds.any() else "")
+    note = f"Bars: {level} intervals of what the runs leave open" + (
+        "; seeds: part of the variance of single runs" if is_seeds.any() else ""
+    )
     figure, axes = _new(NARROW, 30 + 7 * len(table), f"{response.name}: parts of the variance, with {level} intervals", note=note)
     axis, places = axes[0, 0], np.arange(len(table))
     for kind, label, aside, colour, mark in (
@@ -573,7 +632,9 @@ def _indices(found: "Sensitivity", response: Response, table: pandas.DataFrame) 
         ("total", "with interactions (total)", 0.15, LINES[1], "s"),
     ):
         middle, low, high = (np.clip(table[f"{kind}{end}"].to_numpy(float), 0.0, 1.0) for end in ("", "_low", "_high"))
-        axis.errorbar(middle, places + aside, xerr=[middle - low, high - middle], fmt=mark, color=colour, elinewidth=1.4, capsize=2, label=label)
+        axis.errorbar(
+            middle, places + aside, xerr=[middle - low, high - middle], fmt=mark, color=colour, elinewidth=1.4, capsize=2, label=label
+        )
     axis.set(xlabel=_labelled(f"part of the variance of {response.name}", ""), xlim=(-0.02, 1.02))
     axis.set_yticks(places, [_wrapped(str(name)) for name in table["factor"]])
     axis.invert_yaxis()
@@ -586,7 +647,9 @@ def _elementary(found: "Sensitivity", response: Response, table: pandas.DataFram
     unit = _unit(response, found.study.runs[response.name])
     symbol = "K" if unit.offset else unit.symbol
     sizes, errors, deviations = (table[name].to_numpy(float) * unit.per_si for name in ("mean_size", "standard_error", "deviation"))
-    caption = f"{response.name}: elementary effects over the whole range of each factor; above the line a factor acts unevenly or with others"
+    caption = (
+        f"{response.name}: elementary effects over the whole range of each factor; above the line a factor acts unevenly or with others"
+    )
     figure, axes = _new(NARROW, 76, caption, note="Bars: standard error; line: deviation = mean size")
     axis = axes[0, 0]
     axis.errorbar(sizes, deviations, xerr=np.nan_to_num(errors), fmt="o", color=LINES[0], capsize=2)
@@ -636,7 +699,9 @@ def fit_figures(found: "Fit") -> Figures:
     for file, names, across, along, rises in regions:
         x, y = (factors[name] for name in names)
         caption = f"Where {x.name} and {y.name} may be: {level} region; dots: runs"
-        figure, axes = _new(NARROW, 76, caption, note=f"Shaded: {level} region; dots: runs" if not found.outcome.has_failed else "Dots: runs")
+        figure, axes = _new(
+            NARROW, 76, caption, note=f"Shaded: {level} region; dots: runs" if not found.outcome.has_failed else "Dots: runs"
+        )
         axis = axes[0, 0]
         if not found.outcome.has_failed:
             threshold = float(stats.chi2.ppf(found.confidence, 2))
@@ -650,7 +715,9 @@ def fit_figures(found: "Fit") -> Figures:
     measured = [(str(name), rows) for name, rows in found.series.groupby("response", sort=False)] if len(found.series) else []
     for (name, rows), stem in zip(measured, file_names([name for name, _ in measured]), strict=True):
         unit, time = unit_for(rows["unit"].iloc[0], float(rows["measured"].abs().max())), unit_for("s", float(rows["time"].max()))
-        figure, axes = _new(NARROW, 66, f"{name}: measured, and what runs give at the most likely values; bars and band: one standard deviation")
+        figure, axes = _new(
+            NARROW, 66, f"{name}: measured, and what runs give at the most likely values; bars and band: one standard deviation"
+        )
         axis, at = axes[0, 0], time.value(rows["time"].to_numpy())
         middle, half = unit.value(rows["forecast"].to_numpy()), unit.per_si * rows["forecast_deviation"].to_numpy()
         bars, points = unit.per_si * rows["uncertainty"].to_numpy(), unit.value(rows["measured"].to_numpy())

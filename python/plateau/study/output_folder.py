@@ -35,7 +35,9 @@ def refuse_earlier(folder: Path, of: str | None, force: bool) -> None:
     raise InputError(f"{folder} has the files of {words}; give --force to replace them, or name another folder with -o")
 
 
-def write(folder: Path, files: Mapping[str, bytes], *, of: str | None = None, force: bool = False, inputs: tuple[Path, ...] = ()) -> list[str]:
+def write(
+    folder: Path, files: Mapping[str, bytes], *, of: str | None = None, force: bool = False, inputs: tuple[Path, ...] = ()
+) -> list[str]:
     """Writes files into a folder, with the list of them, each under its name when it is complete.
 
     Parameters

@@ -61,7 +61,10 @@ def listed(items: Sequence[str]) -> str:
 
 def table(heads: Sequence[str], rows: Sequence[Sequence[str]], kind: str = "numbers") -> str:
     """A table of plain texts."""
-    cells = [f"<tr>{''.join(f'<{of}>{escape(str(cell))}</{of}>' for cell in row)}</tr>" for of, row in [("th", heads), *(("td", row) for row in rows)]]
+    cells = [
+        f"<tr>{''.join(f'<{of}>{escape(str(cell))}</{of}>' for cell in row)}</tr>"
+        for of, row in [("th", heads), *(("td", row) for row in rows)]
+    ]
     return f'<div class="wide"><table class="{kind}"><thead>{cells[0]}</thead><tbody>{"".join(cells[1:])}</tbody></table></div>'
 
 
@@ -104,7 +107,16 @@ def effects_page(found: "Effects", figures: Mapping[str, Any], files: Mapping[st
     factors = [[factor.name, factor.keys, " … ".join(map(factor.text, factor.levels)) if factor.is_range else ", ".join(map(factor.text, factor.levels))]
                for factor in study.factors]  # fmt: skip
     states = ", ".join(f"{count} {state}" for state, count in study.runs["state"].value_counts().items())
-    parts = [listed([f"design: {study.design}", f"runs: {states}", f"sets of seeds: {study.seeds}", *(f"caution: {said}" for said in found.cautions)])]
+    parts = [
+        listed(
+            [
+                f"design: {study.design}",
+                f"runs: {states}",
+                f"sets of seeds: {study.seeds}",
+                *(f"caution: {said}" for said in found.cautions),
+            ]
+        )
+    ]
     parts.append(table(["factor", "keys", "values"], factors, "words"))
     for one, stem in zip(found.responses, file_names([one.response.name for one in found.responses]), strict=True):
         (name, *said), rows, below = told(one)

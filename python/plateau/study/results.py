@@ -22,7 +22,7 @@ from plateau.run_file import locking
 Numbers = npt.NDArray[np.float64]
 
 # Scales on which a response can be fitted, and the way back. It never falls, so that ends of intervals stay ends.
-TRANSFORMS = {
+TRANSFORMS: dict[str, tuple[Any, Any]] = {
     "none": (lambda y: y, lambda y: y),
     "log": (np.log, np.exp),
     "square root": (np.sqrt, lambda y: np.maximum(y, 0.0) ** 2),
@@ -196,7 +196,7 @@ class Response:
         -------
         numpy.ndarray
         """
-        return np.clip(TRANSFORMS[self.transform][1](np.asarray(values, float)), self.low, self.high)
+        return np.asarray(np.clip(TRANSFORMS[self.transform][1](np.asarray(values, float)), self.low, self.high))
 
 
 @dataclass(frozen=True, repr=False)
@@ -442,5 +442,6 @@ def read_table(path: str | os.PathLike[str]) -> pandas.DataFrame:
     """
     # From version 3.1, pandas does this by default and no longer accepts the option.
     version = tuple(map(int, pandas.__version__.split(".")[:2]))
-    options = {} if version >= (3, 1) else {"float_precision": "round_trip"}
-    return pandas.read_csv(path, **options)
+    options: Any = {} if version >= (3, 1) else {"float_precision": "round_trip"}
+    table: pandas.DataFrame = pandas.read_csv(path, **options)
+    return table

@@ -74,7 +74,7 @@ class SeedsNeeded:
     def text(self) -> str:
         """The table for people."""
         pilot = f"{self.study.title}: sets of seeds needed, from the scatter between the {self.study.seeds} of the pilot\n"
-        return pilot + self.table.to_string(index=False, float_format=lambda value: f"{value:.4g}") + "\n"
+        return pilot + str(self.table.to_string(index=False, float_format=lambda value: f"{value:.4g}")) + "\n"
 
 
 def seeds_needed(
