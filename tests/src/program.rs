@@ -47,6 +47,11 @@ pub fn commands() -> Vec<String> {
     names.filter(|name| *name != "help").map(str::to_owned).collect()
 }
 
+/// Those that the program answers itself; the others are the Python package's, whose tests look at them.
+pub fn own_commands() -> Vec<String> {
+    commands().into_iter().filter(|name| !["fit", "compare"].contains(&name.as_str())).collect()
+}
+
 /// The root of the repository.
 pub fn repository() -> &'static Path {
     Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/.."))

@@ -84,11 +84,6 @@ fn the_tutorial_about_a_surface_leads_to_its_ring() {
 }
 
 #[test]
-fn the_tutorial_about_a_study_leads_to_its_answer() {
-    expect_tutorial("tutorial-study.md", &["first-study/effects/effects.html", "first-study/results.csv"]);
-}
-
-#[test]
 fn the_tutorial_about_a_drive_leads_to_its_answer() {
     expect_tutorial("tutorial-drive.md", &["city-events.csv", "drives/emission.png", "drives/temperature.png"]);
 }

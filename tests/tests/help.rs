@@ -2,7 +2,7 @@
 
 use std::os::unix::fs::symlink;
 
-use plateau_tests::program::{WorkingDirectory, commands, program, repository, run};
+use plateau_tests::program::{WorkingDirectory, own_commands, program, repository, run};
 use plateau_tests::run_file::RunFile;
 
 /// The lines of a help text below "Example:" or "Examples:".
@@ -25,7 +25,7 @@ fn runs(directory: &WorkingDirectory, example: &str) {
 
 #[test]
 fn the_example_of_every_command_works() {
-    let commands = commands();
+    let commands = own_commands();
     assert!(commands.iter().any(|name| name == "run") && commands.iter().any(|name| name == "check"), "{commands:?}");
     for command in commands {
         let help = WorkingDirectory::new().plateau([&command, "--help"]).quiet_success();

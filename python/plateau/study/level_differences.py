@@ -135,7 +135,7 @@ def _of_factor(fit: Fitted, at: int, control: str | None) -> pandas.DataFrame | 
 
         def within(size: float) -> float:
             # C. W. Dunnett, J. Am. Stat. Assoc. 50, 1096-1121 (1955). Points of the same sequence each time: it is smooth.
-            return float(together.cdf(np.full(len(pairs), size), lower_limit=np.full(len(pairs), -size), random_state=0))
+            return float(together.cdf(np.full(len(pairs), size), lower_limit=np.full(len(pairs), -size), random_state=0, maxpts=100_000))
 
         tail = (1.0 - fit.confidence) / 2.0
         single, most = float(stats.t.isf(tail, freedom)), float(stats.t.isf(tail / len(pairs), freedom))
