@@ -47,6 +47,27 @@ class Recipes(unittest.TestCase):
         for name in ("contact-area.png", "maps.png"):
             self.assertGreater((self.folder / name).stat().st_size, 10000, name)
 
+    def test_the_tutorial_about_a_study_leads_to_its_answer(self):
+        """Its commands work in a folder that looks like the repository, and say every line that it shows."""
+        text = (ROOT / "docs/tutorial-study.md").read_text()
+        for name, target in (("data", ROOT / "data"), ("plateau", pathlib.Path(PROGRAM).resolve())):
+            (self.folder / name).symlink_to(target)
+        environment = {**os.environ, "PATH": f"{ROOT / 'python/bin'}:{os.environ['PATH']}"}
+        place, said = self.folder, ""
+        for block in re.findall(r"^```sh\n(.*?)^```$", text, re.MULTILINE | re.DOTALL):
+            command = ["sh", "-e", "-c", f"{block}\npwd > '{self.folder / '.left'}'"]
+            done = subprocess.run(command, cwd=place, env=environment, capture_output=True, text=True, timeout=300)
+            self.assertEqual(done.returncode, 0, f"{block}\n{done.stderr}")
+            said, place = said + done.stdout + done.stderr, pathlib.Path((self.folder / ".left").read_text().strip())
+        lines = said.splitlines()
+        for shown in re.findall(r"^```console\n(.*?)^```$", text, re.MULTILINE | re.DOTALL):
+            for line in shown.splitlines():
+                begin, is_beginning = line.removesuffix(" …"), line.endswith(" …")
+                self.assertTrue(any(found.startswith(begin) if is_beginning else found == line for found in lines), line)
+        for name in ("first-study/effects/effects.html", "first-study/results.csv", "first-study/optimum/profiler.svg", "wear-rate/fit/keys.csv"):
+            self.assertTrue((self.folder / "own" / name).is_file(), name)
+        self.assertEqual(sorted(path.name for path in self.folder.iterdir()), [".left", "data", "own", "plateau"])
+
     def test_every_block_runs(self):
         self.plateau("run", QUICK)
         self.run_blocks("recipes.md")
