@@ -170,8 +170,14 @@ def listen(arguments: Sequence[str | os.PathLike[str]], progress: bool | None = 
 def _wait(command: list[str], output: Any, follow: Follow, show: Callable[[str], None] | None) -> tuple[int, str]:
     """Exit status and messages of a command."""
     process: subprocess.Popen[bytes] | None = None
+    environment = dict(os.environ)
     # There is no bar on a terminal of the type "dumb".
-    environment = None if show is None else {**os.environ, "TERM": "xterm"}
+    if show is not None:
+        environment["TERM"] = "xterm"
+    # In a checkout, the program finds there the words that this package answers.
+    words = Path(__file__).resolve().parents[1] / "bin"
+    if (words / "plateau-sweep").is_file():
+        environment["PATH"] = os.pathsep.join([str(words), environment.get("PATH", os.defpath)])
 
     def start(error: int) -> subprocess.Popen[bytes]:
         nonlocal process

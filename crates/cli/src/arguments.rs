@@ -110,7 +110,7 @@ pub enum Command {
     /// Find the values of keys with which runs give what was measured
     #[command(disable_help_flag = true)]
     Fit(HandedArguments),
-    /// Tell what differs between scenes, and how sure that is: runs of each with the same seeds
+    /// Tell how surely scenes differ, by runs with the same seeds
     #[command(disable_help_flag = true)]
     Compare(HandedArguments),
     /// Describe surfaces by the parameters of ISO 25178-2, draw and convert them

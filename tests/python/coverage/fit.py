@@ -5,14 +5,18 @@ response at true keys with a normal error. A failed check gives no interval; its
 """
 
 import sys
+from pathlib import Path
 
 import numpy as np
+from scipy import stats
+from scipy.stats import qmc
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[3] / "python"))
+
 from plateau.study.calibration import best_with, calibrated
 from plateau.study.likelihood import Runs, Target
 from plateau.study.measured import Measurement
 from plateau.study.results import Response
-from scipy import stats
-from scipy.stats import qmc
 
 SEEDS, POINTS, NOISE, OF_SEEDS, ERROR = 3, 10, 0.02, 0.03, 0.05
 TIMES = np.linspace(0.0, 23.0, 24)

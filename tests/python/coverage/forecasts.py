@@ -14,6 +14,8 @@ import pandas
 import xarray
 from scipy.stats import qmc
 
+sys.path.insert(0, str(Path(__file__).resolve().parents[3] / "python"))
+
 from plateau.study.process import Process
 from plateau.study.results import Factor, Response, Study
 from plateau.study.surrogate import surrogates

@@ -9,15 +9,19 @@ The points of 240 real runs with 30 sets of seeds are taken as scenes, too: inte
 import itertools
 import math
 import pathlib
+import sys
 import warnings
 
 import numpy as np
 import pandas
+from scipy.stats import qmc
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[3] / "python"))
+
 from plateau.study.goals import Goal, Problem, beyond_runs
 from plateau.study.improvement import improved, with_processes
 from plateau.study.results import Factor, Response, Study, analysed
 from plateau.study.scene_comparison import difference
-from scipy.stats import qmc
 
 # Branin's function upside down: three equal peaks of -0.397887.
 ENDS, PEAK = ((-5.0, 10.0), (0.0, 15.0)), -0.397887
