@@ -3,6 +3,7 @@
 The numbers are found another way than the scripts find them: by netCDF4, and by sums written out here.
 """
 
+import json
 import os
 import pathlib
 import re
@@ -55,6 +56,25 @@ class Examples(unittest.TestCase):
         different = (abs(pixels - pixels[0, 0]).sum(axis=2) > 30).mean()
         self.assertGreater(different, 0.005, name)
         self.assertGreater(min(pixels.shape[:2]), 200, name)
+
+    def test_the_notebook_shows_what_its_cells_say(self):
+        cells = [cell for cell in json.loads((ROOT / "examples/studies.ipynb").read_text())["cells"] if cell["cell_type"] == "code"]
+        folder = self.folder / "notebook"
+        folder.mkdir()
+        (folder / "data").symlink_to(ROOT / "data")
+        # The part of a cell that a notebook alone knows is left out; between cells there is a line that nothing prints.
+        source = "\nprint('--- next cell')\n".join(re.sub(r"^%.*$", "", "".join(cell["source"]), flags=re.MULTILINE) for cell in cells)
+        environment = os.environ | {"PYTHONPATH": str(ROOT / "python"), "PLATEAU_PROGRAM": PROGRAM, "MPLBACKEND": "agg"}
+        done = subprocess.run([sys.executable, "-W", "ignore", "-c", source], capture_output=True, text=True, timeout=300, cwd=folder, env=environment)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        for cell, said in zip(cells, done.stdout.split("--- next cell\n"), strict=True):
+            shown = "".join("".join(output["text"]) for output in cell["outputs"] if output["output_type"] == "stream")
+            number = r"-?\d+\.?\d*(?:e[-+]?\d+)?"
+            self.assertEqual(*(re.sub(rf" *{number}", " #", text) for text in (said, shown)))
+            found, expected = np.array(numbers(said)), np.array(numbers(shown))
+            # Digits that are printed may round the other way on another machine.
+            self.assertTrue((abs(found - expected) <= 0.06 * abs(expected) + 0.0021 * (abs(expected) > 1e-3)).all(), said)
+        self.assertTrue(any("image/png" in output.get("data", {}) for cell in cells for output in cell["outputs"]))
 
     def test_every_example_is_tested(self):
         found = {path.stem for path in (ROOT / "examples").glob("*.py")}
