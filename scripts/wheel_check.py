@@ -21,9 +21,11 @@ def problems(wheel: Path) -> list[str]:
     with zipfile.ZipFile(wheel) as archive:
         files = {member.filename: member for member in archive.infolist()}
         info, program = f"{name}-{version}.dist-info", f"{name}-{version}.data/scripts/plateau"
-        modules = [f"plateau/{path.name}" for path in (ROOT / "python" / "plateau").glob("*.py")]
+        package = ROOT / "python"
+        modules = [str(path.relative_to(package)) for path in (package / "plateau").rglob("*.py")]
+        words = [f"{name}-{version}.data/scripts/{path.name}" for path in (ROOT / "packaging/wheel/scripts").iterdir()]
         texts = [f"{info}/licenses/{text}" for text in ("LICENSE-MIT", "LICENSE-APACHE", "THIRD-PARTY-NOTICES")]
-        wanted = ["plateau/py.typed", *modules, *texts, program]
+        wanted = ["plateau/py.typed", *modules, *words, *texts, program]
         found = [f"it has no {file}" for file in wanted if file not in files]
         if found:
             return found

@@ -50,7 +50,7 @@ chmod -R a+rX "$lab" "$lab/files"
 
 # An environment of its own, in a folder of its own, with nothing of Rust or the checkout in reach.
 make_venv "$lab/venv"
-"$lab/venv/bin/python" -m pip install --quiet "${wheel}[plot]" || { echo 'pip cannot install the wheel with what it needs' && exit 77; }
+"$lab/venv/bin/python" -m pip install --quiet "${wheel}[all]" || { echo 'pip cannot install the wheel with what it needs' && exit 77; }
 cp -R "$lab/files" "$lab/clean" || exit 1
 (cd "$lab/clean" && env -i HOME="$lab" PATH="$lab/venv/bin:/usr/bin:/bin" "$lab/venv/bin/python" wheel_use.py) || exit 1
 echo "$(basename "$wheel") in a clean environment: a run, its file, a figure, a study"

@@ -59,7 +59,10 @@ assert len(study.table) == 8 and (study.table["state"] == "finished").all()
 # Archard: wear goes with load and distance, so twice as much of each gives twice as much.
 worn = study.table.groupby(["load [N]", "fibres"])["worn [m3]"].sum()
 assert abs(worn[10.0, 0.2] / worn[5.0, 0.2] - 2) < 0.2, worn
-plateau.effects("study.toml", force=True)
+found = plateau.study.effects("study.toml").table.set_index(["response", "term"])
+assert found.loc[("worn", "load"), "effect"] > 0
+# The program finds the word beside it.
+subprocess.run([program, "sweep", "effects", "study.toml", "-q"], check=True, stdout=subprocess.DEVNULL)
 assert any(pathlib.Path("study/effects").glob("*.png"))
 ended = time.monotonic()
 seconds = {"import": imported - start, "run": ran - begun, "open and draw": drawn - ran, "study of 8 runs with figures": ended - drawn}
