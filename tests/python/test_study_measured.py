@@ -256,6 +256,12 @@ class MeasurementTest(InFolder):
         (value,) = self.measured('measured = "1.3 mm^2"\nuncertainty = "2e4 um2"\n')
         self.assertEqual((value.values[0], value.uncertainties[0], value.is_series), (1.3e-6, 2e-8, False))
 
+    def test_uncertainties_without_a_unit_are_in_that_of_what_they_belong_to(self):
+        (value,) = self.measured('measured = "1.3 mm^2"\nuncertainty = 0.02\n')
+        self.assertEqual(value.uncertainties[0], 2e-8)
+        (series,) = self.measured('measured_file = "t.csv"\n', "time [s],area [mm2],uncertainty\n1,2,0.5\n2,3,0.25\n")
+        self.assertEqual(series.uncertainties.tolist(), [5e-7, 2.5e-7])
+
     def test_what_is_wrong_names_response_and_key(self):
         for response, words in (
             ('measured = "1.3 N"\nuncertainty = 1\n', 'response "area": measured = "1.3 N": "N" measures something else than m2'),

@@ -135,3 +135,15 @@ fn a_time_after_the_end_of_runs_is_warned_of() {
     change(&directory, "[[response]]", longer);
     said(&ask(&directory, &["plan"]), 0, "and the shortest run ends at 2 s: runs that end before have no value of it");
 }
+
+#[test]
+fn measurements_are_repeated_without_a_seed_and_runs_are_not() {
+    let directory = lab();
+    let study = fs::read_to_string(directory.path("study.toml")).unwrap();
+    let seeds = "[replicates]\nseeds = [1, 2, 3]\n[[factor]]";
+    directory.write("study.toml", study.replacen("[[factor]]", seeds, 1));
+    said(&ask(&directory, &["plan"]), 0, "9 points × 3 replicates = 27");
+    let directory = loads("dataset = \"/series/contact_area\"\nat = \"end\"");
+    change(&directory, "[[factor]]", seeds);
+    said(&ask(&directory, &["plan"]), 2, "expected at least one key and one seed");
+}

@@ -417,8 +417,8 @@ class Effects:
 
     @property
     def cautions(self) -> list[str]:
-        """What holds of all responses."""
-        return together(self.study)
+        """What to be careful about: of all responses, then of each with its name before it."""
+        return [*together(self.study), *(f"{one.response.name}: {caution}" for one in self.responses for caution in one.cautions)]
 
     @property
     def repeats(self) -> int:
@@ -432,7 +432,7 @@ class Effects:
 
     def text(self) -> str:
         """What the command prints."""
-        said = [caution + "\n" for caution in self.cautions]
+        said = [caution + "\n" for caution in together(self.study)]
         if self.repeats:
             verb, counts = ("repeats", "counts") if self.repeats == 1 else ("repeat", "count")
             why = "the same scene with the same seeds gives the same result. Only [replicates] with several seeds tell the pure error."

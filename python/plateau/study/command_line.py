@@ -374,7 +374,8 @@ def _optimize(given: argparse.Namespace) -> str:
     study, folder, _ = _opened(given, "optimum")
     asked = _options(given, "maximize", "minimize", "target", "limit", "limit_on", "hold", "importance", "model", "terms", "confidence")
     found = optimize(study, **asked, runs=given.runs or 0, **_options(given, "confirm", "jobs", "workers"), progress=_progress(given))
-    files = {"optimum.csv": csv_of(found.table), **saved(optimum_figures(found, given.contour))}
+    settings = found.settings.set_index("factor")["text"].rename(str.strip)
+    files = {"optimum.csv": csv_of(found.table.assign(**settings)), **saved(optimum_figures(found, given.contour))}
     said = _told(given, found, folder, write(folder, files, force=given.force, inputs=_inputs(study)))
     if found.keeps_limits:
         return said

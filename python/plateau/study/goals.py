@@ -2,7 +2,7 @@
 
 import itertools
 import warnings
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import Any
@@ -249,11 +249,10 @@ def wanted(
     return list(goals.values()), found
 
 
-def axes_of(study: Study, hold: Sequence[str], is_curved: bool) -> list[list[Any] | None]:
+def axes_of(study: Study, hold: Mapping[str, Any] | Sequence[str], is_curved: bool) -> list[list[Any] | None]:
     """Where each factor may be: its levels, the value that it is held at, or None anywhere in its range."""
     held: dict[str, Any] = {}
-    for text in hold:
-        name, said = _assignment(study, text)
+    for name, said in hold.items() if isinstance(hold, Mapping) else [_assignment(study, text) for text in hold]:
         factor = _factor(study, name, "--hold")
         held[factor.name] = _value(factor, said, "--hold", is_curved)
     place = pandas.DataFrame({factor.name: [held.get(factor.name, _axis(factor, None, is_curved)[0])] for factor in study.factors})

@@ -3,6 +3,7 @@
 import fcntl
 import math
 import os
+import re
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -14,7 +15,7 @@ import pandas
 
 from plateau.errors import InputError, RunFailed
 from plateau.study.output_folder import put
-from plateau.study.quantities import in_si, quantity
+from plateau.study.quantities import NUMBER, in_si, quantity
 from plateau.study.results import Factor, Numbers, Response, Study, analysed
 from plateau.study.text_tables import TextTable, read_text_table, written_table
 
@@ -447,8 +448,12 @@ def _asked(response: Response, where: str, key: str, si: str = "", *, is_differe
     """A quantity that a response asks for; None without it."""
     if key not in response.asked:
         return None
+    said, measured = response.asked[key], response.asked.get("measured")
+    if is_difference and isinstance(said, int | float) and isinstance(measured, str):
+        # In the unit of what it belongs to: "1.3 mm^2" and 0.1.
+        said = re.sub(rf"^\s*{NUMBER}", repr(said), measured.replace("\N{MINUS SIGN}", "-"))
     try:
-        number = quantity(response.asked[key], si or response.unit, is_difference=is_difference)
+        number = quantity(said, si or response.unit, is_difference=is_difference)
     except InputError as error:
         raise InputError(f"{where}: {key} = {error}") from None
     if is_difference and number <= 0.0:
@@ -473,7 +478,8 @@ def _series(path: Path, response: Response, uncertainty: float | None, correlati
         )
 
     def numbers(column: int, si: str, is_difference: bool = False) -> Numbers:
-        found, head, unit = [], table.heads[column], table.named(column)[1]
+        # Uncertainties without a unit are in that of the values.
+        found, head, unit = [], table.heads[column], table.named(column)[1] or is_difference and table.named(value)[1]
         for row in range(len(table.rows)):
             if math.isnan(table.number(row, column)):
                 raise InputError(f'{table.place(row)}: "{head}" is empty, expected a number; leave out lines that were not measured')

@@ -3,7 +3,7 @@
 import itertools
 import os
 import warnings
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
 
@@ -222,7 +222,7 @@ def optimize(
     limit: Sequence[str] = (),
     limit_on: str = "mean",
     importance: Sequence[str] = (),
-    hold: Sequence[str] = (),
+    hold: Mapping[str, Any] | Sequence[str] = (),
     model: str | None = None,
     terms: str = "all",
     confidence: float = 0.95,
@@ -247,7 +247,7 @@ def optimize(
         What has to keep the limits: what is expected, the interval of means, or that of one more run.
     importance : sequence of str
         ``NAME=NUMBER``: how much a goal counts, 1 unless given.
-    hold : sequence of str
+    hold : dict or sequence of str
         ``FACTOR=VALUE``.
     model, terms, confidence
         As for `effects`.

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 import pandas
 
-from plateau.errors import InputError, PlateauWarning
+from plateau.errors import InputError, InputTypeError, PlateauWarning
 from plateau.study.analysis import _digits, together, usable
 from plateau.study.measured import _factor_value
 from plateau.study.quantities import NUMBER, in_si
@@ -57,8 +57,10 @@ class Prediction:
     @property
     def wide(self) -> pandas.DataFrame:
         """A row for each place: what ``--output`` writes."""
-        units = {factor.name: factor.unit for factor in self.study.factors}
-        wide = self.places.rename(columns={name: _head(name, unit) for name, unit in units.items()})
+        # As in results.csv: numbers in the unit of the study.
+        numbers = {factor.name: factor.in_study_unit(self.places[factor.name]) for factor in self.study.factors if factor.is_number}
+        heads = {factor.name: _head(factor.name, factor.study_unit) for factor in self.study.factors}
+        wide = self.places.assign(**numbers).rename(columns=heads)
         names = ["value", *INTERVALS] + ["confirmed", "confirmed_error", "confirmed_runs"] * bool(self.table["confirmed_runs"].any())
         for response in self.study.responses:
             rows = self.table[self.table["response"] == response.name]
@@ -188,6 +190,8 @@ def predict(
     opened = usable(analysed(study))
     known = surrogates(opened, model, terms, confidence)
     is_curved = all(one.fit.model == "quadratic" for one in known if one.fit)
+    if not isinstance(at, Mapping) and not all(isinstance(text, str) for text in at):
+        raise InputTypeError(f"at = {at!r}: expected a dictionary, such as {{\"load\": \"7 N\"}}; several places are points=DataFrame(...)")
     pairs = at.items() if isinstance(at, Mapping) else [_assignment(opened, text) for text in at]
     held: dict[str, Any] = {}
     for name, said in pairs:

@@ -256,13 +256,14 @@ def _words(of: str, si: str, found: dict[str, float], confidence: float) -> str:
     if not np.isfinite(half):
         return f"{of} differs by {unit.text(change, is_difference=True)}; a single pair of runs does not say how sure that is"
     if found["low"] <= 0.0 <= found["high"]:
-        return f"{of}: no sure difference, {unit.text(change, half, is_difference=True)} ({100 * confidence:g} %), sign sure at {_sure(found['sureness'])}"
+        return f"{of}: no sure difference, {unit.text(change, half, is_difference=True)} ({100 * confidence:g} %)"
     more = "larger" if change > 0.0 else "smaller"
     if of.endswith(": running-in time"):
         of, more = of.removesuffix(": running-in time") + " runs in", "more slowly" if change > 0.0 else "faster"
-    ratio = f", {_ratio(found)} times" if np.isfinite(found["ratio"]) else ""
+    # Where its own interval is less sure than that of the difference, it would only confuse.
+    ratio = f", {_ratio(found)} times" if found["ratio_low"] > 1.0 or found["ratio_high"] < 1.0 else ""
     is_ = "" if of.endswith(" runs in") else " is"
-    return f"{of}{is_} {more} by {unit.text(abs(change), half, is_difference=True)} ({100 * confidence:g} %){ratio}, sure at {_sure(found['sureness'])}"
+    return f"{of}{is_} {more} by {unit.text(abs(change), half, is_difference=True)} ({100 * confidence:g} %){ratio}, sign sure at {_sure(found['sureness'])}"
 
 
 def _sure(sureness: float) -> str:

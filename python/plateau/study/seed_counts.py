@@ -109,7 +109,10 @@ def seeds_needed(
     rows = []
     for row in table.to_dict("records"):
         asked = half_width.get(row["response"]) if isinstance(half_width, dict) else half_width
-        wanted = parsed(row["unit"], asked) if isinstance(asked, str) else abs(row["effect"]) if asked is None else float(asked)
+        try:
+            wanted = parsed(row["unit"], asked) if isinstance(asked, str) else abs(row["effect"]) if asked is None else float(asked)
+        except InputError as error:
+            raise InputError(f'{row["response"]}: {error}; give each response its own, such as {{"contact area": "0.02 mm2"}}') from None
         scatter = row["standard_error"] * np.sqrt(pilot)
         largest = scatter * np.sqrt(row["error_freedom"] / stats.chi2.ppf(1.0 - SAFE, row["error_freedom"]))
         sets = {"sets": sets_for(scatter, wanted, confidence), "sets_safe": sets_for(float(largest), wanted, confidence)}

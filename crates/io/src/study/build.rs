@@ -54,7 +54,8 @@ pub(super) fn build(document: Document, path: &Path, place: &Place<'_>) -> Resul
             Order::Standard
         }
     };
-    let replicates = document.replicates.as_ref().map(|given| replicates::of(given, place, &mut problems));
+    let replicates =
+        document.replicates.as_ref().map(|given| replicates::of(given, document.base.is_some(), place, &mut problems));
     let responses = responses(&document.response, place, &mut problems);
     if document.base.is_none() && !responses.iter().all(Response::is_imported) {
         let message =

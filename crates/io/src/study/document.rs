@@ -41,7 +41,7 @@ pub(super) struct Document {
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Replicates {
-    pub keys: Spanned<Vec<Spanned<String>>>,
+    pub keys: Option<Spanned<Vec<Spanned<String>>>>,
     pub seeds: Spanned<Vec<Spanned<i64>>>,
 }
 

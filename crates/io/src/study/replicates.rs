@@ -9,9 +9,15 @@ use crate::brief::MOST_PROBLEMS;
 use crate::scene::{Problem, schema};
 use crate::text::short;
 
-/// What `[replicates]` says.
-pub(super) fn of(given: &document::Replicates, place: &Place<'_>, problems: &mut Vec<Problem>) -> Replicates {
-    for key in given.keys.get_ref() {
+/// What `[replicates]` says; of a study without a scene, numbers of measurements without keys.
+pub(super) fn of(
+    given: &document::Replicates,
+    has_scene: bool,
+    place: &Place<'_>,
+    problems: &mut Vec<Problem>,
+) -> Replicates {
+    let keys = given.keys.as_ref().map_or(&[][..], |keys| keys.get_ref());
+    for key in keys {
         if !is_seed(key.get_ref()) {
             let message = format!(
                 "\"{}\" is not a seed; expected keys such as disc.surface.synthetic.seed, or disc.prepare.extend_seed of a \
@@ -22,7 +28,7 @@ pub(super) fn of(given: &document::Replicates, place: &Place<'_>, problems: &mut
         }
     }
     let seeds: Vec<i64> = given.seeds.get_ref().iter().map(|seed| *seed.get_ref()).collect();
-    if seeds.is_empty() || given.keys.get_ref().is_empty() {
+    if seeds.is_empty() || has_scene && keys.is_empty() {
         problems.push(place.problem(&given.seeds, "replicates", "expected at least one key and one seed"));
     }
     let mut known = HashSet::new();
@@ -35,7 +41,7 @@ pub(super) fn of(given: &document::Replicates, place: &Place<'_>, problems: &mut
         };
         problems.push(place.problem(seed, "replicates.seeds", format!("{} {message}", seed.get_ref())));
     }
-    Replicates { keys: given.keys.get_ref().iter().map(|key| key.get_ref().clone()).collect(), seeds }
+    Replicates { keys: keys.iter().map(|key| key.get_ref().clone()).collect(), seeds }
 }
 
 /// Whether a key of a scene is a seed of random heights or bases.
