@@ -16,6 +16,7 @@ from plateau.errors import InputError, RunFailed
 from plateau.program import call
 from plateau.study.likelihood import NEAR, SETTLED, Likelihood, Runs, Target
 from plateau.study.measured import measurements
+from plateau.study.output_folder import plain
 from plateau.study.results import Factor, Numbers, Study, analysed
 from plateau.study.runs import finished, made_study
 from plateau.study.units import unit_for
@@ -294,7 +295,7 @@ class Fit:
         }
         if not found["series"]:
             del found["series"]
-        return _plain(found)  # type: ignore[no-any-return]
+        return dict(plain(found))
 
     def _check_word(self) -> str:
         return "failed" if self.outcome.has_failed else "held" if self.outcome.checks else "none"
@@ -410,16 +411,6 @@ def _interval(factor: Factor, row: pandas.Series) -> str:
     if row["open_below"]:
         return f"up to {high}; the data set no lower limit"
     return f"from {low} on; the data set no upper limit" if row["open_above"] else f"{bare} … {high}"
-
-
-def _plain(value: Any) -> Any:
-    """A value of a JSON document."""
-    if isinstance(value, dict):
-        return {key: _plain(one) for key, one in value.items()}
-    if isinstance(value, list | tuple):
-        return [_plain(one) for one in value]
-    value = value.item() if isinstance(value, np.generic) else value
-    return None if isinstance(value, float) and not math.isfinite(value) else value
 
 
 def fit(
@@ -569,18 +560,7 @@ def best_with(likelihood: Likelihood, held: dict[int, float], start: Numbers) ->
 
 
 def profile(likelihood: Likelihood, key: int, threshold: float) -> tuple[Numbers, Numbers, list[tuple[float, float]]]:
-    """Coded values of a key with how far -2 ln L rises there, and the pieces in which it stays below a threshold.
-
-    Parameters
-    ----------
-    likelihood : Likelihood
-    key : int
-    threshold : float
-
-    Returns
-    -------
-    tuple
-    """
+    """Coded values of a key with how far -2 ln L rises there, and the pieces in which it stays below a threshold."""
     best, (axes, deviation) = likelihood.best, likelihood.shape(likelihood.best)
     width = math.sqrt(float(np.square(axes[key] * deviation).sum()))
     values = np.unique(np.clip([*np.linspace(-1.0, 1.0, PLACES), *(best[key] + width * np.linspace(-4.0, 4.0, 17))], -1.0, 1.0))
@@ -607,21 +587,7 @@ def profile(likelihood: Likelihood, key: int, threshold: float) -> tuple[Numbers
 
 
 def told(study: Study, target: Target, outcome: Outcome, confidence: float, most: int, runs: pandas.DataFrame) -> Fit:
-    """All that a fit tells, from its last likelihood.
-
-    Parameters
-    ----------
-    study : Study
-    target : Target
-    outcome : Outcome
-    confidence : float
-    most : int
-    runs : pandas.DataFrame
-
-    Returns
-    -------
-    Fit
-    """
+    """All that a fit tells, from its last likelihood."""
     likelihood, threshold = outcome.likelihood, float(stats.chi2.ppf(confidence, 1))
     keys, profiles = [], []
     for at, factor in enumerate(study.factors):
@@ -890,7 +856,7 @@ class Plan:
         """The JSON of ``plateau fit --plan --json``."""
         keys, responses = [factor.name for factor in self.study.factors], [one.response.name for one in self.target.measured]
         known = {"first_runs": self.first_runs, "runs_at_most": self.most, "estimated_time": self.estimated_time, "memory": self.memory}
-        return _plain({"study": self.study.title, "keys": keys, "responses": responses, **known})  # type: ignore[no-any-return]
+        return dict(plain({"study": self.study.title, "keys": keys, "responses": responses, **known}))
 
     def text(self) -> str:
         """What ``plateau fit --plan`` prints."""

@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, NoReturn
 
 from plateau.errors import InputError, PlateauError, PlateauWarning, RunFailed, in_program_words
-from plateau.study.output_folder import put, refuse_earlier, refuse_file, relative, write
+from plateau.study.output_folder import plain, put, refuse_earlier, refuse_file, relative, write
 
 if TYPE_CHECKING:
     import pandas
@@ -266,38 +266,17 @@ def _told(given: argparse.Namespace, found: Any, folder: Path, files: list[str],
 
 
 def _json(document: Mapping[str, Any]) -> str:
-    return json.dumps(_plain(document), indent=2, ensure_ascii=False, allow_nan=False) + "\n"
-
-
-def _plain(value: Any) -> Any:
-    """What JSON has: null for what is no number, and no types of NumPy."""
-    if isinstance(value, Mapping):
-        return {str(name): _plain(one) for name, one in value.items()}
-    if isinstance(value, list | tuple):
-        return [_plain(one) for one in value]
-    value = value.tolist() if hasattr(value, "tolist") else value
-    if isinstance(value, list):
-        return _plain(value)
-    return None if isinstance(value, float) and not math.isfinite(value) else str(value) if isinstance(value, Path) else value
+    return json.dumps(plain(document), indent=2, ensure_ascii=False, allow_nan=False) + "\n"
 
 
 def csv_of(table: "pandas.DataFrame") -> bytes:
-    """A table in CSV with all digits, empty where there is no number, and nothing in it that a spreadsheet would compute.
-
-    Parameters
-    ----------
-    table : pandas.DataFrame
-
-    Returns
-    -------
-    bytes
-    """
+    """A table in CSV with all digits, empty where there is no number, and nothing in it that a spreadsheet would compute."""
     from plateau.study.text_tables import written_table
 
     def cell(value: Any) -> str:
         if isinstance(value, list | tuple):
             return "; ".join(map(str, value))
-        value = _plain(value)
+        value = plain(value)
         return "" if value is None else str(value).lower() if isinstance(value, bool) else str(value)
 
     return written_table(

@@ -77,18 +77,7 @@ def in_look(draws: Callable[..., Figures]) -> Callable[..., Figures]:
 
 
 def saved(figures: Figures) -> dict[str, bytes]:
-    """Files of figures as PNG, SVG and PDF; equal figures give equal files.
-
-    Parameters
-    ----------
-    figures : dict
-        By name.
-
-    Returns
-    -------
-    dict
-        Names of the files and their contents.
-    """
+    """Files of figures as PNG, SVG and PDF; equal figures give equal files."""
     import matplotlib
 
     files = {}
@@ -178,17 +167,7 @@ def _scale(axis: Any, response: Response) -> None:
 
 @in_look
 def effects_figures(found: "Effects") -> Figures:
-    """Draws effects, means, interactions, residuals and surfaces of each response.
-
-    Parameters
-    ----------
-    found : Effects
-
-    Returns
-    -------
-    dict of matplotlib.figure.Figure
-        By name, such as ``"contact-area-pareto"``.
-    """
+    """Draws effects, means, interactions, residuals and surfaces of each response."""
     figures: Figures = {}
     for one, stem in zip(found.responses, file_names([one.response.name for one in found.responses]), strict=True):
         if one.fit is None:
@@ -224,8 +203,6 @@ def _pareto(one: "ResponseEffects", fit: "Fitted") -> Any:
     colours = np.where(is_sure, LINES[0], QUIET)
     if has_effects:
         unit = unit_for(one.unit, float(table["effect"].abs().max()))
-        # A difference of temperatures is in K.
-        symbol = "K" if unit.offset else unit.symbol
         for place, colour, row in zip(places, colours, table.to_dict("records"), strict=True):
             effect, low, high = (row[name] * unit.per_si for name in ("effect", "low", "high"))
             if np.isfinite(low):
@@ -234,7 +211,9 @@ def _pareto(one: "ResponseEffects", fit: "Fitted") -> Any:
         for sign in (-1.0, 1.0) if len(margins) else ():
             axes[0, 0].axvline(sign * margins.iloc[0] * unit.per_si, color=LINES[1], linestyle=":")
         axes[0, 0].axvline(0.0, color=QUIET, linewidth=0.6)
-        axes[0, 0].set_xlabel(_labelled(f"effect on {one.title.split(',')[0] if one.response.transform == 'none' else one.title}", symbol))
+        axes[0, 0].set_xlabel(
+            _labelled(f"effect on {one.title.split(',')[0] if one.response.transform == 'none' else one.title}", unit.of_differences)
+        )
     axes[0, -1].barh(places, 100 * table["share"], height=0.6, color=colours)
     axes[0, -1].set(xlabel="share of the variance, %", xlim=(0, None))
     axes[0, 0].set_yticks(places, [_wrapped(str(term), 40) for term in table["term"]])
@@ -348,7 +327,6 @@ def _residuals(one: "ResponseEffects", fit: "Fitted") -> Any:
     table = one.residuals
     unit = unit_for(one.unit, float(table["residual"].abs().max()))
     of_fit = _unit(one.response, table["fitted"]) if one.response.transform == "none" else Unit("", 1.0)
-    symbol = "K" if unit.offset else unit.symbol
     caption = f"{one.title}: residuals against fitted values, in the order of the runs, and against normal quantiles"
     figure, axes = _new(WIDE, 60, caption, 1, 3)
     residuals, far = table["residual"].to_numpy() * unit.per_si, table["standardised"].abs().to_numpy() > FAR
@@ -360,9 +338,9 @@ def _residuals(one: "ResponseEffects", fit: "Fitted") -> Any:
             of_fit.value(table["fitted"].to_numpy()),
             residuals,
             _labelled("fitted", of_fit.symbol or one.title),
-            _labelled("residual", symbol),
+            _labelled("residual", unit.of_differences),
         ),
-        (table["made_as"].to_numpy(), residuals, "order of the runs", _labelled("residual", symbol)),
+        (table["made_as"].to_numpy(), residuals, "order of the runs", _labelled("residual", unit.of_differences)),
         (quantiles, standardised, "normal quantile", "residual, standard deviations"),
     ]
     for axis, (x, y, label, of_y) in zip(axes.flat, panels, strict=True):
@@ -596,17 +574,7 @@ def contour_pair(factors: Sequence[Factor], free: Sequence[str], asked: str | No
 
 @in_look
 def sensitivity_figures(found: "Sensitivity") -> Figures:
-    """Draws parts of the variance of each response, or elementary effects.
-
-    Parameters
-    ----------
-    found : Sensitivity
-
-    Returns
-    -------
-    dict of matplotlib.figure.Figure
-        By name, such as ``"contact-area-indices"``.
-    """
+    """Draws parts of the variance of each response, or elementary effects."""
     figures: Figures = {}
     draws, kind = (_elementary, "elementary-effects") if found.is_morris else (_indices, "indices")
     names = [surrogate.response.name for surrogate in found.surrogates]
@@ -645,7 +613,6 @@ def _indices(found: "Sensitivity", response: Response, table: pandas.DataFrame) 
 def _elementary(found: "Sensitivity", response: Response, table: pandas.DataFrame) -> Any:
     """Deviations of elementary effects against their mean sizes."""
     unit = _unit(response, found.study.runs[response.name])
-    symbol = "K" if unit.offset else unit.symbol
     sizes, errors, deviations = (table[name].to_numpy(float) * unit.per_si for name in ("mean_size", "standard_error", "deviation"))
     caption = (
         f"{response.name}: elementary effects over the whole range of each factor; above the line a factor acts unevenly or with others"
@@ -656,7 +623,9 @@ def _elementary(found: "Sensitivity", response: Response, table: pandas.DataFram
     for name, x, y in zip(table["factor"], sizes, deviations, strict=True):
         axis.annotate(_wrapped(str(name)), (x, y), xytext=(3, 3), textcoords="offset points", fontsize=7)
     axis.axline((0.0, 0.0), slope=1.0, color=QUIET, linewidth=0.6)
-    axis.set(xlabel=_labelled("mean size of effects, μ*", symbol), ylabel=_labelled("deviation of effects, σ", symbol))
+    axis.set(
+        xlabel=_labelled("mean size of effects, μ*", unit.of_differences), ylabel=_labelled("deviation of effects, σ", unit.of_differences)
+    )
     axis.set(xlim=(0.0, 1.15 * np.nanmax(sizes + np.nan_to_num(errors))), ylim=(-0.03 * np.nanmax(deviations, initial=1e-300), None))
     return figure
 
@@ -666,17 +635,7 @@ def _elementary(found: "Sensitivity", response: Response, table: pandas.DataFram
 
 @in_look
 def fit_figures(found: "Fit") -> Figures:
-    """Draws profiles of the keys, regions of their pairs, and series beside what was measured.
-
-    Parameters
-    ----------
-    found : Fit
-
-    Returns
-    -------
-    dict of matplotlib.figure.Figure
-        ``"profiles"``, ``"region-..."`` for each pair, ``"series-..."`` for each series.
-    """
+    """Draws profiles of the keys, regions of their pairs, and series beside what was measured."""
     factors, level = {factor.name: factor for factor in found.study.factors}, f"{100 * found.confidence:g} %"
     columns = min(len(factors), 3)
     caption = f"How far −2 ln L rises where a key is held at a value, the others at their most likely ones; shaded: {level} interval"
@@ -735,17 +694,7 @@ def fit_figures(found: "Fit") -> Figures:
 
 @in_look
 def comparison_figures(found: "Comparison") -> Figures:
-    """Draws each series against time, mean with the standard deviation of runs, and below it the differences with their intervals.
-
-    Parameters
-    ----------
-    found : Comparison
-
-    Returns
-    -------
-    dict of matplotlib.figure.Figure
-        By the name of the series.
-    """
+    """Draws each series against time, mean with the standard deviation of runs, and below it the differences with their intervals."""
     figures: Figures = {}
     reference = next(iter(found.scenes))
     for series, curves in found.curves.groupby("series", sort=False):
@@ -765,7 +714,7 @@ def comparison_figures(found: "Comparison") -> Figures:
             below.plot(time, change, color=colour, linestyle=dashes)
             below.fill_between(time, low, high, **band)
         top.set(ylabel=_labelled(name, unit.symbol))
-        below.set(xlabel="time, s", ylabel=_labelled(f"less {reference}", "K" if unit.offset else unit.symbol))
+        below.set(xlabel="time, s", ylabel=_labelled(f"less {reference}", unit.of_differences))
         below.axhline(0.0, color=QUIET, linewidth=0.6)
         figure.legend(*top.get_legend_handles_labels(), loc="outside upper left", ncols=2, columnspacing=1.0)
         figure.align_ylabels()

@@ -14,6 +14,7 @@ from plateau.errors import InputError, PlateauWarning
 from plateau.study.analysis import together, usable
 from plateau.study.goals import ROUNDING, Goal, Limit, Problem, axes_of, beyond_runs, overall, wanted
 from plateau.study.improvement import improved, is_run
+from plateau.study.output_folder import plain
 from plateau.study.prediction import INTERVALS, _beyond, _forecast, _no_curve
 from plateau.study.results import Numbers, Response, Study, analysed
 from plateau.study.runs import make_runs
@@ -97,14 +98,11 @@ class Optimum:
     def document(self) -> dict[str, Any]:
         """The JSON of ``plateau sweep optimize --json``, SI units."""
 
-        def plain(value: Any) -> Any:
-            return None if isinstance(value, float) and not np.isfinite(value) else value
-
         def interval(row: dict[Any, Any], of: str) -> list[float] | None:
             return [row[f"{of}_low"], row[f"{of}_high"]] if row.get(f"{of}_low") is not None else None
 
         responses, confirmed, limits, worth = [], [], [], {}
-        for row in [{name: plain(value) for name, value in row.items()} for row in self.table.to_dict("records")]:
+        for row in plain(self.table.to_dict("records")):
             error = "no model could be fitted" if row["value"] is None else None
             ends = {"mean_interval": interval(row, "mean"), "run_interval": interval(row, "run"), "error": error}
             responses.append({"name": row["response"], "unit": row["unit"], "value": row["value"], **ends})
@@ -138,7 +136,7 @@ class Optimum:
             "at_ends": self.at_ends,
             "confirmed": confirmed if any(confirmed) else None,
             "canonical": self.canonical,
-            "rounds": [{name: plain(value) for name, value in row.items()} for row in self.rounds.to_dict("records")],
+            "rounds": plain(self.rounds.to_dict("records")),
             "cautions": self.cautions,
         }
 
