@@ -164,14 +164,8 @@ def _check(likelihood: Likelihood, place: Numbers, asked: Any, more: Runs | None
     squares = (found - means) ** 2 / (variances + SETTLED * np.diag(likelihood.covariance))
     told = asked & np.isfinite(squares)
     held = told.any() and bool(squares[told].sum() <= stats.chi2.ppf(CHECK, told.sum()))
-    return {
-        "place": place,
-        "forecast": means,
-        "deviation": np.sqrt(variances),
-        "runs": found,
-        "held": held,
-        "of": [t.of for t in likelihood.terms],
-    }
+    said = {"place": place, "forecast": means, "deviation": np.sqrt(variances), "runs": found}
+    return {**said, "held": held, "of": [term.of for term in likelihood.terms]}
 
 
 @dataclass(frozen=True, repr=False)
@@ -504,13 +498,8 @@ def _task(study: Study) -> tuple[Target, int, float]:
     singles = [one.response.name for one in measured if not one.is_series]
     correlations = np.eye(len(singles))
     for entry in asked.get("correlations", []):
-        if not (
-            isinstance(entry, list)
-            and len(entry) == 3
-            and set(entry[:2]) <= set(singles)
-            and entry[0] != entry[1]
-            and -1.0 < entry[2] < 1.0
-        ):
+        is_triple = isinstance(entry, list) and len(entry) == 3
+        if not (is_triple and set(entry[:2]) <= set(singles) and entry[0] != entry[1] and -1.0 < entry[2] < 1.0):
             raise InputError(
                 f'{where}: fit.correlations: {entry}, expected two responses with measured and a number, such as ["a", "b", 0.6]'
             )
@@ -596,12 +585,8 @@ def told(study: Study, target: Target, outcome: Outcome, confidence: float, most
         is_anywhere = pieces == [(-1.0, 1.0)]
         likely = math.nan if is_anywhere or outcome.has_failed else float(factor.value(likelihood.best[at]))
         for low, high in [(math.nan, math.nan)] if outcome.has_failed else pieces:
-            ends = {
-                "low": float(factor.value(low)),
-                "high": float(factor.value(high)),
-                "open_below": low == -1.0,
-                "open_above": high == 1.0,
-            }
+            ends = {"low": float(factor.value(low)), "high": float(factor.value(high))}
+            ends |= {"open_below": low == -1.0, "open_above": high == 1.0}
             keys.append({"key": factor.name, "unit": factor.unit, "most_likely": likely, **ends})
     means, own, of_seeds = (each[0] for each in likelihood.moments(likelihood.best[None]))
     responses, series = [], []
@@ -711,10 +696,8 @@ def _determined(factors: Sequence[Factor], likelihood: Likelihood, threshold: fl
     ends, best = np.array([factor.ends for factor in factors]), likelihood.best
     if (ends <= 0.0).any():
         return None
-    halves, values = (
-        0.5 * np.log(ends[:, 1] / ends[:, 0]),
-        np.array([float(factor.value(at)) for factor, at in zip(factors, best, strict=True)]),
-    )
+    halves = 0.5 * np.log(ends[:, 1] / ends[:, 0])
+    values = np.array([float(factor.value(at)) for factor, at in zip(factors, best, strict=True)])
     by_log = np.where([factor.logarithmic for factor in factors], 1.0 / halves, 2.0 * values / (ends[:, 1] - ends[:, 0]))
     found, better = products(likelihood.slopes(best) * (by_log * halves), halves, threshold)
     where = "near the most likely values"
@@ -754,14 +737,8 @@ def _notes(fit: Fit) -> list[str]:
     names = [one.response.name for one in fit.target.measured]
     if outcome.has_failed:
         check = outcome.checks[-1]
-        where = ", ".join(
-            f"{factor.name} = {_said(factor, value)}"
-            for factor, value in zip(
-                fit.study.factors,
-                [float(factor.value(at)) for factor, at in zip(fit.study.factors, check["place"], strict=True)],
-                strict=True,
-            )
-        )
+        places = zip(fit.study.factors, check["place"], strict=True)
+        where = ", ".join(f"{factor.name} = {_said(factor, float(factor.value(at)))}" for factor, at in places)
         worst = int(np.nanargmax(np.abs(check["runs"] - check["forecast"]) / check["deviation"]))
         notes.append(
             f"Runs at the most likely place ({where}) contradict the forecast, most in {names[check['of'][worst]]}, and no runs were left to find "

@@ -16,10 +16,10 @@ from plateau.study.goals import ROUNDING, Goal, Limit, Problem, axes_of, beyond_
 from plateau.study.improvement import improved, is_run
 from plateau.study.output_folder import plain
 from plateau.study.prediction import INTERVALS, _beyond, _forecast, _no_curve
-from plateau.study.results import Numbers, Response, Study, analysed
+from plateau.study.results import Numbers, Study, analysed
 from plateau.study.runs import make_runs
 from plateau.study.surrogate import Surrogate, surrogates
-from plateau.study.units import Unit, unit_for
+from plateau.study.units import Unit, unit_of
 
 # In differences that count: on a limit; in halves of a range: at its end, and so far from its middle that a model knows nothing.
 ON_LIMIT, AT_END, FAR = 2e-3, 1e-3, 5.0
@@ -148,7 +148,7 @@ class Optimum:
         lines = [self.problem.study.title, f"  {found} {place}", f"  desirability {self.desirability:.3g}"]
         level, cells, confirmed = f"{100 * self.problem.confidence:g} %", [], []
         for row in self.table.to_dict("records"):
-            unit = _unit(self.problem.study, responses[row["response"]])
+            unit = unit_of(row["unit"], self.problem.study.runs[row["response"]])
             goals = [
                 f"{AIMS[goal.aim]} {' … '.join(f'{unit.value(value):.4g}' for value in goal.values)}"
                 for goal in self._of(row, self.problem.goals)
@@ -165,7 +165,7 @@ class Optimum:
                 confirmed.append(f"  {row['response']}: {mean}, {row['confirmed_runs']:.0f} runs, {is_within} the interval of runs")
         lines += ["  " + line for line in pandas.DataFrame(cells).to_string(index=False).splitlines()]
         for limit in self.problem.limits:
-            unit = _unit(self.problem.study, responses[limit.response])
+            unit = unit_of(responses[limit.response].unit, self.problem.study.runs[limit.response])
             words, margin = f"{limit.response} {_limit_words(limit, unit)}", self._margin(limit)
             if margin < -ROUNDING:
                 lines.append(f"  {words}: missed; {self._alone(limit, unit)}")
@@ -292,10 +292,6 @@ def optimize(
     if confirm or runs:
         confirming = made(best).drop_duplicates("same_as")
     return _told(problem, best, confirming, rounds)
-
-
-def _unit(study: Study, response: Response) -> Unit:
-    return unit_for(response.unit, float(np.nanmax(np.abs(study.runs[response.name].to_numpy(float)), initial=0.0)))
 
 
 AIMS = {"maximize": "large,", "minimize": "small,", "target": "near the middle of"}

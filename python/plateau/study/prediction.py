@@ -20,7 +20,7 @@ from plateau.study.quantities import in_si
 from plateau.study.results import Factor, Study, analysed
 from plateau.study.surrogate import Surrogate, surrogates
 from plateau.study.text_tables import read_text_table
-from plateau.study.units import NUMBER, unit_for
+from plateau.study.units import NUMBER, unit_for, unit_of
 
 # Most places of a grid; coded values that differ by less are the same.
 MOST_PLACES, SAME = 1_000_000, 1e-9
@@ -118,7 +118,7 @@ class Prediction:
             lines += [self.study.title if number == 1 else "", f"  at {', '.join(where)}"]
             cells = []
             for _, row in rows.iterrows():
-                unit = unit_for(row["unit"], float(np.nanmax(np.abs(self.study.runs[row["response"]].to_numpy(float)), initial=0.0)))
+                unit = unit_of(row["unit"], self.study.runs[row["response"]])
                 ends = [unit.value(row[name]) for name in INTERVALS]
                 # Digits follow the interval.
                 width = (ends[1] - ends[0]) / 2 if np.isfinite(ends[0]) else np.nan

@@ -5,6 +5,8 @@ import re
 from dataclasses import dataclass
 from typing import Any
 
+import numpy as np
+
 from plateau.errors import InputError
 
 # By SI unit, from the smallest on: symbol, how many of it are one SI unit, and the size, SI, below which it is taken.
@@ -58,6 +60,11 @@ def unit_for(si: str, size: float) -> Unit:
     """The unit in which a quantity of this SI unit and size is a number of few digits."""
     symbol, per_si, _ = next((one for one in LADDERS.get(si, []) if size < one[2]), LADDERS.get(si, [(si, 1.0, math.inf)])[-1])
     return Unit(symbol, per_si, -ICE if si == "K" else 0.0)
+
+
+def unit_of(si: str, values: Any) -> Unit:
+    """The unit for the largest of values, SI."""
+    return unit_for(si, float(np.nanmax(np.abs(np.asarray(values, float)), initial=0.0)))
 
 
 def parsed(si: str, text: str) -> float:

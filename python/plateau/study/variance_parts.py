@@ -23,7 +23,7 @@ from plateau.study.output_folder import plain
 from plateau.study.process import Process
 from plateau.study.results import Numbers, Study, analysed
 from plateau.study.surrogate import Surrogate, surrogates
-from plateau.study.units import unit_for
+from plateau.study.units import unit_of
 
 # Places of the sample, functions that are drawn, and cosines of each.
 ROWS, FUNCTIONS, COSINES = 1024, 100, 200
@@ -91,7 +91,7 @@ class Sensitivity:
             if surrogate.error or rows.empty:
                 lines += [response.name, f"  {surrogate.error or 'the surrogate has the same value everywhere: no factor has a part'}", ""]
                 continue
-            unit = unit_for(response.unit, float(np.nanmax(np.abs(self.study.runs[response.name].to_numpy(float)))))
+            unit = unit_of(response.unit, self.study.runs[response.name])
             is_seeds = rows["factor"] == SEEDS
             rows = pandas.concat([rows[~is_seeds].sort_values("mean_size" if self.is_morris else "total", ascending=False), rows[is_seeds]])
             if self.is_morris:
