@@ -16,6 +16,7 @@ from plateau.errors import InputError, RunFailed
 from plateau.program import call
 from plateau.study.likelihood import NEAR, SETTLED, Likelihood, Runs, Target
 from plateau.study.measured import measurements
+from plateau.study.output_folder import plain
 from plateau.study.results import Factor, Numbers, Study, analysed
 from plateau.study.runs import finished, made_study
 from plateau.study.units import unit_for
@@ -163,14 +164,8 @@ def _check(likelihood: Likelihood, place: Numbers, asked: Any, more: Runs | None
     squares = (found - means) ** 2 / (variances + SETTLED * np.diag(likelihood.covariance))
     told = asked & np.isfinite(squares)
     held = told.any() and bool(squares[told].sum() <= stats.chi2.ppf(CHECK, told.sum()))
-    return {
-        "place": place,
-        "forecast": means,
-        "deviation": np.sqrt(variances),
-        "runs": found,
-        "held": held,
-        "of": [t.of for t in likelihood.terms],
-    }
+    said = {"place": place, "forecast": means, "deviation": np.sqrt(variances), "runs": found}
+    return {**said, "held": held, "of": [term.of for term in likelihood.terms]}
 
 
 @dataclass(frozen=True, repr=False)
@@ -294,7 +289,7 @@ class Fit:
         }
         if not found["series"]:
             del found["series"]
-        return _plain(found)  # type: ignore[no-any-return]
+        return dict(plain(found))
 
     def _check_word(self) -> str:
         return "failed" if self.outcome.has_failed else "held" if self.outcome.checks else "none"
@@ -412,16 +407,6 @@ def _interval(factor: Factor, row: pandas.Series) -> str:
     return f"from {low} on; the data set no upper limit" if row["open_above"] else f"{bare} … {high}"
 
 
-def _plain(value: Any) -> Any:
-    """A value of a JSON document."""
-    if isinstance(value, dict):
-        return {key: _plain(one) for key, one in value.items()}
-    if isinstance(value, list | tuple):
-        return [_plain(one) for one in value]
-    value = value.item() if isinstance(value, np.generic) else value
-    return None if isinstance(value, float) and not math.isfinite(value) else value
-
-
 def fit(
     study: Study | str | os.PathLike[str],
     *,
@@ -513,13 +498,8 @@ def _task(study: Study) -> tuple[Target, int, float]:
     singles = [one.response.name for one in measured if not one.is_series]
     correlations = np.eye(len(singles))
     for entry in asked.get("correlations", []):
-        if not (
-            isinstance(entry, list)
-            and len(entry) == 3
-            and set(entry[:2]) <= set(singles)
-            and entry[0] != entry[1]
-            and -1.0 < entry[2] < 1.0
-        ):
+        is_triple = isinstance(entry, list) and len(entry) == 3
+        if not (is_triple and set(entry[:2]) <= set(singles) and entry[0] != entry[1] and -1.0 < entry[2] < 1.0):
             raise InputError(
                 f'{where}: fit.correlations: {entry}, expected two responses with measured and a number, such as ["a", "b", 0.6]'
             )
@@ -569,18 +549,7 @@ def best_with(likelihood: Likelihood, held: dict[int, float], start: Numbers) ->
 
 
 def profile(likelihood: Likelihood, key: int, threshold: float) -> tuple[Numbers, Numbers, list[tuple[float, float]]]:
-    """Coded values of a key with how far -2 ln L rises there, and the pieces in which it stays below a threshold.
-
-    Parameters
-    ----------
-    likelihood : Likelihood
-    key : int
-    threshold : float
-
-    Returns
-    -------
-    tuple
-    """
+    """Coded values of a key with how far -2 ln L rises there, and the pieces in which it stays below a threshold."""
     best, (axes, deviation) = likelihood.best, likelihood.shape(likelihood.best)
     width = math.sqrt(float(np.square(axes[key] * deviation).sum()))
     values = np.unique(np.clip([*np.linspace(-1.0, 1.0, PLACES), *(best[key] + width * np.linspace(-4.0, 4.0, 17))], -1.0, 1.0))
@@ -607,21 +576,7 @@ def profile(likelihood: Likelihood, key: int, threshold: float) -> tuple[Numbers
 
 
 def told(study: Study, target: Target, outcome: Outcome, confidence: float, most: int, runs: pandas.DataFrame) -> Fit:
-    """All that a fit tells, from its last likelihood.
-
-    Parameters
-    ----------
-    study : Study
-    target : Target
-    outcome : Outcome
-    confidence : float
-    most : int
-    runs : pandas.DataFrame
-
-    Returns
-    -------
-    Fit
-    """
+    """All that a fit tells, from its last likelihood."""
     likelihood, threshold = outcome.likelihood, float(stats.chi2.ppf(confidence, 1))
     keys, profiles = [], []
     for at, factor in enumerate(study.factors):
@@ -630,12 +585,8 @@ def told(study: Study, target: Target, outcome: Outcome, confidence: float, most
         is_anywhere = pieces == [(-1.0, 1.0)]
         likely = math.nan if is_anywhere or outcome.has_failed else float(factor.value(likelihood.best[at]))
         for low, high in [(math.nan, math.nan)] if outcome.has_failed else pieces:
-            ends = {
-                "low": float(factor.value(low)),
-                "high": float(factor.value(high)),
-                "open_below": low == -1.0,
-                "open_above": high == 1.0,
-            }
+            ends = {"low": float(factor.value(low)), "high": float(factor.value(high))}
+            ends |= {"open_below": low == -1.0, "open_above": high == 1.0}
             keys.append({"key": factor.name, "unit": factor.unit, "most_likely": likely, **ends})
     means, own, of_seeds = (each[0] for each in likelihood.moments(likelihood.best[None]))
     responses, series = [], []
@@ -745,10 +696,8 @@ def _determined(factors: Sequence[Factor], likelihood: Likelihood, threshold: fl
     ends, best = np.array([factor.ends for factor in factors]), likelihood.best
     if (ends <= 0.0).any():
         return None
-    halves, values = (
-        0.5 * np.log(ends[:, 1] / ends[:, 0]),
-        np.array([float(factor.value(at)) for factor, at in zip(factors, best, strict=True)]),
-    )
+    halves = 0.5 * np.log(ends[:, 1] / ends[:, 0])
+    values = np.array([float(factor.value(at)) for factor, at in zip(factors, best, strict=True)])
     by_log = np.where([factor.logarithmic for factor in factors], 1.0 / halves, 2.0 * values / (ends[:, 1] - ends[:, 0]))
     found, better = products(likelihood.slopes(best) * (by_log * halves), halves, threshold)
     where = "near the most likely values"
@@ -788,14 +737,8 @@ def _notes(fit: Fit) -> list[str]:
     names = [one.response.name for one in fit.target.measured]
     if outcome.has_failed:
         check = outcome.checks[-1]
-        where = ", ".join(
-            f"{factor.name} = {_said(factor, value)}"
-            for factor, value in zip(
-                fit.study.factors,
-                [float(factor.value(at)) for factor, at in zip(fit.study.factors, check["place"], strict=True)],
-                strict=True,
-            )
-        )
+        places = zip(fit.study.factors, check["place"], strict=True)
+        where = ", ".join(f"{factor.name} = {_said(factor, float(factor.value(at)))}" for factor, at in places)
         worst = int(np.nanargmax(np.abs(check["runs"] - check["forecast"]) / check["deviation"]))
         notes.append(
             f"Runs at the most likely place ({where}) contradict the forecast, most in {names[check['of'][worst]]}, and no runs were left to find "
@@ -890,7 +833,7 @@ class Plan:
         """The JSON of ``plateau fit --plan --json``."""
         keys, responses = [factor.name for factor in self.study.factors], [one.response.name for one in self.target.measured]
         known = {"first_runs": self.first_runs, "runs_at_most": self.most, "estimated_time": self.estimated_time, "memory": self.memory}
-        return _plain({"study": self.study.title, "keys": keys, "responses": responses, **known})  # type: ignore[no-any-return]
+        return dict(plain({"study": self.study.title, "keys": keys, "responses": responses, **known}))
 
     def text(self) -> str:
         """What ``plateau fit --plan`` prints."""

@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, NoReturn
 
 from plateau.errors import InputError, PlateauError, PlateauWarning, RunFailed, in_program_words
-from plateau.study.output_folder import put, refuse_earlier, refuse_file, relative, write
+from plateau.study.output_folder import plain, put, refuse_earlier, refuse_file, relative, write
 
 if TYPE_CHECKING:
     import pandas
@@ -139,6 +139,8 @@ def _parser() -> Parser:
     def word(group: Any, name: str, about: str, answer: Callable[[argparse.Namespace], str]) -> Any:
         made = group.add_parser(name, help=about, description=about, prog=f"{called} {'sweep ' if group is study else ''}{name}")
         made.set_defaults(answer=answer)
+        if group is study:
+            made.add_argument("study", type=Path, metavar="STUDY", help="Study file (TOML)")
         return made
 
     def common(
@@ -157,6 +159,9 @@ def _parser() -> Parser:
     def confidence(made: Any) -> None:
         made.add_argument("--confidence", type=_share, default=0.95, metavar="P", help="Confidence level of intervals [default: 0.95]")
 
+    def several(made: Any, flag: str, what: str, about: str) -> None:
+        made.add_argument(flag, action="append", default=[], metavar=what, help=about)
+
     def model(made: Any) -> None:
         made.add_argument("--model", choices=MODELS, help="What is fitted; unless given, what the design allows")
         made.add_argument("--terms", choices=("all", "aicc"), default="all", help="Which terms of it: all, or those that the runs support")
@@ -167,13 +172,11 @@ def _parser() -> Parser:
         made.add_argument("--workers", type=_count, default=1, metavar="N", help="Threads of each run [default: 1]")
 
     made = word(study, "effects", "Tell what the factors do: effects, analysis of variance, figures", _effects)
-    made.add_argument("study", type=Path, metavar="STUDY", help="Study file (TOML)")
     model(made)
     common(made, output='Folder for tables, figures and the page; "effects" in the study\'s own unless given')
 
     made = word(study, "predict", "Tell what responses are expected to be where no run was made", _predict)
-    made.add_argument("study", type=Path, metavar="STUDY", help="Study file (TOML)")
-    made.add_argument("--at", action="append", default=[], metavar="FACTOR=VALUE", help='Set a factor, such as load="7 N"; may be repeated')
+    several(made, "--at", "FACTOR=VALUE", 'Set a factor, such as load="7 N"; may be repeated')
     made.add_argument("--grid", type=_count, metavar="N", help="Predict at so many values of each range and at all levels")
     made.add_argument("--points", type=Path, metavar="FILE", help="Predict at the points of a table in CSV, a column for each factor")
     made.add_argument("--extrapolate", action="store_true", help="Predict beyond the runs of the study, too")
@@ -184,19 +187,14 @@ def _parser() -> Parser:
     common(made, force="Replace that file if it exists")
 
     made = word(study, "optimize", "Find the settings at which responses are best", _optimize)
-    made.add_argument("study", type=Path, metavar="STUDY", help="Study file (TOML)")
     for flag, example in (("maximize", "contact area=1 mm2..2 mm2"), ("minimize", "worn=0..1 mm3"), ("target", "filled=0.5..0.7..0.8")):
-        made.add_argument(
-            f"--{flag}", action="append", default=[], metavar="RESPONSE", help=f'A goal, such as "{example}"; may be repeated'
-        )
-    made.add_argument(
-        "--limit", action="append", default=[], metavar="RESPONSE<=VALUE", help='Keep a response below or above a value: "filled<=0.9"'
-    )
+        several(made, f"--{flag}", "RESPONSE", f'A goal, such as "{example}"; may be repeated')
+    several(made, "--limit", "RESPONSE<=VALUE", 'Keep a response below or above a value: "filled<=0.9"')
     made.add_argument(
         "--limit-on", choices=("mean", "means", "runs"), default="mean", help="What keeps the limits: the mean, its interval, that of a run"
     )
-    made.add_argument("--hold", action="append", default=[], metavar="FACTOR=VALUE", help='Hold a factor at a value, such as load="8 N"')
-    made.add_argument("--importance", action="append", default=[], metavar="RESPONSE=NUMBER", help="How much a goal counts; 1 unless given")
+    several(made, "--hold", "FACTOR=VALUE", 'Hold a factor at a value, such as load="8 N"')
+    several(made, "--importance", "RESPONSE=NUMBER", "How much a goal counts; 1 unless given")
     made.add_argument("--contour", metavar="FACTOR,FACTOR", help="Draw the desirability over two factors")
     made.add_argument("--runs", type=_count, metavar="N", help="Make so many runs on the way to the optimum, where improvement is expected")
     made.add_argument("--confirm", action="store_true", help="Make runs at the optimum, with all seeds of the study, and compare")
@@ -205,12 +203,10 @@ def _parser() -> Parser:
     common(made, output='Folder for figures and table; "optimum" in the study\'s own unless given')
 
     made = word(study, "sensitivity", "Tell which part of a response's variation each factor has", _sensitivity)
-    made.add_argument("study", type=Path, metavar="STUDY", help="Study file (TOML)")
     confidence(made)
     common(made, output='Folder for table and figures; "sensitivity" in the study\'s own unless given')
 
     made = word(study, "import", "Take in responses that were measured or computed elsewhere", _import)
-    made.add_argument("study", type=Path, metavar="STUDY", help="Study file (TOML)")
     made.add_argument(
         "table", type=Path, metavar="TABLE", help="Table (CSV) with a column for each factor and for each response with imported = true"
     )
@@ -226,8 +222,8 @@ def _parser() -> Parser:
     made = word(words, "compare", "Tell what differs between scenes, and how sure that is: runs of each with the same seeds", _compare)
     made.add_argument("scenes", type=Path, nargs="+", metavar="SCENE", help="Scene files (TOML), two or more; the first is the reference")
     made.add_argument("--seeds", type=_count, default=5, metavar="N", help="Sets of seeds with which each scene is run [default: 5]")
-    made.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", help="Change a key of all scenes; may be repeated")
-    made.add_argument("--response", action="append", default=[], metavar="DATASET", help="A response besides those of all runs")
+    several(made, "--set", "KEY=VALUE", "Change a key of all scenes; may be repeated")
+    several(made, "--response", "DATASET", "A response besides those of all runs")
     cores(made)
     confidence(made)
     common(made, output='Folder for runs, tables, figures and the page; "comparison" unless given')
@@ -266,38 +262,17 @@ def _told(given: argparse.Namespace, found: Any, folder: Path, files: list[str],
 
 
 def _json(document: Mapping[str, Any]) -> str:
-    return json.dumps(_plain(document), indent=2, ensure_ascii=False, allow_nan=False) + "\n"
-
-
-def _plain(value: Any) -> Any:
-    """What JSON has: null for what is no number, and no types of NumPy."""
-    if isinstance(value, Mapping):
-        return {str(name): _plain(one) for name, one in value.items()}
-    if isinstance(value, list | tuple):
-        return [_plain(one) for one in value]
-    value = value.tolist() if hasattr(value, "tolist") else value
-    if isinstance(value, list):
-        return _plain(value)
-    return None if isinstance(value, float) and not math.isfinite(value) else str(value) if isinstance(value, Path) else value
+    return json.dumps(plain(document), indent=2, ensure_ascii=False, allow_nan=False) + "\n"
 
 
 def csv_of(table: "pandas.DataFrame") -> bytes:
-    """A table in CSV with all digits, empty where there is no number, and nothing in it that a spreadsheet would compute.
-
-    Parameters
-    ----------
-    table : pandas.DataFrame
-
-    Returns
-    -------
-    bytes
-    """
+    """A table in CSV with all digits, empty where there is no number, and nothing in it that a spreadsheet would compute."""
     from plateau.study.text_tables import written_table
 
     def cell(value: Any) -> str:
         if isinstance(value, list | tuple):
             return "; ".join(map(str, value))
-        value = _plain(value)
+        value = plain(value)
         return "" if value is None else str(value).lower() if isinstance(value, bool) else str(value)
 
     return written_table(

@@ -14,7 +14,7 @@ from scipy import stats
 from plateau.errors import MissingPackageError
 from plateau.looks import APART, CHOSEN, LINES, QUIET
 from plateau.study.results import Factor, Numbers, Response
-from plateau.study.units import Unit, unit_for
+from plateau.study.units import Unit, unit_for, unit_of
 
 if TYPE_CHECKING:
     from plateau.study.analysis import Effects, ResponseEffects
@@ -77,18 +77,7 @@ def in_look(draws: Callable[..., Figures]) -> Callable[..., Figures]:
 
 
 def saved(figures: Figures) -> dict[str, bytes]:
-    """Files of figures as PNG, SVG and PDF; equal figures give equal files.
-
-    Parameters
-    ----------
-    figures : dict
-        By name.
-
-    Returns
-    -------
-    dict
-        Names of the files and their contents.
-    """
+    """Files of figures as PNG, SVG and PDF; equal figures give equal files."""
     import matplotlib
 
     files = {}
@@ -134,10 +123,6 @@ def _labelled(name: str, unit: str) -> str:
     return _wrapped(", ".join(filter(None, [name, unit])), 36)
 
 
-def _unit(response: Response, values: Any) -> Unit:
-    return unit_for(response.unit, float(np.nanmax(np.abs(np.asarray(values, float)), initial=0.0)))
-
-
 def _positions(factor: Factor, values: Any) -> Any:
     """Where values of a factor are on its axis: numbers in the unit of the study, words side by side."""
     return (
@@ -178,17 +163,7 @@ def _scale(axis: Any, response: Response) -> None:
 
 @in_look
 def effects_figures(found: "Effects") -> Figures:
-    """Draws effects, means, interactions, residuals and surfaces of each response.
-
-    Parameters
-    ----------
-    found : Effects
-
-    Returns
-    -------
-    dict of matplotlib.figure.Figure
-        By name, such as ``"contact-area-pareto"``.
-    """
+    """Draws effects, means, interactions, residuals and surfaces of each response."""
     figures: Figures = {}
     for one, stem in zip(found.responses, file_names([one.response.name for one in found.responses]), strict=True):
         if one.fit is None:
@@ -224,8 +199,6 @@ def _pareto(one: "ResponseEffects", fit: "Fitted") -> Any:
     colours = np.where(is_sure, LINES[0], QUIET)
     if has_effects:
         unit = unit_for(one.unit, float(table["effect"].abs().max()))
-        # A difference of temperatures is in K.
-        symbol = "K" if unit.offset else unit.symbol
         for place, colour, row in zip(places, colours, table.to_dict("records"), strict=True):
             effect, low, high = (row[name] * unit.per_si for name in ("effect", "low", "high"))
             if np.isfinite(low):
@@ -234,7 +207,9 @@ def _pareto(one: "ResponseEffects", fit: "Fitted") -> Any:
         for sign in (-1.0, 1.0) if len(margins) else ():
             axes[0, 0].axvline(sign * margins.iloc[0] * unit.per_si, color=LINES[1], linestyle=":")
         axes[0, 0].axvline(0.0, color=QUIET, linewidth=0.6)
-        axes[0, 0].set_xlabel(_labelled(f"effect on {one.title.split(',')[0] if one.response.transform == 'none' else one.title}", symbol))
+        axes[0, 0].set_xlabel(
+            _labelled(f"effect on {one.title.split(',')[0] if one.response.transform == 'none' else one.title}", unit.of_differences)
+        )
     axes[0, -1].barh(places, 100 * table["share"], height=0.6, color=colours)
     axes[0, -1].set(xlabel="share of the variance, %", xlim=(0, None))
     axes[0, 0].set_yticks(places, [_wrapped(str(term), 40) for term in table["term"]])
@@ -262,7 +237,7 @@ def _main_effects(one: "ResponseEffects", fit: "Fitted") -> Any:
     note = "; ".join(filter(None, said))
     width = WIDE if columns > 2 else NARROW
     figure, axes = _new(width, 12 + 46 * rows, caption, rows, columns, note, sharey=True)
-    unit = _unit(one.response, one.response.back(fit.values))
+    unit = unit_of(one.response.unit, one.response.back(fit.values))
     for axis, factor in zip(axes.flat, own, strict=False):
         means = one.means(factor.name)
         _means(axis, one.response, unit, factor, one.means(factor.name, steps=STEPS // 2), LINES[0], "-")
@@ -316,7 +291,7 @@ def _interactions(one: "ResponseEffects", fit: "Fitted") -> Any:
     caption = f"{one.response.name}: means at pairs of levels, the pair with the largest share first"
     width = WIDE if columns > 1 else NARROW
     figure, axes = _new(width, 12 + 56 * rows, caption, rows, columns, "; ".join(notes), sharey=True)
-    unit = _unit(one.response, one.response.back(fit.values))
+    unit = unit_of(one.response.unit, one.response.back(fit.values))
     for axis, pair in zip(axes.flat, pairs, strict=False):
         # Over the factor with more values, which is a number if there is one; a line for each level of the other.
         x, line = sorted((fit.study.factors[at] for at in pair), key=lambda factor: (factor.is_number, factor.is_range), reverse=True)
@@ -347,22 +322,17 @@ def _residuals(one: "ResponseEffects", fit: "Fitted") -> Any:
         return None
     table = one.residuals
     unit = unit_for(one.unit, float(table["residual"].abs().max()))
-    of_fit = _unit(one.response, table["fitted"]) if one.response.transform == "none" else Unit("", 1.0)
-    symbol = "K" if unit.offset else unit.symbol
+    of_fit = unit_of(one.response.unit, table["fitted"]) if one.response.transform == "none" else Unit("", 1.0)
     caption = f"{one.title}: residuals against fitted values, in the order of the runs, and against normal quantiles"
     figure, axes = _new(WIDE, 60, caption, 1, 3)
     residuals, far = table["residual"].to_numpy() * unit.per_si, table["standardised"].abs().to_numpy() > FAR
     quantiles = np.full(len(table), np.nan)
     quantiles[np.argsort(residuals, kind="stable")] = stats.probplot(residuals, fit=False)[0]
     standardised = table["standardised"].to_numpy()
+    of_residuals = _labelled("residual", unit.of_differences)
     panels = [
-        (
-            of_fit.value(table["fitted"].to_numpy()),
-            residuals,
-            _labelled("fitted", of_fit.symbol or one.title),
-            _labelled("residual", symbol),
-        ),
-        (table["made_as"].to_numpy(), residuals, "order of the runs", _labelled("residual", symbol)),
+        (of_fit.value(table["fitted"].to_numpy()), residuals, _labelled("fitted", of_fit.symbol or one.title), of_residuals),
+        (table["made_as"].to_numpy(), residuals, "order of the runs", of_residuals),
         (quantiles, standardised, "normal quantile", "residual, standard deviations"),
     ]
     for axis, (x, y, label, of_y) in zip(axes.flat, panels, strict=True):
@@ -406,18 +376,9 @@ def _surface(one: "ResponseEffects", fit: "Fitted") -> Any:
     held = ", ".join(f"{factor.name} = {factor.text(others[factor.name])}" for factor in factors if factor.name not in (x.name, y.name))
     caption = f"{one.response.name}: what the model expects over {x.name} and {y.name}" + (f", at {held}" if held else "")
     note = "; ".join(filter(None, [f"At {held}" if held else "", "dots: runs, whatever the others are" if held else "dots: runs"]))
-    unit = _unit(one.response, values)
-    return _map(
-        x,
-        y,
-        grid,
-        unit.value(values),
-        _labelled(one.response.name, unit.symbol),
-        caption,
-        note,
-        fit.study.runs,
-        one.response.transform == "log",
-    )
+    unit = unit_of(one.response.unit, values)
+    label, is_log = _labelled(one.response.name, unit.symbol), one.response.transform == "log"
+    return _map(x, y, grid, unit.value(values), label, caption, note, fit.study.runs, is_log)
 
 
 def _of(term: Any) -> tuple[int, ...]:
@@ -458,17 +419,8 @@ def _map(
         figure.colorbar(drawn, ax=axis, label=label, ticks=drawn.levels[:: 1 + len(drawn.levels) // 12], format="%g")
     if runs is not None:
         places = runs[[x.name, y.name]].drop_duplicates()
-        axis.plot(
-            x.in_study_unit(places[x.name]),
-            y.in_study_unit(places[y.name]),
-            "o",
-            mfc="white",
-            mec="black",
-            mew=0.6,
-            ms=3.5,
-            clip_on=False,
-            zorder=5,
-        )
+        style = {"mfc": "white", "mec": "black", "mew": 0.6, "ms": 3.5, "clip_on": False, "zorder": 5}
+        axis.plot(x.in_study_unit(places[x.name]), y.in_study_unit(places[y.name]), "o", **style)
     _axis(axis, x)
     _axis(axis, y, "y")
     return figure
@@ -523,7 +475,7 @@ def optimum_figures(found: "Optimum", contour: str | None = None) -> Figures:
         style = {"color": LINES[0], "linestyle": "-" if levels is None else "none", "marker": "" if levels is None else "o"}
         for row, name in enumerate(shown):
             response, ends = problem.surrogates[name].response, forecasts[name]
-            unit, axis = _unit(response, problem.study.runs[name]), axes[row, column]
+            unit, axis = unit_of(response.unit, problem.study.runs[name]), axes[row, column]
             low, middle, high = (unit.value(ends[end].to_numpy()) for end in ("mean_low", "value", "mean_high"))
             axis.plot(places, middle, **style)
             if levels is None:
@@ -551,15 +503,8 @@ def optimum_figures(found: "Optimum", contour: str | None = None) -> Figures:
         if np.isfinite(values).any() and np.nanmax(values) > np.nanmin(values):
             held = [f"{row.factor} = {row.text}" for row in found.settings.itertuples() if row.factor not in (x.name, y.name)]
             at = f", at {', '.join(held)}" if held else ""
-            map_ = _map(
-                x,
-                y,
-                grid,
-                values,
-                "desirability",
-                f"Desirability over {x.name} and {y.name}{at}",
-                f"Star: best settings{at}" + ("; grey: a limit is missed" if problem.limits else ""),
-            )
+            note = f"Star: best settings{at}" + ("; grey: a limit is missed" if problem.limits else "")
+            map_ = _map(x, y, grid, values, "desirability", f"Desirability over {x.name} and {y.name}{at}", note)
             map_.axes[0].set_facecolor(APART)
             star = x.in_study_unit(best[x.name]), y.in_study_unit(best[y.name])
             map_.axes[0].plot(*star, "*", mfc="white", mec="black", ms=9, mew=0.6, clip_on=False, zorder=5)
@@ -596,17 +541,7 @@ def contour_pair(factors: Sequence[Factor], free: Sequence[str], asked: str | No
 
 @in_look
 def sensitivity_figures(found: "Sensitivity") -> Figures:
-    """Draws parts of the variance of each response, or elementary effects.
-
-    Parameters
-    ----------
-    found : Sensitivity
-
-    Returns
-    -------
-    dict of matplotlib.figure.Figure
-        By name, such as ``"contact-area-indices"``.
-    """
+    """Draws parts of the variance of each response, or elementary effects."""
     figures: Figures = {}
     draws, kind = (_elementary, "elementary-effects") if found.is_morris else (_indices, "indices")
     names = [surrogate.response.name for surrogate in found.surrogates]
@@ -644,8 +579,7 @@ def _indices(found: "Sensitivity", response: Response, table: pandas.DataFrame) 
 
 def _elementary(found: "Sensitivity", response: Response, table: pandas.DataFrame) -> Any:
     """Deviations of elementary effects against their mean sizes."""
-    unit = _unit(response, found.study.runs[response.name])
-    symbol = "K" if unit.offset else unit.symbol
+    unit = unit_of(response.unit, found.study.runs[response.name])
     sizes, errors, deviations = (table[name].to_numpy(float) * unit.per_si for name in ("mean_size", "standard_error", "deviation"))
     caption = (
         f"{response.name}: elementary effects over the whole range of each factor; above the line a factor acts unevenly or with others"
@@ -656,7 +590,9 @@ def _elementary(found: "Sensitivity", response: Response, table: pandas.DataFram
     for name, x, y in zip(table["factor"], sizes, deviations, strict=True):
         axis.annotate(_wrapped(str(name)), (x, y), xytext=(3, 3), textcoords="offset points", fontsize=7)
     axis.axline((0.0, 0.0), slope=1.0, color=QUIET, linewidth=0.6)
-    axis.set(xlabel=_labelled("mean size of effects, μ*", symbol), ylabel=_labelled("deviation of effects, σ", symbol))
+    axis.set(
+        xlabel=_labelled("mean size of effects, μ*", unit.of_differences), ylabel=_labelled("deviation of effects, σ", unit.of_differences)
+    )
     axis.set(xlim=(0.0, 1.15 * np.nanmax(sizes + np.nan_to_num(errors))), ylim=(-0.03 * np.nanmax(deviations, initial=1e-300), None))
     return figure
 
@@ -666,17 +602,7 @@ def _elementary(found: "Sensitivity", response: Response, table: pandas.DataFram
 
 @in_look
 def fit_figures(found: "Fit") -> Figures:
-    """Draws profiles of the keys, regions of their pairs, and series beside what was measured.
-
-    Parameters
-    ----------
-    found : Fit
-
-    Returns
-    -------
-    dict of matplotlib.figure.Figure
-        ``"profiles"``, ``"region-..."`` for each pair, ``"series-..."`` for each series.
-    """
+    """Draws profiles of the keys, regions of their pairs, and series beside what was measured."""
     factors, level = {factor.name: factor for factor in found.study.factors}, f"{100 * found.confidence:g} %"
     columns = min(len(factors), 3)
     caption = f"How far −2 ln L rises where a key is held at a value, the others at their most likely ones; shaded: {level} interval"
@@ -735,17 +661,7 @@ def fit_figures(found: "Fit") -> Figures:
 
 @in_look
 def comparison_figures(found: "Comparison") -> Figures:
-    """Draws each series against time, mean with the standard deviation of runs, and below it the differences with their intervals.
-
-    Parameters
-    ----------
-    found : Comparison
-
-    Returns
-    -------
-    dict of matplotlib.figure.Figure
-        By the name of the series.
-    """
+    """Draws each series against time, mean with the standard deviation of runs, and below it the differences with their intervals."""
     figures: Figures = {}
     reference = next(iter(found.scenes))
     for series, curves in found.curves.groupby("series", sort=False):
@@ -765,7 +681,7 @@ def comparison_figures(found: "Comparison") -> Figures:
             below.plot(time, change, color=colour, linestyle=dashes)
             below.fill_between(time, low, high, **band)
         top.set(ylabel=_labelled(name, unit.symbol))
-        below.set(xlabel="time, s", ylabel=_labelled(f"less {reference}", "K" if unit.offset else unit.symbol))
+        below.set(xlabel="time, s", ylabel=_labelled(f"less {reference}", unit.of_differences))
         below.axhline(0.0, color=QUIET, linewidth=0.6)
         figure.legend(*top.get_legend_handles_labels(), loc="outside upper left", ncols=2, columnspacing=1.0)
         figure.align_ylabels()

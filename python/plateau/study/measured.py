@@ -109,17 +109,7 @@ def import_values(study: str | os.PathLike[str], table: str | os.PathLike[str], 
 
 
 def imported_values(study: Study) -> pandas.DataFrame:
-    """The values of imported responses that a study has.
-
-    Parameters
-    ----------
-    study : Study
-
-    Returns
-    -------
-    pandas.DataFrame
-        By run; NaN where there is none.
-    """
+    """The values of imported responses that a study has."""
     return _Kept(study).values
 
 

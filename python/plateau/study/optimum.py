@@ -14,11 +14,12 @@ from plateau.errors import InputError, PlateauWarning
 from plateau.study.analysis import together, usable
 from plateau.study.goals import ROUNDING, Goal, Limit, Problem, axes_of, beyond_runs, overall, wanted
 from plateau.study.improvement import improved, is_run
+from plateau.study.output_folder import plain
 from plateau.study.prediction import INTERVALS, _beyond, _forecast, _no_curve
-from plateau.study.results import Numbers, Response, Study, analysed
+from plateau.study.results import Numbers, Study, analysed
 from plateau.study.runs import make_runs
 from plateau.study.surrogate import Surrogate, surrogates
-from plateau.study.units import Unit, unit_for
+from plateau.study.units import Unit, unit_of
 
 # In differences that count: on a limit; in halves of a range: at its end, and so far from its middle that a model knows nothing.
 ON_LIMIT, AT_END, FAR = 2e-3, 1e-3, 5.0
@@ -97,14 +98,11 @@ class Optimum:
     def document(self) -> dict[str, Any]:
         """The JSON of ``plateau sweep optimize --json``, SI units."""
 
-        def plain(value: Any) -> Any:
-            return None if isinstance(value, float) and not np.isfinite(value) else value
-
         def interval(row: dict[Any, Any], of: str) -> list[float] | None:
             return [row[f"{of}_low"], row[f"{of}_high"]] if row.get(f"{of}_low") is not None else None
 
         responses, confirmed, limits, worth = [], [], [], {}
-        for row in [{name: plain(value) for name, value in row.items()} for row in self.table.to_dict("records")]:
+        for row in plain(self.table.to_dict("records")):
             error = "no model could be fitted" if row["value"] is None else None
             ends = {"mean_interval": interval(row, "mean"), "run_interval": interval(row, "run"), "error": error}
             responses.append({"name": row["response"], "unit": row["unit"], "value": row["value"], **ends})
@@ -138,7 +136,7 @@ class Optimum:
             "at_ends": self.at_ends,
             "confirmed": confirmed if any(confirmed) else None,
             "canonical": self.canonical,
-            "rounds": [{name: plain(value) for name, value in row.items()} for row in self.rounds.to_dict("records")],
+            "rounds": plain(self.rounds.to_dict("records")),
             "cautions": self.cautions,
         }
 
@@ -150,7 +148,7 @@ class Optimum:
         lines = [self.problem.study.title, f"  {found} {place}", f"  desirability {self.desirability:.3g}"]
         level, cells, confirmed = f"{100 * self.problem.confidence:g} %", [], []
         for row in self.table.to_dict("records"):
-            unit = _unit(self.problem.study, responses[row["response"]])
+            unit = unit_of(row["unit"], self.problem.study.runs[row["response"]])
             goals = [
                 f"{AIMS[goal.aim]} {' … '.join(f'{unit.value(value):.4g}' for value in goal.values)}"
                 for goal in self._of(row, self.problem.goals)
@@ -167,7 +165,7 @@ class Optimum:
                 confirmed.append(f"  {row['response']}: {mean}, {row['confirmed_runs']:.0f} runs, {is_within} the interval of runs")
         lines += ["  " + line for line in pandas.DataFrame(cells).to_string(index=False).splitlines()]
         for limit in self.problem.limits:
-            unit = _unit(self.problem.study, responses[limit.response])
+            unit = unit_of(responses[limit.response].unit, self.problem.study.runs[limit.response])
             words, margin = f"{limit.response} {_limit_words(limit, unit)}", self._margin(limit)
             if margin < -ROUNDING:
                 lines.append(f"  {words}: missed; {self._alone(limit, unit)}")
@@ -294,10 +292,6 @@ def optimize(
     if confirm or runs:
         confirming = made(best).drop_duplicates("same_as")
     return _told(problem, best, confirming, rounds)
-
-
-def _unit(study: Study, response: Response) -> Unit:
-    return unit_for(response.unit, float(np.nanmax(np.abs(study.runs[response.name].to_numpy(float)), initial=0.0)))
 
 
 AIMS = {"maximize": "large,", "minimize": "small,", "target": "near the middle of"}

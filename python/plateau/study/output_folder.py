@@ -4,10 +4,12 @@ A list of them is among them, so that a later call replaces all of them or none,
 figure of a response that is no longer asked for does not stay beside the new ones.
 """
 
+import math
 import os
 import tempfile
 from collections.abc import Mapping
 from pathlib import Path
+from typing import Any
 
 from plateau.errors import InputError, RunFailed
 
@@ -169,3 +171,13 @@ def _list(folder: Path) -> tuple[str | None, list[str]] | None:
         return None
     of = next((line.removeprefix(OF) for line in lines if line.startswith(OF)), None)
     return of, [line for line in lines[1:] if not line.startswith("#") and os.path.basename(line) == line and line]
+
+
+def plain(value: Any) -> Any:
+    """What JSON has: null for what is no number, and no types of NumPy."""
+    if isinstance(value, Mapping):
+        return {str(name): plain(one) for name, one in value.items()}
+    value = value.tolist() if hasattr(value, "tolist") else value
+    if isinstance(value, list | tuple):
+        return [plain(one) for one in value]
+    return None if isinstance(value, float) and not math.isfinite(value) else str(value) if isinstance(value, Path) else value

@@ -87,20 +87,7 @@ def pictures(figures: Mapping[str, Any], files: Mapping[str, bytes]) -> str:
 
 
 def effects_page(found: "Effects", figures: Mapping[str, Any], files: Mapping[str, bytes]) -> str:
-    """The page of ``plateau sweep effects``.
-
-    Parameters
-    ----------
-    found : Effects
-    figures : dict
-        Those of `Effects.figures`.
-    files : dict
-        Their files, from `saved`.
-
-    Returns
-    -------
-    str
-    """
+    """The page of ``plateau sweep effects``."""
     from plateau.study.analysis import told
 
     study = found.study
@@ -129,20 +116,7 @@ def effects_page(found: "Effects", figures: Mapping[str, Any], files: Mapping[st
 
 
 def comparison_page(found: "Comparison", figures: Mapping[str, Any], files: Mapping[str, bytes]) -> str:
-    """The page of ``plateau compare``.
-
-    Parameters
-    ----------
-    found : Comparison
-    figures : dict
-        Those of `Comparison.figures`.
-    files : dict
-        Their files, from `saved`.
-
-    Returns
-    -------
-    str
-    """
+    """The page of ``plateau compare``."""
     scenes = table(["scene", "file"], list(map(list, found.scenes.items())), "words")
     note = f'<p class="quiet">{escape(NOTE.format(level=f"{100 * found.confidence:g} %"))}</p>'
     return page(found.title, scenes, listed(found.said()), table_of(found.shown()), note, pictures(figures, files))

@@ -14,12 +14,13 @@ import pandas
 
 from plateau.errors import InputError, InputTypeError, PlateauWarning
 from plateau.study.analysis import _digits, together, usable
-from plateau.study.measured import _factor_value
-from plateau.study.quantities import NUMBER, in_si
+from plateau.study.measured import _factor_value, _head
+from plateau.study.output_folder import plain
+from plateau.study.quantities import in_si
 from plateau.study.results import Factor, Study, analysed
 from plateau.study.surrogate import Surrogate, surrogates
 from plateau.study.text_tables import read_text_table
-from plateau.study.units import unit_for
+from plateau.study.units import NUMBER, unit_for, unit_of
 
 # Most places of a grid; coded values that differ by less are the same.
 MOST_PLACES, SAME = 1_000_000, 1e-9
@@ -87,7 +88,7 @@ class Prediction:
             responses, confirmed = [], []
             for (_, row), surrogate in zip(rows.iterrows(), self.surrogates, strict=True):
                 value, *ends, leverage, mean, error = (
-                    _plain(row[name]) for name in ["value", *INTERVALS, "leverage", "confirmed", "confirmed_error"]
+                    plain(row[name]) for name in ["value", *INTERVALS, "leverage", "confirmed", "confirmed_error"]
                 )
                 intervals = [None if None in pair else pair for pair in (ends[:2], ends[2:])]
                 own = {
@@ -119,7 +120,7 @@ class Prediction:
             lines += [self.study.title if number == 1 else "", f"  at {', '.join(where)}"]
             cells = []
             for _, row in rows.iterrows():
-                unit = unit_for(row["unit"], float(np.nanmax(np.abs(self.study.runs[row["response"]].to_numpy(float)), initial=0.0)))
+                unit = unit_of(row["unit"], self.study.runs[row["response"]])
                 ends = [unit.value(row[name]) for name in INTERVALS]
                 # Digits follow the interval.
                 width = (ends[1] - ends[0]) / 2 if np.isfinite(ends[0]) else np.nan
@@ -365,13 +366,5 @@ def _no_curve(study: Study, places: pandas.DataFrame) -> list[str]:
     return [said + 'such as with design = "central-composite", and look with --confirm how far off a forecast is']
 
 
-def _head(name: str, unit: str) -> str:
-    return name if unit in ("", "1") else f"{name} [{unit}]"
-
-
 def _joined(parts: Any) -> str:
     return "; ".join(dict.fromkeys(part for one in parts for part in str(one).split("; ") if part))
-
-
-def _plain(value: Any) -> float | None:
-    return float(value) if np.isfinite(value) else None

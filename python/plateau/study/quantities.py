@@ -6,9 +6,8 @@ import re
 from fractions import Fraction
 
 from plateau.errors import InputError
-from plateau.study.units import ICE, plain
+from plateau.study.units import ICE, NUMBER, plain
 
-NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
 # Powers of m, kg, s, rad and K, and how many SI units it is; these take a prefix.
 PREFIXED: dict[str, tuple[tuple[int, ...], int | Fraction]] = {
     "m": ((1, 0, 0, 0, 0), 1),

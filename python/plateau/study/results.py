@@ -430,16 +430,7 @@ def _directory(study: Path) -> str:
 
 
 def read_table(path: str | os.PathLike[str]) -> pandas.DataFrame:
-    """Reads a table in CSV, with exactly the numbers of the file.
-
-    Parameters
-    ----------
-    path : path
-
-    Returns
-    -------
-    pandas.DataFrame
-    """
+    """Reads a table in CSV, with exactly the numbers of the file."""
     # From version 3.1, pandas does this by default and no longer accepts the option.
     version = tuple(map(int, pandas.__version__.split(".")[:2]))
     options: Any = {} if version >= (3, 1) else {"float_precision": "round_trip"}

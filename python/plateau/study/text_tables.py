@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from plateau.errors import InputError, MissingFileError
-from plateau.study.quantities import NUMBER
+from plateau.study.units import NUMBER
 
 # What a workbook has in its archive.
 WORKBOOKS = {"xl/": "a workbook (.xlsx)", "content.xml": "a workbook (.ods)"}
@@ -113,17 +113,7 @@ def read_text_table(path: Path) -> TextTable:
 
 
 def written_table(rows: Iterable[Sequence[str]]) -> bytes:
-    """A table in CSV; a cell that a spreadsheet would compute gets an apostrophe.
-
-    Parameters
-    ----------
-    rows : iterable of sequence of str
-        The names first.
-
-    Returns
-    -------
-    bytes
-    """
+    """A table in CSV; a cell that a spreadsheet would compute gets an apostrophe."""
     file = io.StringIO()
     csv.writer(file, lineterminator="\n").writerows([f"'{cell}" if _is_formula(cell.lstrip("'")) else cell for cell in row] for row in rows)
     return file.getvalue().encode()

@@ -5,6 +5,8 @@ import re
 from dataclasses import dataclass
 from typing import Any
 
+import numpy as np
+
 from plateau.errors import InputError
 
 # By SI unit, from the smallest on: symbol, how many of it are one SI unit, and the size, SI, below which it is taken.
@@ -24,6 +26,7 @@ LADDERS: dict[str, list[tuple[str, float, float]]] = {
     "s-1": [("s⁻¹", 1.0, math.inf)],
     "m-1": [("km⁻¹", 1e3, math.inf)],
 }
+NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
 # 0 °C.
 ICE = 273.15
 
@@ -36,6 +39,11 @@ class Unit:
     per_si: float
     offset: float = 0.0
 
+    @property
+    def of_differences(self) -> str:
+        """The symbol of differences: those of temperatures are in K."""
+        return "K" if self.offset else self.symbol
+
     def value(self, value: Any) -> Any:
         """A value, SI, in this unit."""
         return value * self.per_si + self.offset
@@ -45,7 +53,7 @@ class Unit:
         if not math.isfinite(value):
             return "–"
         number = value * self.per_si + (0.0 if is_difference else self.offset)
-        return f"{with_error(number, error * self.per_si)} {'K' if is_difference and self.offset else self.symbol}".strip()
+        return f"{with_error(number, error * self.per_si)} {self.of_differences if is_difference else self.symbol}".strip()
 
 
 def unit_for(si: str, size: float) -> Unit:
@@ -54,10 +62,15 @@ def unit_for(si: str, size: float) -> Unit:
     return Unit(symbol, per_si, -ICE if si == "K" else 0.0)
 
 
+def unit_of(si: str, values: Any) -> Unit:
+    """The unit for the largest of values, SI."""
+    return unit_for(si, float(np.nanmax(np.abs(np.asarray(values, float)), initial=0.0)))
+
+
 def parsed(si: str, text: str) -> float:
     """A value that is written with or without a unit, such as ``"1.5 mm3"``, in SI units."""
     said = text.strip().replace("\N{MINUS SIGN}", "-")
-    found = re.fullmatch(r"([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(.*)", said)
+    found = re.fullmatch(rf"({NUMBER})\s*(.*)", said)
     if found is None:
         raise InputError(f'"{text}" is not a number with a unit')
     number, name = float(found[1]), plain(found[2])

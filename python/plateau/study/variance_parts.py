@@ -19,10 +19,11 @@ from scipy import stats
 from plateau.errors import PlateauWarning
 from plateau.study.analysis import _digits, together, usable
 from plateau.study.model import Fitted
+from plateau.study.output_folder import plain
 from plateau.study.process import Process
 from plateau.study.results import Numbers, Study, analysed
 from plateau.study.surrogate import Surrogate, surrogates
-from plateau.study.units import unit_for
+from plateau.study.units import unit_of
 
 # Places of the sample, functions that are drawn, and cosines of each.
 ROWS, FUNCTIONS, COSINES = 1024, 100, 200
@@ -65,7 +66,7 @@ class Sensitivity:
         for surrogate in self.surrogates:
             response, rows = surrogate.response, self.table[self.table["response"] == surrogate.response.name]
             indices, effects, seeds = [], [], None
-            for row in ({key: _plain(value) for key, value in row.items()} for row in rows.to_dict("records")):
+            for row in plain(rows.to_dict("records")):
                 parts = {
                     name: {"value": row[name], "interval": _pair(row[f"{name}_low"], row[f"{name}_high"])}
                     for name in ("first_order", "total")
@@ -90,7 +91,7 @@ class Sensitivity:
             if surrogate.error or rows.empty:
                 lines += [response.name, f"  {surrogate.error or 'the surrogate has the same value everywhere: no factor has a part'}", ""]
                 continue
-            unit = unit_for(response.unit, float(np.nanmax(np.abs(self.study.runs[response.name].to_numpy(float)))))
+            unit = unit_of(response.unit, self.study.runs[response.name])
             is_seeds = rows["factor"] == SEEDS
             rows = pandas.concat([rows[~is_seeds].sort_values("mean_size" if self.is_morris else "total", ascending=False), rows[is_seeds]])
             if self.is_morris:
@@ -309,10 +310,6 @@ def _part(row: pandas.Series, name: str) -> str:
     if np.isnan(low):
         return "" if np.isnan(value) else f"{value:.2f}"
     return f"{value:.2f} ({low:.2f} … {high:.2f})"
-
-
-def _plain(value: Any) -> Any:
-    return None if isinstance(value, float) and not np.isfinite(value) else value
 
 
 def _pair(low: float | None, high: float | None) -> list[float] | None:
