@@ -15,9 +15,10 @@ import pandas
 
 from plateau.errors import InputError, RunFailed
 from plateau.study.output_folder import put
-from plateau.study.quantities import NUMBER, in_si, quantity
+from plateau.study.quantities import in_si, quantity
 from plateau.study.results import Factor, Numbers, Response, Study, analysed
 from plateau.study.text_tables import TextTable, read_text_table, written_table
+from plateau.study.units import NUMBER
 
 REPLICATE = "replicate"
 # Numbers of a table and of the design are the same if they differ by less than this part of the largest one of the factor.
