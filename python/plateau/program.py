@@ -91,7 +91,10 @@ def call(arguments: Sequence[str | os.PathLike[str]], progress: bool | None = No
         With the message of the program. Its warnings are given as `PlateauWarning`.
     """
     document = listen([*arguments, "--json"], progress, 4)
-    return json.loads(document) if document.strip() else None
+    try:
+        return json.loads(document) if document.strip() else None
+    except ValueError as error:
+        raise PlateauError(f"{find_program()} printed no JSON ({error}): is it the program plateau, and of this version?") from error
 
 
 def file_name(path: str | os.PathLike[str], what: str) -> str:

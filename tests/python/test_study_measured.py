@@ -114,6 +114,7 @@ class TextTableTest(InFolder):
             self.refused(words, read_text_table, self.file(content.getvalue()))
         with self.assertRaises(MissingFileError):
             read_text_table(self.folder / "none.csv")
+        self.refused("/dev/zero: this is a device", read_text_table, Path("/dev/zero"))
 
     def test_cells_that_spreadsheets_compute_come_back_as_they_were(self):
         cells = ["=1+1", "+A1", "@x", "-x", "'=1", "'word", 'a "b"', "x,y", "-5 mm", "1e-3"]
@@ -142,6 +143,7 @@ class QuantityTest(unittest.TestCase):
         ):
             self.assertEqual(quantity(said, si), expected, said)
         self.assertEqual(quantity("5 degC", "K", is_difference=True), 5.0)
+        self.assertEqual(quantity("1e-999999999 mm", "m"), 0.0)
 
     def test_what_is_none_is_refused(self):
         for said, si in (
@@ -154,6 +156,7 @@ class QuantityTest(unittest.TestCase):
             (float("nan"), "m"),
             ("0.15", "1"),
             ("14 Hz", "rad s-1"),
+            ("1 m999999999", "m"),
         ):
             with self.subTest(said), self.assertRaises(InputError):
                 quantity(said, si)

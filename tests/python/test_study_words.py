@@ -7,9 +7,11 @@ import json
 import os
 import pathlib
 import re
+import signal
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 import unittest.mock
 
@@ -120,6 +122,55 @@ class Words(unittest.TestCase):
                     [row["load"], row["dose"], 1 + load - dose + 0.3 * load * dose + 0.4 * dose**2 + noise, 0.5 + 0.2 * dose + 0.2 * noise]
                 )
         return self.call("sweep", "import", "study.toml", table)[0]
+
+    def test_factors_and_responses_are_no_columns_of_all_studies(self):
+        for name, other in (("load", "factor"), ("grip", "response")):
+            pathlib.Path("study.toml").write_text(MEASURED.replace(f'name = "{name}"', 'name = "state"'))
+            self.refused("sweep", "effects", "study.toml", said=f'study.toml: {other} "state": tables of runs have a column of this name')
+
+    def test_what_would_take_forever_is_refused_at_once(self):
+        self.import_all()
+        self.refused("sweep", "predict", "study.toml", "--grid", "99999999999999999999", said="more than 1000000 places")
+        self.refused("sweep", "predict", "study.toml", "--at", "load=6 kg", said='--at: load = 6 kg: "kg" measures something else')
+        os.mkdir("out")
+        os.mkfifo("out/files.txt")
+        self.refused("sweep", "sensitivity", "study.toml", "-o", "out", said="out/files.txt is not a regular file")
+
+    def test_where_there_are_no_results_commands_of_the_program_are_named(self):
+        self.refused("sweep", "effects", ".", said="results.csv: there is no such file; plateau sweep collect makes it")
+
+    def test_programs_that_are_another_one_are_named(self):
+        pathlib.Path("study.toml").write_text(MEASURED)
+        with unittest.mock.patch.dict(os.environ, {"PLATEAU_PROGRAM": "/bin/echo"}):
+            _, err = self.call("sweep", "effects", "study.toml", status=1)
+        self.assertRegex(err, "^plateau: /bin/echo printed no JSON .*\\n$")
+
+    def test_signals_end_runs_and_what_made_them(self):
+        scene = QUICK.read_text()
+        for name in ("one.toml", "two.toml"):
+            pathlib.Path(name).write_text(scene)
+        words = ["compare", "one.toml", "two.toml", "--seeds", "1", "--set", "operation.duration='10000 s'", "-q"]
+        environment = {**os.environ, "PYTHONPATH": str(ROOT / "python")}
+        called = subprocess.Popen(
+            [sys.executable, "-m", "plateau.study.command_line", *words],
+            env=environment,
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.PIPE,
+            start_new_session=True,
+        )
+        try:
+            until = time.monotonic() + 60
+            while not any(pathlib.Path("comparison").glob("*/under-way/*")) and time.monotonic() < until:
+                time.sleep(0.05)
+            called.terminate()
+            # The end of the pipe: nobody is left who could write into it.
+            _, said = called.communicate(timeout=60)
+            self.assertEqual((called.returncode, said), (128 + signal.SIGTERM, b""))
+            with self.assertRaises(ProcessLookupError):
+                os.killpg(called.pid, 0)
+        finally:
+            with contextlib.suppress(ProcessLookupError):
+                os.killpg(called.pid, signal.SIGKILL)
 
     def is_as_before(self, word, document):
         self.assertEqual(set(BEFORE[word]) - paths(document) - GONE.get(word, set()), set(), word)

@@ -6,14 +6,17 @@ import io
 import json
 import math
 import os
+import signal
 import sys
+import threading
 import unicodedata
 import warnings
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NoReturn
 
-from plateau.errors import InputError, PlateauError, PlateauWarning, RunFailed, in_program_words
+from plateau.errors import InputError, PlateauError, PlateauWarning, RunFailed, RunStopped, in_program_words
 from plateau.study.output_folder import plain, put, refuse_earlier, refuse_file, relative, write
 
 if TYPE_CHECKING:
@@ -65,12 +68,14 @@ def main(arguments: Sequence[str]) -> int:
     Returns
     -------
     int
-        Exit status: 0, 1 for a failed run, 2 for a wrong command line or input.
+        Exit status: 0, 1 for a failed run, 2 for a wrong command line or input, 128 and its number for a signal.
     """
+    # Nothing is shown in windows, and a wrong backend would keep figures from being drawn.
+    os.environ["MPLBACKEND"] = "agg"
     if isinstance(sys.stdout, io.TextIOWrapper):
         sys.stdout.reconfigure(errors="backslashreplace")
     try:
-        with in_program_words(), warnings.catch_warnings():
+        with in_program_words(), _stoppable(), warnings.catch_warnings():
             given = _parser().parse_args(arguments)
             warnings.showwarning = _quiet if given.quiet else _say
             warnings.simplefilter("ignore")
@@ -79,16 +84,50 @@ def main(arguments: Sequence[str]) -> int:
         return 0
     except PlateauError as error:
         print(f"plateau: {shown(str(error))}", file=sys.stderr)
+        if isinstance(error, RunStopped) and error.status:
+            return int(error.status)
         return 2 if isinstance(error, InputError) else 1
     except ModuleNotFoundError as error:
         print(f"plateau: {error.name} is not installed: pip install 'plateau-brake[all]'", file=sys.stderr)
         return 1
+    except _Stopped as stopped:
+        return 128 + stopped.args[0]
     except KeyboardInterrupt:
         return 130
     except BrokenPipeError:
         # Nobody reads on, as with `head`.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return 0
+    except OSError as error:
+        # Such as no folder for temporary files.
+        print(f"plateau: {shown(str(error))}", file=sys.stderr)
+        return 1
+
+
+class _Stopped(BaseException):
+    """A signal, with its number, that ends the program."""
+
+
+@contextmanager
+def _stoppable() -> Iterator[None]:
+    """Ends runs before this process where it is asked to end: otherwise they would go on alone."""
+
+    def stop(number: int, _: Any) -> NoReturn:
+        raise _Stopped(number)
+
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    # Whoever calls with nohup wants no end.
+    kept = {one: signal.getsignal(one) for one in (signal.SIGTERM, signal.SIGHUP)}
+    kept = {one: handler for one, handler in kept.items() if handler is signal.SIG_DFL}
+    try:
+        for one in kept:
+            signal.signal(one, stop)
+        yield
+    finally:
+        for one, handler in kept.items():
+            signal.signal(one, handler)
 
 
 def _say(message: Warning | str, *_: Any, **__: Any) -> None:

@@ -163,6 +163,8 @@ def _umask() -> int:
 
 def _list(folder: Path) -> tuple[str | None, list[str]] | None:
     """What an earlier call says its files are of, and their names; whoever edits the list cannot make it name a file elsewhere."""
+    if not (folder / LIST).is_file():
+        return None
     try:
         lines = (folder / LIST).read_text(encoding="utf-8").splitlines()
     except (OSError, ValueError):

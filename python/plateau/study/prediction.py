@@ -203,6 +203,8 @@ def predict(
     if points is not None:
         places, given = _rows(opened, points, held, is_curved)
     else:
+        if grid and grid > MOST_PLACES:
+            raise InputError(f"--grid {grid}: more than {MOST_PLACES} places; hold factors with --at")
         axes = {one.name: [held[one.name]] if one.name in held else _axis(one, grid, is_curved) for one in opened.factors}
         if np.prod([float(len(axis)) for axis in axes.values()]) > MOST_PLACES:
             raise InputError(f"--grid {grid}: more than {MOST_PLACES} places; hold factors with --at")
@@ -298,7 +300,10 @@ def _value(factor: Factor, said: Any, where: str, is_curved: bool) -> Any:
             raise InputError(f"{where}: {factor.name} = {said}: expected {what}")
         # What a scene has may be given in any unit that measures the same.
         is_own = unit == factor.study_unit
-        value = float(number[0]) * factor.one + factor.zero if is_own else in_si(number[0], unit, factor.unit or "1")
+        try:
+            value = float(number[0]) * factor.one + factor.zero if is_own else in_si(number[0], unit, factor.unit or "1")
+        except InputError as error:
+            raise InputError(f"{where}: {factor.name} = {said}: {error}") from None
     if not np.isfinite(value) or factor.logarithmic and value <= 0:
         raise InputError(f"{where}: {factor.name} = {said}: expected a {'number above 0' if factor.logarithmic else 'number'}")
     if not factor.is_range:

@@ -102,7 +102,10 @@ def in_si(number: str | float, unit: str, si: str, *, is_difference: bool = Fals
     InputError
         If the unit measures something else, or the number is too large.
     """
-    exact = Fraction(str(number))
+    # Exactly 1e-999999999 would be a number of as many digits.
+    if not math.isfinite(float(number)):
+        raise InputError(f"{number} {unit} is too large a number")
+    exact = Fraction(str(number)) if float(number) else Fraction(0)
     try:
         if unit in ("°C", "degC"):
             powers, value = scale_of("K")[0], exact + (0 if is_difference else Fraction(str(ICE)))

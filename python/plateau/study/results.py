@@ -315,7 +315,7 @@ def _opened(folder: Path, study: Path | None, directory: Path) -> Study:
     csv, hdf5 = folder / "results.csv", folder / "results.h5"
     for file in (csv, hdf5):
         if not file.is_file():
-            raise MissingFileError(f"{file}: there is no such file; plateau.collect makes it, or plateau.sweep with the runs")
+            raise MissingFileError(f"{file}: there is no such file; plateau sweep collect makes it, or plateau sweep run with the runs")
     try:
         table, data = read_table(csv), xarray.load_dataset(hdf5, engine="h5netcdf", driver_kwds=locking(hdf5))
         # In CSV, words such as nan and 007 look like numbers, and =1+1 has an apostrophe before it.
@@ -330,6 +330,10 @@ def _opened(folder: Path, study: Path | None, directory: Path) -> Study:
         def columns(role: str) -> dict[str, Any]:
             return {str(values.attrs["name"]): values.values for values in with_role[role]}
 
+        if taken := [(role, name) for role in ROLES[:2] for name in columns(role) if name in own]:
+            raise InputError(
+                f'{study or folder}: {taken[0][0]} "{taken[0][1]}": tables of runs have a column of this name; give it another one'
+            )
         asked = {str(table.get("name", table.get("dataset", "").rsplit("/")[-1])): table for table in document.get("response", [])}
         study_of = Study(
             title=str(data.attrs["title"]),
@@ -344,8 +348,10 @@ def _opened(folder: Path, study: Path | None, directory: Path) -> Study:
             path=study,
             directory=directory,
         )
+    except InputError:
+        raise
     except (OSError, ValueError, KeyError) as error:
-        raise InputError(f"{folder}: the results cannot be read: {error}; plateau.collect makes them anew") from error
+        raise InputError(f"{folder}: the results cannot be read: {error}; plateau sweep collect makes them anew") from error
     return _with_imported(study_of)
 
 

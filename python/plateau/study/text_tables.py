@@ -5,6 +5,7 @@ import io
 import itertools
 import math
 import re
+import stat
 import unicodedata
 import zipfile
 from collections.abc import Iterable, Sequence
@@ -131,6 +132,8 @@ def _is_odd(character: str) -> bool:
 def _text(path: Path) -> str:
     """The text of a file: UTF-8 or UTF-16, with byte order mark or without, else Windows-1252."""
     try:
+        if stat.S_ISCHR(path.stat().st_mode):
+            raise InputError(f"cannot read {path}: this is a device, expected a table in CSV")
         content = path.read_bytes()
     except FileNotFoundError:
         raise MissingFileError(f"{path}: there is no such table") from None
