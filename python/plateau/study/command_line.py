@@ -91,7 +91,7 @@ def main(arguments: Sequence[str]) -> int:
         print(f"plateau: {error.name} is not installed: pip install 'plateau-brake[all]'", file=sys.stderr)
         return 1
     except _Stopped as stopped:
-        return 128 + stopped.args[0]
+        return 128 + int(stopped.args[0])
     except KeyboardInterrupt:
         return 130
     except BrokenPipeError:
