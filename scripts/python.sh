@@ -33,7 +33,7 @@ answers=python/requirements.txt
 
 # Whether the environment .venv of the checkout, `root`, has these packages, and maybe more.
 has_answers() {
-    [ -f "$root/.venv/installed.txt" ] && head -c "$(($(wc -c <"$root/$answers")))" "$root/.venv/installed.txt" | cmp -s - "$root/$answers"
+    [ -x "$root/.venv/bin/python" ] && [ -f "$root/.venv/installed.txt" ] && head -c "$(($(wc -c <"$root/$answers")))" "$root/.venv/installed.txt" | cmp -s - "$root/$answers"
 }
 
 # Those packages, in .venv. To be called with its lock, .venv.lock.

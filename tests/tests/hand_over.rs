@@ -41,6 +41,25 @@ fn words_of_others_are_answered_by_them() {
 }
 
 #[test]
+fn who_asks_back_is_told_and_help_is_the_programs_own() {
+    let directory = WorkingDirectory::new();
+    for (name, text) in
+        [("bin/plateau-fit", "#!/bin/sh\nexec \"$PLATEAU_PROGRAM\" fit \"$@\"\n"), ("bin/plateau-help", ANSWER)]
+    {
+        directory.write(name, text);
+        fs::set_permissions(directory.path(name), fs::Permissions::from_mode(0o755)).unwrap();
+    }
+    let call = |word: &str| {
+        let mut command = directory.command([word]);
+        command.env("PATH", format!("{}:/usr/bin:/bin", directory.path("bin").display()));
+        run(command)
+    };
+    let outcome = call("fit");
+    assert!(outcome.status == Some(1) && outcome.stderr.contains("but asks this program again"), "{outcome:?}");
+    assert!(call("help").quiet_success().contains("Usage: plateau"));
+}
+
+#[test]
 fn without_who_answers_it_is_said_what_to_install() {
     for arguments in [&["fit", "study.toml"][..], &["compare", "a.toml"], &["sweep", "effects", "s.toml"]] {
         let outcome = call(&[], arguments);

@@ -12,6 +12,8 @@ use crate::message;
 
 /// Names this program to the one that answers, which calls it.
 const PROGRAM: &str = "PLATEAU_PROGRAM";
+/// Tells the one that answers, and what it calls, which word was handed over.
+const HANDED: &str = "PLATEAU_HANDED";
 /// Words that the Python package answers.
 const OF_PYTHON: [&str; 3] = ["sweep", "fit", "compare"];
 
@@ -30,8 +32,12 @@ pub fn hand_over(word: &str, arguments: impl IntoIterator<Item = OsString>) -> R
             "plateau-{word} answers this, and is neither beside the program nor on PATH; {package}"
         )));
     };
+    if env::var_os(HANDED).is_some_and(|handed| handed == word) {
+        let message = format!("{} does not answer `{word}` itself, but asks this program again", answering.display());
+        return Err(Failure::run(message));
+    }
     let mut command = Command::new(&answering);
-    command.args(arguments).args(message::level_as_option());
+    command.env(HANDED, word).args(arguments).args(message::level_as_option());
     if let Ok(program) = env::current_exe() {
         command.env(PROGRAM, program);
     }

@@ -45,7 +45,7 @@ fn main() -> ExitCode {
 fn elsewhere() -> Option<ExitCode> {
     let mut arguments = std::env::args_os().skip(1);
     let word = arguments.next().filter(|word| hand_over::is_word(word))?.into_string().ok()?;
-    let is_own = arguments::Arguments::command().find_subcommand(&word).is_some();
+    let is_own = word == "help" || arguments::Arguments::command().find_subcommand(&word).is_some();
     let handed = !is_own && hand_over::answering(&word).is_some();
     handed.then(|| hand_over::hand_over(&word, arguments).map_or_else(Failure::report, |()| ExitCode::SUCCESS))
 }
