@@ -10,6 +10,9 @@ root=$PWD
 . scripts/lock.sh
 . scripts/python.sh
 
+# R and its packages are some 500 MB.
+only_when_long 'installs R'
+
 have_r() {
     Rscript -e 'for (one in c("car", "emmeans", "jsonlite", "lme4", "lmerTest", "MASS", "mvtnorm")) loadNamespace(one)' >/dev/null 2>&1
 }
