@@ -98,12 +98,6 @@ pub fn plain(number: f64) -> String {
     if readable { format!("{number}") } else { format!("{number:e}") }
 }
 
-/// A level of confidence in per cent. What is below 1 is below 100 %.
-pub fn confidence(level: f64) -> String {
-    let text = rounded(100.0 * level, 4);
-    if text == "100" && level < 1.0 { format!("{} %", 100.0 * level) } else { format!("{text} %") }
-}
-
 /// So many of a thing, of which there may be one.
 pub fn count(number: usize, one: &str) -> String {
     if number == 1 { format!("1 {one}") } else { format!("{number} {one}s") }

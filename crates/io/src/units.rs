@@ -124,19 +124,6 @@ pub fn parse_as(text: &str, si_unit: &str) -> Result<f64, String> {
     finite(shift_decimal(number, scale.tens) * scale.times / scale.over, || "it is not finite".to_owned())
 }
 
-/// Reads a difference of two such quantities, such as an uncertainty: 5 degC are 5 K of it.
-///
-/// # Errors
-/// As [`parse_as`].
-pub fn parse_difference_as(text: &str, si_unit: &str) -> Result<f64, String> {
-    match split_number(text.trim()) {
-        Some((number, unit)) if si_unit == "K" && is_celsius(unit) => {
-            finite(shift_decimal(number, 0), || "it is not finite".to_owned())
-        }
-        _ => parse_as(text, si_unit),
-    }
-}
-
 /// What 0 of a unit is in the SI unit: 273.15 K for degrees Celsius, else 0.
 pub fn zero_of(unit: &str) -> f64 {
     if is_celsius(unit) { CELSIUS } else { 0.0 }

@@ -1,7 +1,7 @@
 //! Whether a run is still running in, when it had run in, and over which time its contact area is averaged, in words.
 
-use plateau_core::observe::drift::{Drift, LEAST_PULSES, Trend};
-use plateau_core::observe::running_in::{NotDefined, RUN_IN};
+use plateau_core::observe::drift::{Drift, LEAST_PULSES, RUN_IN, Trend};
+use plateau_core::observe::running_in::NotDefined;
 use plateau_core::observe::window_mean::WindowMean;
 use plateau_io::number;
 use plateau_io::run_file::NoDrift;

@@ -2,9 +2,10 @@
 
 use serde::Serialize;
 
-use super::running_in::RUN_IN;
 use super::window_mean::{Cumulative, LEAST_PARTS, ROUNDING, WindowMean, error_of_mean};
 
+/// The fraction of the value at the end with which a run counts as run in.
+pub const RUN_IN: f64 = 0.9;
 /// Standard errors from which on a change is not taken for chance: 2.5 times in a hundred in either direction.
 const BEYOND_CHANCE: f64 = 2.0;
 /// Parts of what is missing at a fraction of the last value, and with no fraction a tenth: a change of less than the first counts as none,

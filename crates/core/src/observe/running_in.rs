@@ -6,8 +6,6 @@ use thiserror::Error;
 use super::drift::{Drift, LEAST_PULSES, Trend, beside_a_line};
 use super::window_mean::{Cumulative, LEAST_PARTS};
 
-/// The fraction of the value at the end with which a run counts as run in.
-pub const RUN_IN: f64 = 0.9;
 /// Windows of a run, at most: each is a sixtieth of it, 50 s of the 3000 s of the paper.
 const WINDOWS: usize = 60;
 /// Windows from which on there is a history.

@@ -40,16 +40,6 @@ impl Bounds {
     pub const NONE: Self = Self { least: f64::NEG_INFINITY, most: f64::INFINITY };
     const NOT_NEGATIVE: Self = Self { least: 0.0, ..Self::NONE };
     const FRACTION: Self = Self { least: 0.0, most: 1.0 };
-
-    /// An interval without what cannot be.
-    pub fn clipped(&self, ends: [f64; 2]) -> [f64; 2] {
-        ends.map(|end| end.clamp(self.least, self.most))
-    }
-
-    /// Whether a value can be.
-    pub fn hold(&self, value: f64) -> bool {
-        (self.least..=self.most).contains(&value)
-    }
 }
 
 impl Response {
@@ -90,8 +80,6 @@ mod tests {
         assert_eq!(bounds("balance_residual", Question::End), Bounds::NONE);
         assert_eq!(bounds("", Question::Imported("m2")), Bounds::NOT_NEGATIVE);
         assert_eq!(bounds("", Question::Imported("1")), Bounds::NONE);
-        assert_eq!(Bounds::FRACTION.clipped([-0.1, 1.2]), [0.0, 1.0]);
-        assert_eq!(Bounds::NOT_NEGATIVE.clipped([0.5, 1.2]), [0.5, 1.2]);
     }
 
     #[test]

@@ -78,20 +78,6 @@ impl Factor {
         }
     }
 
-    /// Where a value lies, −1 at the lower end and 1 at the upper one; none for words and for more than two levels.
-    pub fn coded(&self, level: &Level) -> Option<f64> {
-        let (low, high, logarithmic) = match &self.values {
-            Values::Range { low, high, logarithmic } => (low.number?, high.number?, *logarithmic),
-            Values::Levels(levels) => {
-                let [low, high] = levels.as_slice() else { return None };
-                (low.number?, high.number?, false)
-            }
-        };
-        let scale = |value: f64| if logarithmic { libm::log(value) } else { value };
-        let (low, high, value) = (scale(low), scale(high), scale(level.number?));
-        Some((2.0 * value - (low + high)) / (high - low))
-    }
-
     /// In the unit of both ends, so that a study of "20 N" to "60 N" has "40 N" between them.
     fn between(&self, low: &Level, high: &Level, coded: f64, logarithmic: bool) -> Option<Level> {
         let (from, to, unit) = one_unit(low, high)?;
@@ -163,11 +149,6 @@ impl Factor {
         kind.is_some_and(|kind| matches!(kind, Kind::Integer(_) | Kind::CountOr(_)))
     }
 
-    /// Whether a name means this factor: its own, or one of its keys.
-    pub fn is_called(&self, name: &str) -> bool {
-        self.names().any(|own| own == name)
-    }
-
     /// What it may be called: its own name, and its keys.
     pub fn names(&self) -> impl Iterator<Item = &str> {
         std::iter::once(&self.name).chain(&self.keys).map(String::as_str)
@@ -225,8 +206,7 @@ mod tests {
         let fraction = factor("plateaus.captured_fraction", ["0.01", "1.0"], true);
         let middle = fraction.at(Setting::Coded(0.0)).unwrap();
         assert!((middle.number.unwrap() - 0.1).abs() < 1e-15);
-        assert!(fraction.coded(&middle).unwrap().abs() < 1e-15);
-        assert_eq!(load.coded(&load.at(Setting::Coded(0.5)).unwrap()), Some(0.5));
+        assert_eq!(load.at(Setting::Coded(0.5)).unwrap().number, Some(50.0));
     }
 
     #[test]
@@ -249,7 +229,7 @@ mod tests {
         let middle = humidity.at(Setting::Coded(0.0)).unwrap();
         assert_eq!((middle.label.as_str(), middle.number), ("40 %RH", Some(40.0)));
         assert_eq!(humidity.parse("30").label, "30 %RH");
-        assert_eq!(humidity.coded(&humidity.parse("30 %RH")), Some(-0.5));
+        assert_eq!(humidity.parse("30 %RH").number, Some(30.0));
         assert_eq!(humidity.parse("30 g/kg").number, None);
         assert_eq!(
             Factor::in_another_unit(&[level("1 MPa"), level("2 MPa"), level("500 kPa")]),

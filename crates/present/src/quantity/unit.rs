@@ -155,12 +155,6 @@ impl Unit {
         Self { symbol: symbol.into(), per_si: found.per_si * 10_f64.powi(-power), ..found }
     }
 
-    /// The same where values stand beside their differences: kelvins for temperatures.
-    pub fn readable_with_differences(si: &str, largest: f64) -> Self {
-        let found = Self::readable(si, largest);
-        if found.offset == 0.0 { found } else { Self::itself(si) }
-    }
-
     /// An SI unit that has no other.
     fn itself(si: &str) -> Self {
         Self { symbol: si.to_owned().into(), per_si: 1.0, offset: 0.0 }
@@ -238,9 +232,6 @@ mod tests {
     fn differences_of_temperatures_have_no_offset() {
         let celsius = Unit::usual("K");
         assert_eq!((celsius.value(273.15), celsius.difference(20.0)), (0.0, 20.0));
-        let kelvin = Unit::readable_with_differences("K", 400.0);
-        assert_eq!((kelvin.symbol.as_ref(), kelvin.value(400.0)), ("K", 400.0));
-        assert_eq!(Unit::readable_with_differences("Pa", 4e6), Unit::readable("Pa", 4e6));
         // What pages without temperatures are told is as it was.
         assert_eq!(serde_json::to_string(&Unit::PERCENT).unwrap(), r#"{"symbol":"%","scale":100.0}"#);
         let told = serde_json::to_string(&celsius).unwrap();
