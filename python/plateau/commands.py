@@ -11,7 +11,8 @@ import xarray
 from plateau.errors import InputError, InputTypeError, PlateauWarning
 from plateau.program import call, file_name, listen
 from plateau.run_file import open_run
-from plateau.study.results import Study, open_study
+from plateau.study.data import Study
+from plateau.study.results import open_study
 from plateau.times import seconds
 
 # A path, as usual in Python.
@@ -212,7 +213,7 @@ def command(*arguments: Any, json: bool = False, progress: bool | None = None, *
     for name, given in options.items():
         flag = f"--{name.replace('_', '-')}"
         if isinstance(given, Mapping):
-            given = [f"{key}={_toml(value)}" for key, value in given.items()]
+            given = [f"{key}={toml_of(value)}" for key, value in given.items()]
         if given is True:
             line.append(flag)
         elif given is not None and given is not False:
@@ -237,13 +238,18 @@ def _scene_arguments(changes: Mapping[str, Any] | None, workers: int | str | Non
     for key, value in (changes or {}).items():
         if not isinstance(key, str) or "=" in key:
             raise InputError(f"set: {key!r} is not a key of a scene, expected text such as \"operation.normal_force\"")
-        arguments += ["--set", f"{key}={_toml(value)}"]
+        arguments += ["--set", f"{key}={toml_of(value)}"]
     if workers is not None:
         arguments += ["--workers", str(workers)]
     return arguments
 
 
-def _toml(value: Any) -> str:
+def toml_document(table: Mapping[str, Any]) -> str:
+    """A table in the form of TOML, a line for each key."""
+    return "".join(f"{dumps(key)} = {toml_of(value)}\n" for key, value in table.items())
+
+
+def toml_of(value: Any) -> str:
     """A value in the form of TOML."""
     if hasattr(value, "tolist"):  # of NumPy
         value = value.tolist()
@@ -254,7 +260,7 @@ def _toml(value: Any) -> str:
     if isinstance(value, str | os.PathLike):
         return dumps(os.fspath(value), ensure_ascii=False)
     if isinstance(value, Mapping):
-        return "{ " + ", ".join(f"{dumps(key)} = {_toml(part)}" for key, part in value.items()) + " }"
+        return "{ " + ", ".join(f"{dumps(key)} = {toml_of(part)}" for key, part in value.items()) + " }"
     if isinstance(value, list | tuple):
-        return "[" + ", ".join(map(_toml, value)) + "]"
+        return "[" + ", ".join(map(toml_of, value)) + "]"
     raise InputTypeError(f"{value!r} is not a value of a scene: expected text, a number, True or False, a list or a dictionary")

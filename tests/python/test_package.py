@@ -105,12 +105,12 @@ class Runs(InFolder):
         values = ["5 N", 'a "quoted" \\ text', "µm", True, False, 7, 5e-14, 2.5, ["0 s", "10 s"], {"tolerance": 0.01, "max": 100}]
         for value in [*values, [{"a b": 1}, [True]], (1, 2)]:
             expected = list(value) if isinstance(value, tuple) else value
-            found = tomllib.loads(f"value = {commands._toml(value)}")["value"]
+            found = tomllib.loads(f"value = {commands.toml_of(value)}")["value"]
             self.assertEqual((type(found), found), (type(expected), expected))
-        self.assertEqual(tomllib.loads(f"value = {commands._toml(np.array([1.5, 2.0]))}")["value"], [1.5, 2.0])
-        self.assertEqual(commands._toml(np.float64(0.1)), "0.1")
+        self.assertEqual(tomllib.loads(f"value = {commands.toml_of(np.array([1.5, 2.0]))}")["value"], [1.5, 2.0])
+        self.assertEqual(commands.toml_of(np.float64(0.1)), "0.1")
         with self.assertRaisesRegex(TypeError, "not a value of a scene") as caught:
-            commands._toml(object())
+            commands.toml_of(object())
         self.assertIsInstance(caught.exception, plateau.PlateauError)
 
     def test_arguments_of_a_wrong_type(self):

@@ -19,9 +19,9 @@ sys.path.insert(0, str(HERE / "coverage"))
 from effects import SEEDS_STUDY, cube, number, of_runs, simulated, study_of, word
 from plateau.errors import InputError, PlateauWarning
 from plateau.study.analysis import effects
+from plateau.study.data import Factor, Response, Study
 from plateau.study.level_differences import levels
 from plateau.study.model import fitted
-from plateau.study.results import Factor, Response, Study
 from plateau.study.seed_counts import seeds_needed, sets_for
 
 

@@ -18,9 +18,10 @@ sys.path.insert(0, str(Path(__file__).parent / "coverage"))
 import fit as experiments
 from plateau.errors import InputError
 from plateau.study.calibration import calibrated, fit, plan, products, profile, told
+from plateau.study.data import Factor, Response
 from plateau.study.likelihood import Components, Likelihood, Runs, Target
 from plateau.study.measured import Measurement, import_values
-from plateau.study.results import Factor, Response, analysed
+from plateau.study.results import analysed
 from scipy import stats
 
 PLAIN = Response("", "1", "", "none", -np.inf, np.inf, {})

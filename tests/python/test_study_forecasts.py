@@ -15,9 +15,9 @@ import pandas
 from scipy import stats
 
 from plateau.errors import InputError
+from plateau.study.data import Factor, Response
 from plateau.study.prediction import predict
 from plateau.study.process import Equations, Process
-from plateau.study.results import Factor, Response
 from plateau.study.surrogate import surrogates
 from plateau.study.variance_parts import sensitivity, sobol
 

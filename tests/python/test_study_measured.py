@@ -16,9 +16,11 @@ ROOT = Path(__file__).resolve().parent.parent.parent
 os.environ.setdefault("PLATEAU_PROGRAM", str(ROOT / "plateau"))
 
 from plateau.errors import InputError, MissingFileError
-from plateau.study.measured import import_values, measurements, read_points
+from plateau.study.data import Response
+from plateau.study.measured import import_values, measurements
+from plateau.study.prediction import _rows
 from plateau.study.quantities import quantity
-from plateau.study.results import Response, analysed
+from plateau.study.results import analysed
 from plateau.study.text_tables import read_text_table, written_table
 
 STUDY = """
@@ -203,9 +205,9 @@ class ImportTest(InFolder):
         self.assertIn("0.5", self.kept())
 
     def test_points_of_a_table_are_in_the_units_of_the_study(self):
-        points = read_points(self.file("batch;humidity [%RH];note\n'=B;35,5;x\nA;20 %RH;\n"), analysed(self.study()))
+        points, _ = _rows(analysed(self.study()), self.file("batch;humidity [%RH]\n'=B;35,5\nA;20 %RH\n"), {}, True)
         self.assertEqual(points.to_dict("list"), {"humidity": [35.5, 20.0], "batch": ["=B", "A"]})
-        self.refused('/t.csv:2: "humidity [N]" is "5"', read_points, self.file("humidity [N],batch\n5,A\n"), analysed(self.study()))
+        self.refused('/t.csv:2: "humidity [N]" is "5"', _rows, analysed(self.study()), self.file("humidity [N],batch\n5,A\n"), {}, True)
 
     def test_what_is_wrong_changes_nothing(self):
         head = "humidity,batch,friction\n"

@@ -12,10 +12,11 @@ import warnings
 import numpy as np
 import pandas
 from plateau.errors import InputError, RunFailed
+from plateau.study.data import Factor, Response, Study
 from plateau.study.goals import Goal, Limit, Problem, beyond_runs, overall
 from plateau.study.improvement import expected_improvement, improved
 from plateau.study.optimum import canonical, optimize
-from plateau.study.results import Factor, Response, Study, analysed
+from plateau.study.results import analysed
 from plateau.study.runs import make_runs, written
 from plateau.study.units import parsed, unit_for
 from scipy import stats

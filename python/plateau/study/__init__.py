@@ -6,7 +6,8 @@
 
 from typing import TYPE_CHECKING, Any
 
-from plateau.study.results import Factor, Response, Study, open_study
+from plateau.study.data import Factor, Response, Study
+from plateau.study.results import open_study
 
 if TYPE_CHECKING:
     from plateau.study.analysis import effects

@@ -27,8 +27,9 @@ from plateau.study.model import (
     misfit,
     named,
 )
-from plateau.study.results import Numbers, Response, Study, analysed
-from plateau.study.units import Unit, unit_for
+from plateau.study.data import Numbers, Response, Study
+from plateau.study.results import analysed
+from plateau.study.units import Unit, unit_for, with_digits
 
 # Powers of a response between which the best is looked for, and distance of those at which the search begins.
 POWERS, STEP = (-5.0, 5.0), 0.05
@@ -559,18 +560,6 @@ def _report(one: ResponseEffects) -> dict[str, Any]:
     return report | {"cautions": one.cautions}
 
 
-def _digits(value: float, width: float = np.nan) -> str:
-    """A number with as many digits as half the width of its interval leaves; four without."""
-    if not np.isfinite(value):
-        return ""
-    if not np.isfinite(width) or width <= 0:
-        return f"{value:.4g}".replace("-", "−")
-    places, largest = 1 - int(np.floor(np.log10(width))), max(abs(value), width)
-    if not 1e-3 <= largest < 1e6:
-        return f"{value:.{max(int(np.floor(np.log10(largest))) + places, 0)}e}".replace("-", "−")
-    return f"{round(value, places):.{max(places, 0)}f}".replace("-", "−")
-
-
 def told(one: ResponseEffects) -> tuple[list[str], list[list[str]], list[str]]:
     """What is said of a response, the rows of its table with their heads, and what stands below it."""
     if (fit := one.fit) is None:
@@ -589,14 +578,14 @@ def told(one: ResponseEffects) -> tuple[list[str], list[list[str]], list[str]]:
     p, why = fit.lack_of_fit[2], "nothing is left for it" if fit.scatter[0].freedom else "no point has replicates"
     quality.append(f"lack of fit not tested: {why}" if np.isnan(p) else f"lack of fit p {'< 0.0001' if p < 1e-4 else f'= {p:.2g}'}")
     error = f"error {'' if np.isnan(fit.error) else 'from '}{summary['error_from']}"
-    error += f"; residual {_digits(fit.error**0.5 * scale)}{symbol}" if np.isfinite(fit.error) else ""
+    error += f"; residual {with_digits(fit.error**0.5 * scale)}{symbol}" if np.isfinite(fit.error) else ""
     if fit.residual_freedom == 0:
         error += ", so no interval can be told: give [replicates] of seeds, such as those of the disc, or a smaller model, such as "
         error += "--model main"
     for _, margins in table[["margin_of_error", "simultaneous_margin_of_error"]].dropna().head(1).iterrows():
-        error += ", margin of error {}, simultaneous {} (Lenth)".format(*(_digits(value * scale) for value in margins))
+        error += ", margin of error {}, simultaneous {} (Lenth)".format(*(with_digits(value * scale) for value in margins))
     missing = f", {fit.missing} without a response" if fit.missing else ""
-    lines += [", ".join(quality), f"{len(fit.values)} runs{missing}, mean {_digits(fit.mean * scale)}{symbol}, {error}"]
+    lines += [", ".join(quality), f"{len(fit.values)} runs{missing}, mean {with_digits(fit.mean * scale)}{symbol}, {error}"]
     lines += [f"all results are those of {one.title}"] if one.response.transform != "none" else []
     lines += [f"caution: {caution}" for caution in one.cautions] + ([one.advice] if one.advice else [])
     interval = f"{100 * fit.confidence:.4g} % interval"
@@ -605,11 +594,11 @@ def told(one: ResponseEffects) -> tuple[list[str], list[list[str]], list[str]]:
     left_over = table[table["factors"].isna() & table["term"].isin(["residual", *parts])]
     for row in pandas.concat([one.terms.sort_values("share", ascending=False, kind="stable"), left_over]).to_dict("records"):
         width = (row["high"] - row["low"]) / 2 * scale
-        interval = " … ".join(_digits(row[end] * scale, width) for end in ("low", "high")) if np.isfinite(width) else ""
+        interval = " … ".join(with_digits(row[end] * scale, width) for end in ("low", "high")) if np.isfinite(width) else ""
         freedom = f"{row['error_freedom']:.3g}" if np.isfinite(row["error_freedom"]) else ""
         name = ("  " if row["term"] in parts else "") + row["term"]
-        cells = [name, _digits(row["effect"] * scale, width), interval, f"{100 * row['share']:.1f} %"]
-        rows.append([*cells, str(row["degrees_of_freedom"]), freedom, _digits(row["f"]), _digits(row["p"])])
+        cells = [name, with_digits(row["effect"] * scale, width), interval, f"{100 * row['share']:.1f} %"]
+        rows.append([*cells, str(row["degrees_of_freedom"]), freedom, with_digits(row["f"]), with_digits(row["p"])])
     aliased = [(row["term"], ", ".join(row["aliased_with"])) for row in table.to_dict("records") if row["aliased_with"]]
     below = [f"{term} cannot be told from {others}" for term, others in aliased]
     for units, products in one.equations.items():

@@ -14,10 +14,11 @@ from scipy import optimize, stats
 
 from plateau.errors import InputError, RunFailed
 from plateau.program import call
+from plateau.study.data import Factor, Numbers, Study
 from plateau.study.likelihood import NEAR, SETTLED, Likelihood, Runs, Target
 from plateau.study.measured import measurements
 from plateau.study.output_folder import plain
-from plateau.study.results import Factor, Numbers, Study, analysed
+from plateau.study.results import analysed
 from plateau.study.runs import finished, made_study
 from plateau.study.units import unit_for
 

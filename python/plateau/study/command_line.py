@@ -22,7 +22,7 @@ from plateau.study.output_folder import plain, put, refuse_earlier, refuse_file,
 if TYPE_CHECKING:
     import pandas
 
-    from plateau.study.results import Study
+    from plateau.study.data import Study
 
 MODELS = ("main", "interactions", "full", "quadratic")
 # Columns of effects.csv that come first, as ever.
@@ -332,10 +332,12 @@ def _opened(given: argparse.Namespace, name: str, of: str | None = None) -> tupl
 
 def _inputs(study: "Study", *others: Path | None) -> tuple[Path, ...]:
     """Files that are never replaced: the study and what it names."""
+    from plateau.study.kept_values import file_of
+
     here = Path(study.path or ".").parent
     tables = [study.document, *study.document.get("response", [])]
     named = [here / table[key] for table in tables for key in ("base", "file", "measured_file") if isinstance(table.get(key), str)]
-    return tuple(path for path in (study.path, *named, study.directory / "imported.csv", *others) if path is not None)
+    return tuple(path for path in (study.path, *named, file_of(study), *others) if path is not None)
 
 
 def _options(given: argparse.Namespace, *names: str) -> dict[str, Any]:
@@ -382,14 +384,14 @@ def _predict(given: argparse.Namespace) -> str:
 
 
 def _optimize(given: argparse.Namespace) -> str:
-    from plateau.study.figures import optimum_figures, saved
+    from plateau.study.figures import saved
     from plateau.study.optimum import optimize
 
     study, folder, _ = _opened(given, "optimum")
     asked = _options(given, "maximize", "minimize", "target", "limit", "limit_on", "hold", "importance", "model", "terms", "confidence")
     found = optimize(study, **asked, runs=given.runs or 0, **_options(given, "confirm", "jobs", "workers"), progress=_progress(given))
     settings = found.settings.set_index("factor")["text"].rename(str.strip)
-    files = {"optimum.csv": csv_of(found.table.assign(**settings)), **saved(optimum_figures(found, given.contour))}
+    files = {"optimum.csv": csv_of(found.table.assign(**settings)), **saved(found.figures(given.contour))}
     said = _told(given, found, folder, write(folder, files, force=given.force, inputs=_inputs(study)))
     if found.keeps_limits:
         return said
@@ -398,12 +400,12 @@ def _optimize(given: argparse.Namespace) -> str:
 
 
 def _sensitivity(given: argparse.Namespace) -> str:
-    from plateau.study.figures import saved, sensitivity_figures
+    from plateau.study.figures import saved
     from plateau.study.variance_parts import sensitivity
 
     study, folder, _ = _opened(given, "sensitivity")
     found = sensitivity(study, confidence=given.confidence)
-    files = {"sensitivity.csv": csv_of(found.table), **saved(sensitivity_figures(found))}
+    files = {"sensitivity.csv": csv_of(found.table), **saved(found.figures())}
     return _told(given, found, folder, write(folder, files, force=given.force, inputs=_inputs(study)), study.title)
 
 
@@ -416,14 +418,14 @@ def _import(given: argparse.Namespace) -> str:
 
 def _fit(given: argparse.Namespace) -> str:
     from plateau.study.calibration import fit, plan
-    from plateau.study.figures import fit_figures, saved
+    from plateau.study.figures import saved
 
     if given.plan:
         planned = plan(given.study)
         return _json(planned.document()) if given.json else planned.text()
     study, folder, of = _opened(given, "fit", "fit")
     found = fit(study, **_options(given, "jobs", "workers", "retry"), progress=_progress(given))
-    files = {**{name: csv_of(table) for name, table in found.tables.items()}, **saved(fit_figures(found))}
+    files = {**{name: csv_of(table) for name, table in found.tables.items()}, **saved(found.figures())}
     return _told(given, found, folder, write(folder, files, of=of, force=given.force, inputs=_inputs(study)))
 
 

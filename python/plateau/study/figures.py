@@ -13,7 +13,7 @@ from scipy import stats
 
 from plateau.errors import MissingPackageError
 from plateau.looks import APART, CHOSEN, LINES, QUIET
-from plateau.study.results import Factor, Numbers, Response
+from plateau.study.data import Factor, Numbers, Response
 from plateau.study.units import Unit, unit_for, unit_of
 
 if TYPE_CHECKING:

@@ -12,8 +12,8 @@ import pandas
 from scipy import optimize, stats
 
 from plateau.errors import InputError
+from plateau.study.data import Numbers, Study
 from plateau.study.prediction import _assignment, _axis, _beyond, _factor, _value
-from plateau.study.results import Numbers, Study
 from plateau.study.surrogate import Surrogate
 from plateau.study.units import parsed
 

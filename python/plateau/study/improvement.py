@@ -9,8 +9,8 @@ import pandas
 from scipy import stats
 
 from plateau.errors import InputError
+from plateau.study.data import Numbers, Study
 from plateau.study.goals import POINTS, ROUNDING, Problem, Start, beyond_runs, minimize, overall
-from plateau.study.results import Numbers, Study
 from plateau.study.surrogate import surrogates
 
 # Draws of responses, and the improvement, as part of the way to the goal, that is worth no run.

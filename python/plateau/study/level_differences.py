@@ -12,8 +12,9 @@ from scipy import optimize, stats
 
 from plateau.errors import InputError
 from plateau.study.analysis import usable
+from plateau.study.data import Study
 from plateau.study.model import Fitted, NothingToFit, fitted
-from plateau.study.results import Study, analysed
+from plateau.study.results import analysed
 from plateau.study.units import unit_for
 
 

@@ -12,9 +12,9 @@ from functools import cached_property
 import numpy as np
 from scipy import linalg, optimize, special, stats
 
+from plateau.study.data import Numbers
 from plateau.study.measured import Measurement
 from plateau.study.process import Equations, Process
-from plateau.study.results import Numbers
 
 # Variance over the runs, as a part of that of the measurement, below which a component of a series is left out; most components.
 LEAST, MOST = 0.02, 10

@@ -12,7 +12,7 @@ import pandas
 from scipy import stats
 
 from plateau.errors import InputError
-from plateau.study.results import Factor, Numbers, Response, Study
+from plateau.study.data import Factor, Numbers, Response, Study
 
 # Factors of a term, by index, in ascending order; a square names its factor twice, and the term of centre points has none.
 Term = tuple[int, ...]
@@ -437,7 +437,7 @@ class Fitted:
         columns = {name: np.where(told, values, np.nan) for name, values in zip(names, (*mean, *one), strict=True)}
         return pandas.DataFrame({"value": rows @ self.coefficients, **columns, "leverage": leverage}, index=points.index)
 
-    def forecast(self, points: pandas.DataFrame, confidence: float | None = None) -> pandas.DataFrame:
+    def forecast(self, points: pandas.DataFrame, confidence: float | None = None, apart: Any = 0.0) -> pandas.DataFrame:
         """Forecasts with intervals, no narrower than errors at points that were left out support.
 
         Parameters
@@ -446,6 +446,8 @@ class Fitted:
             A column for each factor, SI units or words.
         confidence : float, optional
             That of the fit unless given.
+        apart : array_like of float
+            Standard deviations of what the values may be wrong by besides, on the scale of the fit.
 
         Returns
         -------
@@ -458,6 +460,7 @@ class Fitted:
         mean = stats.t.ppf(tail, found["mean_freedom"]) * np.sqrt(found["mean"])
         # With few seeds the mean has fewer degrees of freedom than one run; its interval is no longer for that.
         run = np.maximum(stats.t.ppf(tail, found["run_freedom"]) * np.sqrt(found["run"]), mean)
+        mean, run = (np.hypot(reach, stats.norm.ppf(tail) * apart) for reach in (mean, run))
         ends = {"value": 0.0, "mean_low": -mean, "mean_high": mean, "run_low": -run, "run_high": run}
         columns = {name: self.response.back(found["value"] + end) for name, end in ends.items()}
         return pandas.DataFrame({**columns, "leverage": found["leverage"]}, index=points.index)

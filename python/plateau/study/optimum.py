@@ -12,11 +12,12 @@ import pandas
 
 from plateau.errors import InputError, PlateauWarning
 from plateau.study.analysis import together, usable
+from plateau.study.data import Numbers, Study
 from plateau.study.goals import ROUNDING, Goal, Limit, Problem, axes_of, beyond_runs, overall, wanted
 from plateau.study.improvement import improved, is_run
 from plateau.study.output_folder import plain
 from plateau.study.prediction import INTERVALS, _beyond, _forecast, _no_curve
-from plateau.study.results import Numbers, Study, analysed
+from plateau.study.results import analysed
 from plateau.study.runs import make_runs
 from plateau.study.surrogate import Surrogate, surrogates
 from plateau.study.units import Unit, unit_of

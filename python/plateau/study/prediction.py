@@ -13,14 +13,15 @@ import numpy as np
 import pandas
 
 from plateau.errors import InputError, InputTypeError, PlateauWarning
-from plateau.study.analysis import _digits, together, usable
-from plateau.study.measured import _factor_value, _head
+from plateau.study.analysis import together, usable
+from plateau.study.data import Factor, Study
+from plateau.study.kept_values import factor_value
 from plateau.study.output_folder import plain
 from plateau.study.quantities import in_si
-from plateau.study.results import Factor, Study, analysed
+from plateau.study.results import analysed
 from plateau.study.surrogate import Surrogate, surrogates
 from plateau.study.text_tables import read_text_table
-from plateau.study.units import NUMBER, unit_for, unit_of
+from plateau.study.units import NUMBER, unit_for, unit_of, with_digits, with_unit
 
 # Most places of a grid; coded values that differ by less are the same.
 MOST_PLACES, SAME = 1_000_000, 1e-9
@@ -60,14 +61,14 @@ class Prediction:
         """A row for each place: what ``--output`` writes."""
         # As in results.csv: numbers in the unit of the study.
         numbers = {factor.name: factor.in_study_unit(self.places[factor.name]) for factor in self.study.factors if factor.is_number}
-        heads = {factor.name: _head(factor.name, factor.study_unit) for factor in self.study.factors}
+        heads = {factor.name: with_unit(factor.name, factor.study_unit) for factor in self.study.factors}
         wide = self.places.assign(**numbers).rename(columns=heads)
         names = ["value", *INTERVALS] + ["confirmed", "confirmed_error", "confirmed_runs"] * bool(self.table["confirmed_runs"].any())
         for response in self.study.responses:
             rows = self.table[self.table["response"] == response.name]
             for name in names:
                 words = {"value": "", "confirmed_error": "confirmed standard error"}.get(name, name.replace("_", " "))
-                head = _head(f"{response.name} {words}".strip(), "" if name == "confirmed_runs" else response.unit)
+                head = with_unit(f"{response.name} {words}".strip(), "" if name == "confirmed_runs" else response.unit)
                 wide[head] = rows[name].to_numpy()
         at_place = self.table.groupby("place", sort=False)
         return wide.assign(beyond=at_place["beyond"].first().to_numpy(), cautions=[_joined(own["cautions"]) for _, own in at_place])
@@ -124,12 +125,12 @@ class Prediction:
                 ends = [unit.value(row[name]) for name in INTERVALS]
                 # Digits follow the interval.
                 width = (ends[1] - ends[0]) / 2 if np.isfinite(ends[0]) else np.nan
-                shown = [_digits(value, width) for value in (unit.value(row["value"]), *ends, unit.value(row["confirmed"]))]
+                shown = [with_digits(value, width) for value in (unit.value(row["value"]), *ends, unit.value(row["confirmed"]))]
                 pairs = [f"{shown[at]} … {shown[at + 1]}" if shown[at] else "–" for at in (1, 3)]
                 cell = {"response": ", ".join(filter(None, [row["response"], unit.symbol])), "predicted": shown[0] or "–"}
                 cell |= {f"{level} of means": pairs[0], f"{level} of runs": pairs[1], "": row["beyond"]}
                 if rows["confirmed_runs"].any():
-                    error = _digits(row["confirmed_error"] * unit.per_si, row["confirmed_error"] * unit.per_si)
+                    error = with_digits(row["confirmed_error"] * unit.per_si, row["confirmed_error"] * unit.per_si)
                     cell["confirmed by runs"] = f"{shown[5]} ± {error or '–'} ({row['confirmed_runs']} runs)"
                 cells.append(cell)
             lines += ["  " + line.rstrip() for line in pandas.DataFrame(cells).to_string(index=False).splitlines()]
@@ -337,7 +338,7 @@ def _rows(study: Study, points: Any, held: dict[str, Any], is_curved: bool) -> t
         table = read_text_table(Path(points))
         for column, count in enumerate([len(table.rows)] * len(table.heads)):
             factor = _factor(study, table.named(column)[0], f"{table.path}: column {table.heads[column]!r}")
-            values = ((_factor_value(table, row, column, factor), table.place(row)) for row in range(count))
+            values = ((factor_value(table, row, column, factor), table.place(row)) for row in range(count))
             columns[factor.name] = [_value(factor, value, place, is_curved) for value, place in values]
     rest = {one.name: held.get(one.name, _axis(one, None, is_curved)[0]) for one in study.factors}
     places = pandas.DataFrame({one.name: columns.get(one.name, rest[one.name]) for one in study.factors}, index=range(count))

@@ -1,7 +1,6 @@
 """Runs at any points of a study: made by the program, kept in the journal of the study, none of them twice."""
 
 import csv
-import json
 import math
 import os
 import tempfile
@@ -12,10 +11,11 @@ from typing import Any
 
 import pandas
 
-from plateau.commands import _toml
+from plateau.commands import toml_document
 from plateau.errors import InputError, PlateauError, PlateauWarning, RunFailed
 from plateau.program import call
-from plateau.study.results import Factor, Study, analysed
+from plateau.study.data import Factor, Study
+from plateau.study.results import analysed
 
 # Keys of a study file that say where its points are, and the settings of a fit.
 OF_DESIGNS = {"resolution", "generators", "points", "trajectories", "levels", "alpha", "centre_points", "seed", "fit"}
@@ -69,7 +69,7 @@ def made_study(study: Study, points: pandas.DataFrame, progress: bool | None, re
     # The program knows results by their scenes, so a study of the same folder finds them in its journal.
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "points.toml"
-        path.write_text("".join(f"{json.dumps(key)} = {_toml(value)}\n" for key, value in _document(study).items()), encoding="utf-8")
+        path.write_text(toml_document(_document(study)), encoding="utf-8")
         with path.with_suffix(".csv").open("w", newline="", encoding="utf-8") as file:
             lines = csv.writer(file)
             lines.writerow(factor.name for factor in study.factors)

@@ -13,10 +13,11 @@ import numpy as np
 import pandas
 from scipy import stats
 
-from plateau.commands import _toml
+from plateau.commands import toml_document, toml_of
 from plateau.errors import InputError, PlateauWarning
 from plateau.program import call, file_name
-from plateau.study.results import Numbers, Response, Study
+from plateau.study.data import Numbers, Response, Study
+from plateau.study.output_folder import plain
 from plateau.study.runs import finished
 from plateau.study.units import unit_for
 
@@ -100,7 +101,7 @@ class Comparison:
     def document(self) -> dict[str, Any]:
         """The JSON of ``plateau compare --json``; None where there is no number."""
         tables = {"differences": self.table, "means": self.means, "runs": self.runs}
-        rows = {name: table.astype(object).where(table.notna(), None).to_dict("records") for name, table in tables.items()}
+        rows = {name: plain(table.to_dict("records")) for name, table in tables.items()}
         scenes = [{"name": name, "file": file} for name, file in self.scenes.items()]
         return {"scenes": scenes, "reference": scenes[0]["name"], "confidence": self.confidence, **rows, "cautions": self.cautions}
 
@@ -152,7 +153,7 @@ def compare(
         raise InputError("compare: expected two scenes or more, one seed or more, and a confidence between 0 and 1")
     stems = [file.stem for file in files]
     names = [stem if stems.count(stem) == 1 else f"{stem}-{number}" for number, stem in enumerate(stems, 1)]
-    changes = [f"{key}={_toml(value)}" for key, value in set.items()] if isinstance(set, Mapping) else list(set)
+    changes = [f"{key}={toml_of(value)}" for key, value in set.items()] if isinstance(set, Mapping) else list(set)
     flags = [text for change in changes for text in ("--set", change)]
     with warnings.catch_warnings():
         # They are given when the scenes are run.
@@ -176,7 +177,7 @@ def compare(
         # A title is no part of what a run is known by.
         study = {"version": 1, "title": name, "base": os.path.abspath(file), "set": changes, "directory": ".", "order": "standard"}
         study |= {"design": "csv", "file": "seeds.csv", "factor": [{"name": "seed", "key": keys or "title"}], "response": tables}
-        (folder / "study.toml").write_text("".join(f"{key} = {_toml(value)}\n" for key, value in study.items()), encoding="utf-8")
+        (folder / "study.toml").write_text(toml_document(study), encoding="utf-8")
         made[name] = finished(folder / "study.toml", progress, jobs=jobs, workers=workers)
     if len({scene["operation"].get("duration") for scene in resolved}) > 1:
         cautions.append("the scenes have different durations, so values at the end are at different times")

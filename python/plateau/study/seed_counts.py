@@ -10,7 +10,7 @@ from scipy import stats
 
 from plateau.errors import InputError
 from plateau.study.analysis import Effects, effects
-from plateau.study.results import Study
+from plateau.study.data import Study
 from plateau.study.units import parsed
 
 # Beyond this nobody runs them.

@@ -5,14 +5,12 @@ from functools import cached_property
 
 import numpy as np
 import pandas
-from scipy import stats
 
 from plateau.errors import InputError
-from plateau.study.analysis import _digits
+from plateau.study.data import Numbers, Response, Study
 from plateau.study.model import Fitted, NothingToFit, fitted
 from plateau.study.process import Process
-from plateau.study.results import Numbers, Response, Study
-from plateau.study.units import unit_for
+from plateau.study.units import unit_for, with_digits
 
 WORDS = {"main": "main effects", "interactions": "main effects and interactions", "full": "interactions of all orders"}
 # Designs that do not fill their ranges; in a table all numbers have to have more different values than these.
@@ -81,7 +79,7 @@ class Surrogate:
             if np.isnan(error):
                 return "not known"
             return (
-                f"{_digits(error * unit.per_si, error * unit.per_si)} {unit.symbol}".strip() + f" (Q² {1 - (error / deviation) ** 2:.3f})"
+                f"{with_digits(error * unit.per_si, error * unit.per_si)} {unit.symbol}".strip() + f" (Q² {1 - (error / deviation) ** 2:.3f})"
             )
 
         errors = self._loo_errors if self.process is not None else self._loo_errors[:1]
@@ -89,7 +87,7 @@ class Surrogate:
         if len(errors) > 1:
             is_known = not np.isnan(errors).any()
             said += "; the smaller one is taken" if is_known else "; what is not known cannot be compared, and the other one is taken"
-        ends = [_digits(unit.value(end), unit.per_si * deviation / 10) for end in (values.min(), values.max())]
+        ends = [with_digits(unit.value(end), unit.per_si * deviation / 10) for end in (values.min(), values.max())]
         said += f"; the runs have {ends[0]} to {ends[1]} {unit.symbol}".rstrip()
         if self.loo_error >= deviation:
             said += "; it foretells a point no better than the mean of the runs does: these runs do not tell the response"
@@ -140,16 +138,11 @@ class Surrogate:
 
     def forecast(self, points: pandas.DataFrame, confidence: float = 0.95) -> pandas.DataFrame:
         """Forecasts with intervals: ``value``, ``mean_low``, ``mean_high``, ``run_low``, ``run_high``, in SI units, and ``leverage``."""
+        if not self.takes_process or self.process is None:
+            return self._fit.forecast(points, confidence, self._apart(points))
         leverage, names = self._fit.leverage(points), ["value", "mean_low", "mean_high", "run_low", "run_high"]
-        if self.takes_process and self.process is not None:
-            found = self.process.intervals(self.rows(points), confidence)
-            found[:, 3], found[:, 4] = np.minimum(found[:, 3], found[:, 1]), np.maximum(found[:, 4], found[:, 2])
-        else:
-            told, tail = self._fit.variances(points), 0.5 + 0.5 * confidence
-            reach = [stats.t.ppf(tail, told[f"{of}_freedom"]) * np.sqrt(told[of]) for of in ("mean", "run")]
-            apart = stats.norm.ppf(tail) * self._apart(points)
-            mean, run = (np.hypot(each, apart) for each in (reach[0], np.maximum(*reach)))
-            found = told["value"].to_numpy()[:, None] + np.column_stack([np.zeros(len(told)), -mean, mean, -run, run])
+        found = self.process.intervals(self.rows(points), confidence)
+        found[:, 3], found[:, 4] = np.minimum(found[:, 3], found[:, 1]), np.maximum(found[:, 4], found[:, 2])
         return pandas.DataFrame(self.response.back(found), columns=names, index=points.index).assign(leverage=leverage)
 
 

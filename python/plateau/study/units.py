@@ -96,3 +96,20 @@ def with_error(number: float, error: float = math.nan) -> str:
         return f"{number:.5g}"
     places = min(max(1 - math.floor(math.log10(float(f"{error:.1e}"))), 0), 9) if error > 0 else 4
     return f"{number:.{places}f} ± {error:.{places}f}"
+
+
+def with_digits(value: float, width: float = math.nan) -> str:
+    """A number with as many digits as half the width of its interval leaves; four without."""
+    if not np.isfinite(value):
+        return ""
+    if not np.isfinite(width) or width <= 0:
+        return f"{value:.4g}".replace("-", "−")
+    places, largest = 1 - int(np.floor(np.log10(width))), max(abs(value), width)
+    if not 1e-3 <= largest < 1e6:
+        return f"{value:.{max(int(np.floor(np.log10(largest))) + places, 0)}e}".replace("-", "−")
+    return f"{round(value, places):.{max(places, 0)}f}".replace("-", "−")
+
+
+def with_unit(name: str, unit: str) -> str:
+    """The head of a column: the name, and the unit in brackets if there is one."""
+    return name if unit in ("", "1") else f"{name} [{unit}]"

@@ -17,13 +17,14 @@ import pandas
 from scipy import stats
 
 from plateau.errors import PlateauWarning
-from plateau.study.analysis import _digits, together, usable
+from plateau.study.analysis import together, usable
+from plateau.study.data import Numbers, Study
 from plateau.study.model import Fitted
 from plateau.study.output_folder import plain
 from plateau.study.process import Process
-from plateau.study.results import Numbers, Study, analysed
+from plateau.study.results import analysed
 from plateau.study.surrogate import Surrogate, surrogates
-from plateau.study.units import unit_of
+from plateau.study.units import unit_of, with_digits
 
 # Places of the sample, functions that are drawn, and cosines of each.
 ROWS, FUNCTIONS, COSINES = 1024, 100, 200
@@ -99,7 +100,7 @@ class Sensitivity:
                 names = {"mean_size": "mean size μ*", "standard_error": "its error", "mean": "mean", "deviation": "deviation σ"}
                 error = rows["standard_error"].to_numpy() * unit.per_si
                 cells = {
-                    said: [_digits(v * unit.per_si, e) for v, e in zip(rows[name], error, strict=True)] for name, said in names.items()
+                    said: [with_digits(v * unit.per_si, e) for v, e in zip(rows[name], error, strict=True)] for name, said in names.items()
                 }
                 shown = pandas.DataFrame({"factor": rows["factor"], **cells, "effects": rows["effects"]})
             else:

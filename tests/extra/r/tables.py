@@ -18,7 +18,7 @@ from plateau.errors import PlateauWarning
 from plateau.study.analysis import effects
 from plateau.study.level_differences import levels
 from plateau.study.model import Fitted
-from plateau.study.results import Study
+from plateau.study.data import Study
 from test_study_effects import recorded
 
 

@@ -23,9 +23,10 @@ from scipy import stats
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[3] / "python"))
 
+from plateau.study.data import Factor, Response, Study
 from plateau.study.level_differences import levels
 from plateau.study.model import Fitted, fitted
-from plateau.study.results import Factor, Response, Study, analysed
+from plateau.study.results import analysed
 
 RATIOS, SEEDS = (0.0, 0.5, 1.0, 2.0), (2, 3, 4, 5)
 # Results of data/studies/seeds.toml.

@@ -14,9 +14,9 @@ from scipy.stats import qmc
 sys.path.insert(0, str(Path(__file__).resolve().parents[3] / "python"))
 
 from plateau.study.calibration import best_with, calibrated
+from plateau.study.data import Response
 from plateau.study.likelihood import Runs, Target
 from plateau.study.measured import Measurement
-from plateau.study.results import Response
 
 SEEDS, POINTS, NOISE, OF_SEEDS, ERROR = 3, 10, 0.02, 0.03, 0.05
 TIMES = np.linspace(0.0, 23.0, 24)

@@ -16,8 +16,8 @@ from scipy.stats import qmc
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[3] / "python"))
 
+from plateau.study.data import Factor, Response, Study
 from plateau.study.process import Process
-from plateau.study.results import Factor, Response, Study
 from plateau.study.surrogate import surrogates
 from plateau.study.variance_parts import sensitivity, sobol
 
@@ -48,17 +48,23 @@ def function(kind, factors, random):
     return lambda x: (2.0 / 300.0) ** 0.5 * np.cos(x @ (drawn / lengths).T + phase).sum(-1)
 
 
+def experiment(kind, factors, points, seeds, random):
+    """Places, sets of seeds and values of runs by lot; places that are asked for, with the truth and one more run there."""
+    response = function(kind, factors, random)
+    place = 2.0 * qmc.LatinHypercube(factors, seed=random).random(points) - 1.0
+    x, group = np.repeat(place, seeds, axis=0), np.tile(np.arange(seeds), points)
+    y = response(x) + (seeds > 1) * OF_SEEDS * random.standard_normal(seeds)[group] + NOISE * random.standard_normal(len(x))
+    asked = random.uniform(-1.0, 1.0, (PLACES, factors))
+    truth = response(asked)
+    run = truth + OF_SEEDS * random.standard_normal(PLACES) + NOISE * random.standard_normal(PLACES)
+    return x, group, y, asked, truth, run
+
+
 def process_coverage(kind, factors, points, seeds, functions, number=20261124):
     """Shares of intervals of means and of runs that have the truth in them."""
     random, covered = np.random.default_rng(number), []
     for _ in range(functions):
-        response = function(kind, factors, random)
-        place = 2.0 * qmc.LatinHypercube(factors, seed=random).random(points) - 1.0
-        x, group = np.repeat(place, seeds, axis=0), np.tile(np.arange(seeds), points)
-        y = response(x) + (seeds > 1) * OF_SEEDS * random.standard_normal(seeds)[group] + NOISE * random.standard_normal(len(x))
-        asked = random.uniform(-1.0, 1.0, (PLACES, factors))
-        truth = response(asked)
-        run = truth + OF_SEEDS * random.standard_normal(PLACES) + NOISE * random.standard_normal(PLACES)
+        x, group, y, asked, truth, run = experiment(kind, factors, points, seeds, random)
         _, low, high, run_low, run_high = Process(x, y, group).intervals(asked, 0.95).T
         covered.append([((low <= truth) & (truth <= high)).mean(), ((run_low <= run) & (run <= run_high)).mean()])
     return np.mean(covered, axis=0)
@@ -85,13 +91,7 @@ def surrogate_coverage(kind, factors, points, seeds, functions, number=20261124)
     """By what was taken (0 the polynomial, 1 the process): shares of intervals that have the truth in them, and how often."""
     random, covered = np.random.default_rng(number), ([], [])
     for _ in range(functions):
-        response = function(kind, factors, random)
-        place = 2.0 * qmc.LatinHypercube(factors, seed=random).random(points) - 1.0
-        x, group = np.repeat(place, seeds, axis=0), np.tile(np.arange(seeds), points)
-        y = response(x) + (seeds > 1) * OF_SEEDS * random.standard_normal(seeds)[group] + NOISE * random.standard_normal(len(x))
-        asked = random.uniform(-1.0, 1.0, (PLACES, factors))
-        truth = response(asked)
-        run = truth + OF_SEEDS * random.standard_normal(PLACES) + NOISE * random.standard_normal(PLACES)
+        x, group, y, asked, truth, run = experiment(kind, factors, points, seeds, random)
         (found,) = surrogates(study_of(x, y, group))
         told = found.forecast(pandas.DataFrame(asked, columns=[f"x{at + 1}" for at in range(factors)]))
         is_mean, is_run = told["mean_low"].le(truth) & told["mean_high"].ge(truth), told["run_low"].le(run) & told["run_high"].ge(run)

@@ -18,9 +18,10 @@ from scipy.stats import qmc
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[3] / "python"))
 
+from plateau.study.data import Factor, Response, Study
 from plateau.study.goals import Goal, Problem, beyond_runs
 from plateau.study.improvement import improved, with_processes
-from plateau.study.results import Factor, Response, Study, analysed
+from plateau.study.results import analysed
 from plateau.study.scene_comparison import difference
 
 # Branin's function upside down: three equal peaks of -0.397887.
