@@ -11,7 +11,7 @@ skip() {
 
 begin_steps() {
     step_log=$(mktemp) || exit 1
-    trap 'rm -f "$step_log"' EXIT
+    trap 'rm -f "$step_log" "$step_log.beside"; [ -z "$beside_process" ] || kill "$beside_process" 2>/dev/null' EXIT
     trap 'exit 130' INT
     trap 'exit 143' TERM
     passed=0
@@ -19,6 +19,17 @@ begin_steps() {
     skipped=0
     failed_names=
     skip_reasons=
+    beside=
+    beside_process=
+}
+
+# begin_beside NAME COMMAND...: begins a step beside the others; run_step of this name waits for its end.
+begin_beside() {
+    beside=$1
+    beside_began=$(date +%s)
+    shift
+    ("$@") >"$step_log.beside" 2>&1 </dev/null &
+    beside_process=$!
 }
 
 # run_step NAME COMMAND...: one line with the outcome and the time; all of the output only if it failed.
@@ -26,9 +37,17 @@ run_step() {
     step_name=$1
     shift
     printf '%-10s ' "$step_name"
-    began=$(date +%s)
-    ("$@") >"$step_log" 2>&1 </dev/null
-    step_status=$?
+    if [ "$step_name" = "$beside" ]; then
+        began=$beside_began
+        wait "$beside_process"
+        step_status=$?
+        beside_process=
+        mv -f "$step_log.beside" "$step_log"
+    else
+        began=$(date +%s)
+        ("$@") >"$step_log" 2>&1 </dev/null
+        step_status=$?
+    fi
     seconds=$(($(date +%s) - began))
     case $step_status in
         0)
