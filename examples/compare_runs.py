@@ -12,10 +12,10 @@ instead; the weights fall linearly to nothing on both sides.
 import argparse
 import pathlib
 
+import matplotlib.pyplot as plt
 import pandas
 
 import plateau
-from plateau.plots import new_axes
 
 AT_END = ["filled_fraction", "disc_secondary", "emitted"]
 
@@ -34,7 +34,7 @@ for name, run in runs.items():
     rows[name] = means | {f"{series} [{run[f'series/{series}'].attrs['units']}]": end[series] for series in AT_END}
 print(pandas.DataFrame.from_dict(rows, orient="index").to_string(float_format="{:.6g}".format))
 
-axes = new_axes(figsize=(7, 4))
+figure, axes = plt.subplots(figsize=(7, 4), layout="constrained")
 span = min(row["time [s]"] for row in rows.values()) / 20
 for name, run in runs.items():
     run.plateau.plot(arguments.series, ax=axes)
@@ -46,4 +46,4 @@ axes.relim()
 axes.autoscale()
 axes.set_title(f"weighted mean over {2 * span:.3g} s")
 axes.legend()
-axes.figure.savefig(arguments.output, dpi=150)
+figure.savefig(arguments.output, dpi=150)

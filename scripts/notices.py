@@ -18,8 +18,6 @@ ROOT = Path(__file__).resolve().parent.parent
 # What a crate says of its licence, and of libraries in C that it brings along.
 PATTERNS = ("LICEN[CS]E*", "COPYING*", "NOTICE*", "UNLICENSE*", "COPYRIGHT*")
 LIBRARIES = {"hdf5-metno-src": ["ext/hdf5/LICENSE"], "libz-sys": ["src/zlib/LICENSE"]}
-# What comes with Plateau itself.
-ASSETS = {"DejaVu Sans": "fonts/LICENSE-DejaVu", "uPlot": "assets/uplot/LICENSE-uPlot"}
 
 
 def cargo(*arguments):
@@ -54,7 +52,6 @@ def main():
     if len(crates) < len(wanted):
         sys.exit(f"{len(wanted) - len(crates)} of {len(wanted)} crates are not where cargo says")
     works = [(f"{crate['name']} {crate['version']}", text) for crate in crates if crate["source"] for text in texts(crate)]
-    works += [(name, next(ROOT.glob("crates/*/" + file)).read_text()) for name, file in ASSETS.items()]
 
     # Texts that differ in their line breaks alone are equal.
     shared = {}

@@ -14,7 +14,6 @@ fn main() {
     println!("cargo::rustc-env=PLATEAU_REVISION={revision}");
     println!("cargo::rerun-if-changed=../core/src");
     println!("cargo::rerun-if-changed=../io/src");
-    println!("cargo::rerun-if-changed=../present/src");
     println!("cargo::rerun-if-changed=../run/src");
     println!("cargo::rerun-if-changed=src");
     if let Some(log) = git(&["rev-parse", "--git-path", "logs/HEAD"]) {

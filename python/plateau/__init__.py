@@ -13,7 +13,22 @@
 All quantities are in SI units. The guide is docs/python.md of the project.
 """
 
+import os
+import sys
 from importlib.metadata import PackageNotFoundError, version
+
+from plateau.errors import MissingPackageError
+
+try:
+    import numpy  # noqa: F401
+    import pandas  # noqa: F401
+    import xarray  # noqa: F401
+except ModuleNotFoundError as error:
+    missing = f"{error.name} is not installed: pip install 'plateau-brake[all]'"
+    # Of the words of the program, which are run as scripts or with -m, nobody wants a traceback.
+    if sys.argv[0] == "-m" or os.path.basename(sys.argv[0]).startswith("plateau-"):
+        sys.exit(f"plateau: {missing}")
+    raise MissingPackageError(missing) from error
 
 from plateau import study
 from plateau.commands import check, collect, command, run, sweep
@@ -21,18 +36,22 @@ from plateau.errors import (
     InputError,
     InputTypeError,
     MissingFileError,
-    MissingPackageError,
     PlateauError,
     PlateauWarning,
     RunFailed,
     RunStopped,
     UnknownNameError,
 )
+from plateau.exports import export
+from plateau.figures import plot
+from plateau.figures.accuracy import plot_accuracy
+from plateau.figures.surfaces import plot_surfaces
 from plateau.map_accessor import MapAccessor
 from plateau.means import Mean
 from plateau.program import find_program
 from plateau.run_accessor import RunAccessor
 from plateau.run_file import open_run
+from plateau.run_report import report
 from plateau.study import Study, open_study
 
 try:
@@ -57,9 +76,14 @@ __all__ = [
     "check",
     "collect",
     "command",
+    "export",
     "find_program",
     "open_run",
     "open_study",
+    "plot",
+    "report",
+    "plot_accuracy",
+    "plot_surfaces",
     "run",
     "study",
     "sweep",

@@ -206,8 +206,8 @@ def command(*arguments: Any, json: bool = False, progress: bool | None = None, *
     >>> [surface["name"] for surface in found]
     ['disc', 'pin']
     >>> print(command("plot", "quick.h5", figure=["status", "heights"], output="figures", force=True), end="")
-    wrote figures/status.png: Status of disc and pin
-    wrote figures/heights.png: Height distributions
+    wrote figures/status.png: Status of the cells, with parts of the area
+    wrote figures/heights.png: Distribution of the heights, positive toward the other body, and Abbott-Firestone curve
     """
     line: list[Path] = [argument if isinstance(argument, os.PathLike) else str(argument) for argument in arguments]
     for name, given in options.items():

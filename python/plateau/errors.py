@@ -32,6 +32,10 @@ class PlateauWarning(UserWarning):
         super().__init__(in_python(str(message)))
 
 
+class PlateauNote(PlateauWarning):
+    """What is worth knowing, and no reason for doubt."""
+
+
 class PlateauError(RuntimeError):
     """The program could not do what was asked.
 

@@ -5,7 +5,6 @@ from typing import Any
 import numpy as np
 import xarray
 
-from plateau import plots
 from plateau.errors import InputError, UnknownNameError
 from plateau.times import seconds
 
@@ -180,7 +179,7 @@ class MapAccessor:
         ax : matplotlib.axes.Axes, optional
             The axes to draw in; by default new axes, for an unrolled ring several below each other.
         **options
-            Options of ``pcolormesh``, such as ``cmap``.
+            Options of ``imshow``, or of ``pcolormesh`` for a ring and a round pin, such as ``cmap``, ``vmin`` and ``norm``.
 
         Returns
         -------
@@ -192,9 +191,12 @@ class MapAccessor:
         >>> import plateau
         >>> axes = plateau.open_run("quick.h5")["disc/height"].plateau.plot()
         >>> axes.get_xlabel()
-        'arc length, mm; the disc moves →'
+        'arc length at the mean radius, mm; the disc moves →'
         """
         cells = self.at_time(time)
         if set(cells.dims) != {self._angle, "radius"}:
             raise InputError(f"dimensions {cells.dims}: expected a map at one moment, with an angle and the radius")
-        return plots.draw_map(cells, self.status_names, polar=polar, ax=ax, **options)
+        # As figures need matplotlib, which is not loaded before something is drawn.
+        from plateau.figures.maps import draw_one
+
+        return draw_one(cells, self.status_names, polar, ax, options)

@@ -1,14 +1,17 @@
 """What runs can do: ``run.plateau``."""
 
+import functools
 import tomllib
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 import pandas
 import xarray
 
-from plateau import plots
 from plateau.errors import InputError, UnknownNameError
+from plateau.figures import FIGURES, plot
+from plateau.figures.series import draw_series
 from plateau.map_accessor import MapAccessor
 from plateau.means import Array, Mean, last_tenth, mean_between
 from plateau.run_file import array
@@ -19,6 +22,44 @@ TOTALS = frozenset(
     "contact_area_integral sliding_distance contact_time road_distance worn_pin worn_resin worn_whole_pin lost_pin worn_disc emitted "
     "deposited_pin deposited_disc returned friction_work heat_lost emitted_mass pm10_mass pm25_mass particle_number".split()
 )
+
+
+class RunPlot:
+    """Draws a run: called, series; and each figure of docs/figures.md by its name, such as ``run.plateau.plot.contact_area()``.
+
+    The figures have the options of `plateau.plot`.
+    """
+
+    def __init__(self, run: xarray.DataTree) -> None:
+        self._run = run
+
+    def __call__(self, *series: str, ax: Any = None) -> Any:
+        """Draws series against time.
+
+        Parameters
+        ----------
+        *series : str
+            Names of series with equal units; by default the contact area of single steps and of the last revolution.
+        ax : matplotlib.axes.Axes, optional
+            The axes to draw in; by default new axes.
+
+        Returns
+        -------
+        matplotlib.axes.Axes
+        """
+        return draw_series(self._run, series, ax)
+
+    def __getattr__(self, name: str) -> Callable[..., Any]:
+        if name not in dir(self):
+            raise AttributeError(f"no figure is called {name!r}, there are: {', '.join(_figures())}")
+        return functools.partial(plot, self._run, name.replace("_", "-"))
+
+    def __dir__(self) -> list[str]:
+        return [*super().__dir__(), *_figures()]
+
+
+def _figures() -> list[str]:
+    return [name.replace("-", "_") for name in FIGURES]
 
 
 @xarray.register_datatree_accessor("plateau")
@@ -216,27 +257,20 @@ class RunAccessor:
             }
         )
 
-    def plot(self, *series: str, ax: Any = None) -> Any:
-        """Draws series against time; needs matplotlib.
-
-        Parameters
-        ----------
-        *series : str
-            Names of series with equal units; by default the contact area of single steps and of the last revolution.
-        ax : matplotlib.axes.Axes, optional
-            The axes to draw in; by default new axes.
-
-        Returns
-        -------
-        matplotlib.axes.Axes
+    @property
+    def plot(self) -> "RunPlot":
+        """Draws series, or figures: see `RunPlot`.
 
         Examples
         --------
         >>> import plateau
-        >>> plateau.open_run("quick.h5").plateau.plot().get_ylabel()
+        >>> run = plateau.open_run("quick.h5")
+        >>> run.plateau.plot("filled_fraction").get_ylabel()
+        'filled fraction, %'
+        >>> run.plateau.plot.contact_area().axes[0].get_ylabel()
         'contact area, mm²'
         """
-        return plots.draw_series(self._run, series, ax=ax)
+        return RunPlot(self._run)
 
     def _values(self, name: str) -> Array:
         return np.asarray(array(self._run, name).values, dtype=np.float64)

@@ -91,7 +91,9 @@ def open_run(path: str | os.PathLike[str]) -> xarray.DataTree:
     try:
         with h5py.File(path, "r", swmr=True, **options) as file:
             _state(file, path)
-            return _complete_part(file)
+            found = _complete_part(file)
+            found.encoding["source"] = path
+            return found
     except PlateauError:
         raise
     except (OSError, KeyError, RuntimeError) as error:
@@ -150,6 +152,14 @@ def array(run: xarray.DataTree, path: str) -> xarray.DataArray:
     if not isinstance(found, xarray.DataArray):
         raise UnknownNameError(f"{path} is a group of the run: expected a variable")
     return found
+
+
+def source(run: xarray.DataTree) -> str:
+    """The path of a run's file, from the working directory if it is in there; the title of a run without a file."""
+    if not (path := str(run.encoding.get("source") or "")):
+        return str(run.attrs.get("title", "run"))
+    near = os.path.relpath(path)
+    return path if near.startswith(os.pardir) else near
 
 
 def _unreadable(path: str | os.PathLike[str], error: Exception) -> InputError:

@@ -5,7 +5,6 @@ import json
 import shutil
 import subprocess
 import tempfile
-import time
 import urllib.request
 
 FLAGS = [
@@ -19,7 +18,6 @@ FLAGS = [
     "--disable-sync",
     "--disable-dev-shm-usage",
 ]
-KEYS = {"left": "\ue012", "up": "\ue013", "right": "\ue014", "down": "\ue015", "tab": "\ue004", "escape": "\ue00c"}
 PATIENCE = 60  # s
 
 
@@ -74,76 +72,21 @@ class Browser:
         """A command of Chromium's own protocol."""
         return self.ask("/goog/cdp/execute", {"cmd": command, "params": parameters})
 
-    def open(self, path, width=1200, height=900, phone=False, dark=False):
-        """Opens a file, as a double click on it does, and waits until it is drawn."""
-        self.devtools("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1, mobile=phone)
+    def open(self, path, width=1200, media="screen", dark=False):
+        """Opens a file, as a double click on it does."""
+        self.devtools("Emulation.setDeviceMetricsOverride", width=width, height=900, deviceScaleFactor=1, mobile=width < 600)
         features = [{"name": "prefers-color-scheme", "value": "dark" if dark else "light"}]
-        self.devtools("Emulation.setEmulatedMedia", features=features)
+        self.devtools("Emulation.setEmulatedMedia", media=media, features=features)
         self.ask("/url", {"url": path.as_uri()})
-        self.wait("document.documentElement.dataset.ready === 'yes'")
 
     def run(self, script, *arguments):
-        """The value of an expression on the page, in which `arguments` may be used; promises are waited for."""
+        """The value of an expression on the page, in which `arguments` may be used."""
         return self.ask("/execute/sync", {"script": f"return ({script})", "args": list(arguments)})
-
-    def wait(self, condition):
-        """Waits until an expression on the page is true."""
-        end = time.monotonic() + PATIENCE
-        while not self.run(condition):
-            if time.monotonic() > end:
-                raise AssertionError(f"never true: {condition}; {self.console()}")
-            time.sleep(0.02)
 
     def console(self):
         """What the page wrote to the console since the last look."""
         return [entry["message"] for entry in self.ask("/se/log", {"type": "browser"})]
 
-    def hover(self, selector, across=0.5, down=0.5):
-        """Moves the mouse to a place within the first element of a selector, scrolled into view."""
-        place = self.run(
-            "(() => { const e = document.querySelector(arguments[0]); e.scrollIntoView({block: 'center', behavior: 'instant'});"
-            " const b = e.getBoundingClientRect();"
-            " return [b.left + arguments[1] * b.width, b.top + arguments[2] * b.height]; })()",
-            selector, across, down,
-        )
-        self._mouse([self._move(*place)])
-        return place
-
-    def drag(self, selector, begin, end):
-        """Drags the mouse across an element, from one part of its width to another."""
-        start = self.hover(selector, begin)
-        stop = self.run("document.querySelector(arguments[0]).getBoundingClientRect().left"
-                        " + arguments[1] * document.querySelector(arguments[0]).clientWidth", selector, end)
-        down, up = ({"type": kind, "button": 0} for kind in ("pointerDown", "pointerUp"))
-        self._mouse([down, self._move((start[0] + stop) / 2, start[1]), self._move(stop, start[1]), up])
-
-    def drag_down(self, selector, begin, end):
-        """Drags the mouse along an element, from one part of its height to another."""
-        x, start = self.hover(selector, 0.5, begin)
-        height = self.run("document.querySelector(arguments[0]).getBoundingClientRect().height", selector)
-        down, up = ({"type": kind, "button": 0} for kind in ("pointerDown", "pointerUp"))
-        self._mouse([down, self._move(x, start + (end - begin) * height), up])
-
-    def move(self, x, y):
-        """Moves the mouse to a place of the window."""
-        self._mouse([self._move(x, y)])
-
-    @staticmethod
-    def _move(x, y):
-        return {"type": "pointerMove", "x": round(x), "y": round(y), "duration": 20}
-
-    def _mouse(self, actions):
-        self.ask("/actions", {"actions": [{"type": "pointer", "id": "mouse", "actions": actions}]})
-
-    def press(self, *keys):
-        """Presses keys, one after the other, wherever the focus is."""
-        keys = [KEYS.get(key, key) for key in keys]
-        actions = [{"type": kind, "value": key} for key in keys for kind in ("keyDown", "keyUp")]
-        self.ask("/actions", {"actions": [{"type": "key", "id": "keyboard", "actions": actions}]})
-
-    def screenshot(self, path):
-        """Writes a picture of the whole page."""
-        size = self.run("[document.documentElement.scrollWidth, document.documentElement.scrollHeight]")
-        clip = {"x": 0, "y": 0, "width": size[0], "height": min(size[1], 16000), "scale": 1}
-        shot = self.devtools("Page.captureScreenshot", format="png", captureBeyondViewport=True, clip=clip)
-        path.write_bytes(base64.b64decode(shot["data"]))
+    def pdf(self):
+        """The page as it is printed."""
+        return base64.b64decode(self.devtools("Page.printToPDF", preferCSSPageSize=True)["data"])

@@ -285,12 +285,12 @@ class Programs(InFolder):
     def test_matplotlib_is_asked_for_by_figures_alone(self):
         text = (
             "import sys, plateau\nassert not any(name.startswith('matplotlib') for name in sys.modules)\n"
-            "sys.modules['matplotlib.pyplot'] = None\nfrom plateau.plots import new_axes\n"
-            "try:\n    new_axes()\nexcept plateau.PlateauError as error:\n    assert isinstance(error, ImportError)\n    print(error)\n"
+            "sys.modules['matplotlib'] = None\n"
+            "try:\n    plateau.plot([])\nexcept plateau.PlateauError as error:\n    assert isinstance(error, ImportError)\n    print(error)\n"
         )
         environment = os.environ | {"PYTHONPATH": str(ROOT / "python")}
         done = subprocess.run([sys.executable, "-c", text], env=environment, capture_output=True, text=True, timeout=120)
-        self.assertEqual(done.stdout, "figures need matplotlib: pip install 'plateau-brake[plot]', or pip install matplotlib\n", done.stderr)
+        self.assertEqual(done.stdout, "figures need matplotlib: pip install 'plateau-brake[all]', or pip install matplotlib\n", done.stderr)
 
 
 class Studies(InFolder):

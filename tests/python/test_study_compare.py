@@ -3,6 +3,7 @@
 import json
 import os
 import pathlib
+import re
 import tempfile
 import unittest
 import warnings
@@ -88,9 +89,13 @@ class Scenes(unittest.TestCase):
             smooth = folder / "smooth.toml"
             smooth.write_text(f'version = 1\nextends = {json.dumps(str(QUICK))}\n[disc.surface]\nsynthetic.rms_height = "1 um"\n')
             options = {"set": {"operation.duration": "2 s"}, "output": folder / "out"}
+            with warnings.catch_warnings(record=True) as said:
+                warnings.simplefilter("always")
+                found = compare([QUICK, smooth], 3, **options)
+            begins = r'(\w+): response "running-in time" has no value'
+            self.assertEqual([re.match(begins, str(one.message))[1] for one in said], ["quick", "smooth"])
             with warnings.catch_warnings():
                 warnings.simplefilter("ignore")
-                found = compare([QUICK, smooth], 3, **options)
                 journal = {path: path.stat().st_mtime_ns for path in (folder / "out").rglob("journal/*")}
                 again = compare([QUICK, smooth], 3, **options)
             self.assertTrue(journal)

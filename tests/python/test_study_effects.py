@@ -6,6 +6,7 @@ import math
 import sys
 import unittest
 import warnings
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -187,6 +188,24 @@ class Seeds(unittest.TestCase):
         self.assertEqual(sets_for(1.0, 0.5), 18)
         self.assertEqual(sets_for(1.0, 100.0), 2)
         self.assertEqual(sets_for(1.0, 0.0), math.inf)
+
+    def test_what_a_number_is_in_is_said(self) -> None:
+        runs = cube(2)
+        runs["y"] = np.random.default_rng(4).normal(size=len(runs))
+        study = study_of([number(name, -1.0, 1.0) for name in "ABC"], runs)
+        study = replace(study, responses=[replace(study.responses[0], unit="m2")])
+        with self.assertWarnsRegex(PlateauWarning, "y: half_width = 0.5 is taken in m2; give text with a unit"):
+            bare = seeds_needed(study, 0.5).table
+        self.assertEqual(bare["sets"].tolist(), seeds_needed(study, "500000 mm2").table["sets"].tolist())
+
+    def test_centre_points_of_an_equation_are_explained(self) -> None:
+        runs = pandas.concat([cube(2), pandas.DataFrame({"A": 0.0, "B": 0.0, "C": 0.0, "replicate": [1, 2]})], ignore_index=True)
+        runs["y"] = np.random.default_rng(4).normal(size=len(runs))
+        text = effects(study_of([number(name, -1.0, 1.0, is_range=True) for name in "ABC"], runs)).text()
+        self.assertIn(" [centre points]", text)
+        self.assertIn("[centre points] is 1 at the centre points", text)
+
+    def test_pilots(self) -> None:
         runs = cube(3)
         runs["y"] = np.random.default_rng(4).normal(size=len(runs)) + 3.0 * runs["A"]
         study = study_of([number(name, -1.0, 1.0) for name in "ABC"], runs)

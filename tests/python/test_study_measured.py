@@ -19,7 +19,7 @@ from plateau.errors import InputError, MissingFileError
 from plateau.study.data import Response
 from plateau.study.measured import import_values, measurements
 from plateau.study.prediction import _rows
-from plateau.study.quantities import quantity
+from plateau.units import quantity
 from plateau.study.results import analysed
 from plateau.study.text_tables import read_text_table, written_table
 

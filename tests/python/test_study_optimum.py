@@ -1,5 +1,6 @@
 """Optimum of responses: desirability, search, canonical analysis, expected improvement, runs at points of a study."""
 
+import dataclasses
 import inspect
 import json
 import math
@@ -18,7 +19,7 @@ from plateau.study.improvement import expected_improvement, improved
 from plateau.study.optimum import canonical, optimize
 from plateau.study.results import analysed
 from plateau.study.runs import make_runs, written
-from plateau.study.units import parsed, unit_for
+from plateau.units import parsed, unit_for
 from scipy import stats
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
@@ -125,6 +126,14 @@ class Search(unittest.TestCase):
                 np.testing.assert_allclose(found.settings["value"].to_numpy(float), place, atol=2e-6)
                 self.assertAlmostEqual(found.desirability, desirability, delta=1e-8)
                 self.assertEqual([limit["holds_back"] for limit in found.document()["limits"]], [True] * len(options.get("limit", [])))
+        self.assertNotIn("nothing new", found.text())
+        process = dataclasses.replace(found.problem.surrogates["gain"], takes_process=True)
+        asked = dataclasses.replace(found.problem, surrogates={"gain": process})
+        said = dataclasses.replace(found, looked_for=4, problem=asked).text()
+        self.assertRegex(said, "gain: a Gaussian process told where .*\n  nothing new was run")
+        rounds = pandas.DataFrame({"expected_improvement": [0.25]})
+        said = dataclasses.replace(found, looked_for=4, rounds=rounds, problem=asked).text()
+        self.assertIn("1 point was run on the way, the last one expected to gain 0.25", said)
         found = optimize(given, maximize=["gain"], limit=["cost<=2", "risk>=3"], limit_on="means")
         self.assertEqual((found.keeps_limits, found.desirability), (False, 0.0))
         self.assertIn("they are missed least at", found.text())

@@ -7,20 +7,23 @@ import json
 import os
 import pathlib
 import re
+import shlex
 import signal
 import subprocess
 import sys
 import tempfile
 import time
+import tomllib
 import unittest
 import unittest.mock
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 sys.path.insert(0, str(ROOT / "python"))
-from plateau.errors import InputError, in_python  # noqa: E402
-from plateau.study import figures  # noqa: E402
-from plateau.study.command_line import main, shown  # noqa: E402
-from plateau.study.output_folder import HEAD, LIST, write  # noqa: E402
+from plateau.errors import InputError, RunFailed, in_python  # noqa: E402
+from plateau import command_line, output_folder, style  # noqa: E402
+from plateau.command_line import main, shown  # noqa: E402
+from plateau.output_folder import HEAD, LIST, write  # noqa: E402
+from plateau.study import words  # noqa: E402
 
 PROGRAM = os.environ.setdefault("PLATEAU_PROGRAM", str(ROOT / "plateau"))
 QUICK = ROOT / "data" / "scenes" / "quick.toml"
@@ -86,7 +89,7 @@ class Words(unittest.TestCase):
         os.chdir(folder.name)
         os.environ["PLATEAU_CALLED"] = "plateau"
         # Most calls draw one format alone, which is quicker.
-        formats = unittest.mock.patch.object(figures, "FORMATS", {"svg": figures.FORMATS["svg"]})
+        formats = unittest.mock.patch.object(style, "FORMATS", {"svg": style.FORMATS["svg"]})
         formats.start()
         self.addCleanup(formats.stop)
 
@@ -152,7 +155,7 @@ class Words(unittest.TestCase):
         words = ["compare", "one.toml", "two.toml", "--seeds", "1", "--set", "operation.duration='10000 s'", "-q"]
         environment = {**os.environ, "PYTHONPATH": str(ROOT / "python")}
         called = subprocess.Popen(
-            [sys.executable, "-m", "plateau.study.command_line", *words],
+            [sys.executable, "-m", "plateau.command_line", *words],
             env=environment,
             stdout=subprocess.DEVNULL,
             stderr=subprocess.PIPE,
@@ -186,7 +189,7 @@ class Words(unittest.TestCase):
         self.is_as_before("import", self.document("sweep", "import", "study.toml", "measured.csv"))
         for word in ("effects", "predict", "sensitivity"):
             self.is_as_before(word, self.document("sweep", word, "study.toml"))
-        with unittest.mock.patch.object(figures, "FORMATS", {**figures.FORMATS, "png": {}, "pdf": {}}):
+        with unittest.mock.patch.object(style, "FORMATS", {**style.FORMATS, "png": {}, "pdf": {}}):
             self.is_as_before("optimize", self.document("sweep", "optimize", "study.toml", "--minimize", "leak", "--limit", "grip>=0.55"))
         self.is_as_before("fit", self.document("fit", "study.toml"))
         self.is_as_before("fit --plan", self.document("fit", "study.toml", "--plan"))
@@ -281,11 +284,55 @@ class Words(unittest.TestCase):
         self.assertEqual({pathlib.Path(file).name for file in document["files"] if not file.endswith(("svg", "png", "pdf"))},
                          {"comparison.html", "comparison.csv", "means.csv", "runs.csv", "curves.csv"})  # fmt: skip
         environment = os.environ | {"PYTHONPATH": str(ROOT / "python")}
-        done = subprocess.run([sys.executable, "-m", "plateau.study.command_line", *words, "--json", "-q"], env=environment, capture_output=True,
+        done = subprocess.run([sys.executable, "-m", "plateau.command_line", *words, "--json", "-q"], env=environment, capture_output=True,
                               text=True, timeout=120)  # fmt: skip
         self.assertEqual((done.stderr, done.returncode), ("", 0))
         again = json.loads(done.stdout)
         self.assertEqual((again.pop("files")[:3], again), (document.pop("files")[:3], document))
+
+    def test_what_is_not_installed_is_said_in_one_line(self):
+        for name in ("numpy", "pandas"):
+            pathlib.Path(f"{name}.py").write_text(f"raise ModuleNotFoundError('No module', name='{name}')")
+            environment = os.environ | {"PYTHONPATH": f"{os.getcwd()}{os.pathsep}{ROOT / 'python'}"}
+            words = [sys.executable, "-m", "plateau.command_line", "sweep", "effects", "s.toml"]
+            done = subprocess.run(words, env=environment, capture_output=True, text=True, timeout=60)
+            said = f"plateau: {name} is not installed: pip install 'plateau-brake[all]'\n"
+            self.assertEqual((done.stderr, done.returncode), (said, 1))
+            pathlib.Path(f"{name}.py").unlink()
+
+    def test_a_signal_where_an_object_is_destroyed_ends_the_word(self):
+        class Destroyed:
+            def __del__(self):
+                os.kill(os.getpid(), signal.SIGINT)
+
+        def answer(_):
+            Destroyed()
+            return "answer"
+
+        # Of tests in the background, signals of the keyboard are ignored.
+        self.addCleanup(signal.signal, signal.SIGINT, signal.signal(signal.SIGINT, signal.default_int_handler))
+        with unittest.mock.patch.object(words, "_import", answer), unittest.mock.patch.object(sys, "unraisablehook", lambda _: None):
+            self.assertEqual(self.call("sweep", "import", "s.toml", "t.csv", status=128 + signal.SIGINT), ("", ""))
+
+    def test_examples_name_what_there_is(self):
+        examples, word = [], command_line.Words.word
+
+        def read(self, name, about, answer, example=""):
+            examples.append(example)
+            return word(self, name, about, answer, example)
+
+        parser = command_line.Parser(prog="plateau")
+        with unittest.mock.patch.object(command_line.Words, "word", read):
+            words.add(command_line.Words(parser.add_subparsers(), "plateau"))
+        self.assertEqual(len(examples), 7)
+        for example in examples:
+            given = parser.parse_args(shlex.split(example)[1:])
+            named = getattr(given, "scenes", [given.study] if "study" in given and "table" not in given else [])
+            for path in named:
+                document = tomllib.loads((ROOT / path).read_text())
+            factors, responses = ({one["name"] for one in document.get(kind, [])} for kind in ("factor", "response"))
+            self.assertLessEqual({text.split("=")[0] for text in getattr(given, "at", [])}, factors)
+            self.assertLessEqual(set(getattr(given, "minimize", [])), responses)
 
     def test_messages_in_python(self):
         for said, here in (
@@ -339,6 +386,25 @@ class Folders(unittest.TestCase):
         self.write(folder, ["b.png"], of="fit ../s.toml", force=True)
         self.assertEqual((folder / "c.png").read_text(), "mine")
         self.assertFalse((folder / "b.png").is_symlink())
+
+    def test_the_list_of_a_full_disk_names_what_is_there(self):
+        folder, real = self.folder / "effects", output_folder.put
+        self.write(folder, ["old.png"])
+
+        def put(path, content):
+            if path.name == "b.png":
+                raise RunFailed("cannot write b.png: No space left on device")
+            real(path, content)
+
+        with unittest.mock.patch.object(output_folder, "put", put), self.assertRaisesRegex(RunFailed, "No space left"):
+            self.write(folder, ["a.png", "b.png", "c.png"], force=True)
+        self.assertEqual(self.names(folder), ["a.png", LIST])
+        self.assertEqual((folder / LIST).read_text().splitlines()[1:], ["a.png"])
+
+    def test_a_link_to_nothing_is_said(self):
+        (self.folder / "link").symlink_to("nowhere")
+        with self.assertRaisesRegex(InputError, "link is a link to nowhere, which is not there; make that folder"):
+            self.write(self.folder / "link", ["a.png"])
 
     def test_a_file_of_someone_else_and_an_input_stay(self):
         own = self.folder / "effects.csv"

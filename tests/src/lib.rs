@@ -2,7 +2,6 @@
 
 pub mod divergence;
 pub mod fault;
-pub mod figure;
 pub mod patience;
 pub mod power_loss;
 pub mod program;

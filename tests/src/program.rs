@@ -1,7 +1,8 @@
 //! The built program, run as its users run it.
 
 use std::collections::BTreeMap;
-use std::ffi::OsStr;
+use std::env;
+use std::ffi::{OsStr, OsString};
 use std::fs::{self, File};
 use std::io::{Read, Seek};
 use std::path::{Path, PathBuf};
@@ -49,12 +50,25 @@ pub fn commands() -> Vec<String> {
 
 /// Those that the program answers itself; the others are the Python package's, whose tests look at them.
 pub fn own_commands() -> Vec<String> {
-    commands().into_iter().filter(|name| !["fit", "compare"].contains(&name.as_str())).collect()
+    commands()
+        .into_iter()
+        .filter(|name| !["fit", "compare", "plot", "report", "export"].contains(&name.as_str()))
+        .collect()
 }
 
 /// The root of the repository.
 pub fn repository() -> &'static Path {
     Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/.."))
+}
+
+/// Where programs are looked for: a stand-in for the Python package comes first.
+///
+/// # Panics
+/// When a folder has a colon in its name.
+pub fn path() -> OsString {
+    let usual = env::var_os("PATH").unwrap_or_default();
+    let folders = [repository().join("tests/stand_in")].into_iter().chain(env::split_paths(&usual));
+    env::join_paths(folders).expect("a search path")
 }
 
 /// Path of a scene in `data/scenes`.
@@ -170,14 +184,14 @@ impl WorkingDirectory {
     /// The program, to be run here.
     pub fn command<A: AsRef<OsStr>>(&self, arguments: impl IntoIterator<Item = A>) -> Command {
         let mut command = Command::new(program());
-        command.current_dir(self.directory.path()).args(arguments).env(CALLED.0, CALLED.1);
+        command.current_dir(self.directory.path()).args(arguments).env(CALLED.0, CALLED.1).env("PATH", path());
         command
     }
 
     /// The program, to be run here by a shell that first obeys `order`.
     pub fn command_after<A: AsRef<OsStr>>(&self, order: &str, arguments: impl IntoIterator<Item = A>) -> Command {
         let mut command = Command::new("sh");
-        command.current_dir(self.directory.path()).env(CALLED.0, CALLED.1);
+        command.current_dir(self.directory.path()).env(CALLED.0, CALLED.1).env("PATH", path());
         // Files that other tests have open at this moment would count as the program's.
         let alone = "exec 3>&- 4>&- 5>&- 6>&- 7>&- 8>&- 9>&-";
         command.arg("-c").arg(format!("{alone}; {order}; exec \"$0\" \"$@\"")).arg(program()).args(arguments);
@@ -187,7 +201,7 @@ impl WorkingDirectory {
     /// The program, to be run here so that it hears SIGHUP, also where the tests were begun behind `nohup`.
     pub fn command_with_hangup<A: AsRef<OsStr>>(&self, arguments: impl IntoIterator<Item = A>) -> Command {
         let mut command = Command::new("env");
-        command.current_dir(self.directory.path()).env(CALLED.0, CALLED.1);
+        command.current_dir(self.directory.path()).env(CALLED.0, CALLED.1).env("PATH", path());
         command.arg("--default-signal=HUP").arg(program()).args(arguments);
         command
     }

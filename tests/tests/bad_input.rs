@@ -92,17 +92,11 @@ fn command_lines() -> Vec<Case> {
         case("no workers", &["run", "scene.toml", "--workers", "0"], quick),
         case("workers that are no number", &["run", "scene.toml", "--workers", "many"], quick),
         case("unknown instruction set", &["run", "scene.toml", "--isa", "nonsense"], quick),
-        case("no run to plot", &["plot"], |_| ()),
-        case("unknown format of figures", &["plot", "run.h5", "--format", "jpg"], |_| ()),
-        case("nine runs to plot", &["plot", "1", "2", "3", "4", "5", "6", "7", "8", "9"], |_| ()),
-        case("run file is missing", &["plot", "run.h5"], |_| ()),
-        case("run file is a text", &["plot", "run.h5"], |directory| {
+        case("run file is missing", &["summary", "run.h5"], |_| ()),
+        case("run file is a text", &["summary", "run.h5"], |directory| {
             directory.write("run.h5", "no HDF5");
         }),
-        case("run file of something else", &["plot", "surface.h5"], |directory| ring(directory, |_| 0.0)),
-        case("nine runs to report", &["report", "1", "2", "3", "4", "5", "6", "7", "8", "9"], |_| ()),
-        case("export to nothing", &["export", "run.h5"], |_| ()),
-        case("export to something else", &["export", "run.h5", "--to", "xlsx"], |_| ()),
+        case("run file of something else", &["summary", "surface.h5"], |directory| ring(directory, |_| 0.0)),
         case("no patience", &["watch", "run.h5", "--timeout", "0"], |_| ()),
         case("manual pages into a file", &["man", "-o", "scene.toml"], quick),
         // Not even the superuser makes files there.

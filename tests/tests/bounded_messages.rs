@@ -78,7 +78,7 @@ fn the_state_of_a_strangers_run_is_cut_where_it_is_shown() {
     file.new_attr::<VarLenUnicode>().create("state").unwrap().write_scalar(&state).unwrap();
     file.close().unwrap();
     let said = "its state is \"SSSSSS";
-    for arguments in [&["report", "run.h5"][..], &["export", "run.h5", "--to", "csv"], &["watch", "run.h5", "--once"]] {
+    for arguments in [&["summary", "run.h5"][..], &["surface", "run.h5"], &["watch", "run.h5", "--once"]] {
         let outcome = refused(&directory, arguments, said);
         assert!(outcome.stderr.len() < 1000, "{}", outcome.stderr);
     }

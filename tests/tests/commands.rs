@@ -134,12 +134,11 @@ fn the_mean_contact_area_is_that_of_the_last_tenth() {
     let hidden = directory.plateau([&["run", &scene, "-o", "hidden.h5", "--set"], &long[..]].concat()).quiet_success();
     assert!(hidden.contains("cannot be told from a run of this length: +"), "{hidden}");
     assert!(time_of(&hidden).starts_with("not defined: cannot be told from a run of this length"), "{hidden}");
-    // The report says the same.
+    // Of the run file the same is said.
     let found = text.lines().find_map(|line| line.trim().strip_prefix("running in")).unwrap().trim();
-    directory.plateau(["report", "again.h5"]).quiet_success();
-    let page = fs::read_to_string(directory.path("again.html")).unwrap();
-    assert!(page.contains(&format!("Running in</th><td>{found}</td>")), "{found}");
-    assert!(page.contains(&format!("Running-in time</th><td>{few}</td>")), "{few}");
+    let summary = directory.plateau(["summary", "again.h5"]).quiet_success();
+    assert!(summary.contains(&format!("\"running_in\": \"{found}\"")), "{summary}");
+    assert!(summary.contains(&format!("\"running_in_time\": \"{few}\"")), "{summary}");
     // By hand: 5 µm of 0.3043 of 7.467 mm² at 5e-14 1/Pa, 5 N and 1.825 m/s are 24.9 s; no five of them are in 6 s.
     let checked = directory.plateau(["check", &scene, "--set", "output.file=other.h5"]).quiet_success();
     assert!(
@@ -243,7 +242,7 @@ fn json_is_one_document() {
 #[test]
 fn a_check_tells_what_a_run_takes() {
     let (directory, scene) = (WorkingDirectory::new(), scene("cermet.toml"));
-    let text = directory.plateau(["check", &scene]).quiet_success();
+    let text = directory.plateau(["check", &scene, "--all"]).quiet_success();
     // Δt = 60 s/(850 · 2764); 3000 s / (100 Δt) = 1 174 700 steps; Π = κ k m r Δθ by hand:
     // 5e-14 · 1.0679e9/50e-6 · 100 · 23.975e-3 · 2π/2764 = 5.82e-3.
     for words in ["1 174 700", "12 880 pin cells", "memory", "estimated time", "Π = 0.00582", "rms_height = \"3 um\""]
@@ -252,6 +251,11 @@ fn a_check_tells_what_a_run_takes() {
     }
     let (_, parts) = text.split_once("\nNeeded\n").expect("what is needed");
     let (needed, left_out) = parts.split_once("\nLeft out\n").expect("what is left out");
+    // What matters comes first, in ten lines and a word about the rest; warnings before all.
+    let short = directory.plateau(["check", &scene]).quiet_success();
+    let lines: Vec<&str> = short.lines().collect();
+    assert!(lines.len() <= 12 && lines[1].split_whitespace().eq(["warnings", "none"]), "{short}");
+    assert!(lines.iter().any(|line| line.ends_with("; writes cermet.h5")) && short.ends_with("--all\n"), "{short}");
     for part in ["wear of the resin", "formation of plateaus", "map disc_height"] {
         assert!(needed.contains(part) && !left_out.contains(part), "{part}");
     }
@@ -261,7 +265,7 @@ fn a_check_tells_what_a_run_takes() {
     let track = ["plateaus.debris=track", "plateaus.captured_fraction=0.06"];
     let sets = [&track[..], &["plateaus.formation=false", "output.maps=[\"pressure\"]"]].concat();
     let sets = sets.iter().flat_map(|set| ["--set", set]);
-    let text = directory.plateau(["check", &scene].into_iter().chain(sets)).quiet_success();
+    let text = directory.plateau(["check", &scene, "--all"].into_iter().chain(sets)).quiet_success();
     let (needed, left_out) = text.split_once("\nLeft out\n").expect("what is left out");
     assert!(needed.contains("one debris pool per track") && needed.contains("map pressure"), "{text}");
     assert!(left_out.contains("formation of plateaus") && left_out.contains("map disc_height"), "{text}");

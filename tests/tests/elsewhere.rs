@@ -36,12 +36,7 @@ fn read_as_surface(directory: &WorkingDirectory, file: &str) -> Vec<Outcome> {
 
 /// Every command that reads a run file.
 fn read_as_run(directory: &WorkingDirectory, file: &str) -> Vec<Outcome> {
-    let commands: [&[&str]; 4] = [
-        &["verify", file],
-        &["repair", file],
-        &["report", file, "-o", "page.html"],
-        &["export", file, "--to", "csv", "-o", "table.csv"],
-    ];
+    let commands: [&[&str]; 4] = [&["verify", file], &["repair", file], &["summary", file], &["watch", file, "--once"]];
     commands.map(|command| limited(directory, command)).into()
 }
 

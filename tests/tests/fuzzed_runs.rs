@@ -48,12 +48,11 @@ fn changed_run_files_are_read_or_refused() {
     assert_eq!(made.status, Some(0), "{made:?}");
     let good = fs::read(directory.path("run.h5")).unwrap();
     let resume: Vec<&str> = ["run", &quick, "-o", "changed.h5", "--resume"].into_iter().chain(sets.clone()).collect();
-    let commands: [&[&str]; 7] = [
+    let commands: [&[&str]; 6] = [
         &["verify", "changed.h5"],
         &["watch", "changed.h5", "--once"],
-        &["export", "changed.h5", "--to", "csv", "-o", "table.csv", "--force"],
-        &["plot", "changed.h5", "-o", "figures"],
-        &["report", "changed.h5", "-o", "page.html", "--force"],
+        &["summary", "changed.h5"],
+        &["surface", "changed.h5"],
         &["repair", "changed.h5"],
         &resume,
     ];

@@ -46,13 +46,8 @@ fn a_program_whose_path_is_no_utf_8_says_what_was_meant_too() {
 #[test]
 fn what_is_named_in_the_place_of_something_else_is_told_by_what_it_is() {
     let directory = with_scene(&[]);
-    let message = refused(directory.plateau(["plot", "scene.toml"]));
+    let message = refused(directory.plateau(["verify", "scene.toml"]));
     assert!(message.contains("which `plateau run scene.toml` writes"), "{message}");
-    let message = refused(directory.plateau(["report", "run.h5", "-o", "out.pdf"]));
-    assert!(
-        message.contains("-o out.pdf: a report is a page in HTML") && message.contains("such as out.html"),
-        "{message}"
-    );
     let message = refused(directory.plateau(["surface", "scene.toml", "--pitch", "0,02 mm"]));
     assert!(message.contains("decimals have a point: \"0.02 mm\""), "{message}");
     // A word that is none decides nothing over other keys.
@@ -95,16 +90,4 @@ fn a_quiet_run_says_nothing_and_a_talkative_one_what_was_done_to_surfaces() {
     assert!(refused(directory.plateau(["run", "scene.toml", "-q", "-v"])).contains("cannot be used with"));
     // Errors are said in any case.
     assert!(refused(directory.plateau(["run", "nothing.toml", "-q"])).contains("nothing.toml"));
-}
-
-#[test]
-fn one_figure_is_drawn_alone() {
-    let directory = with_scene(&[("duration = \"60 s\"", "steps = 20")]);
-    directory.plateau(["run", "scene.toml", "-o", "run.h5"]).quiet_success();
-    directory.plateau(["plot", "run.h5", "-o", ".", "--figure", "status", "--figure", "filled"]).quiet_success();
-    let names = directory.names();
-    let figures: Vec<&String> = names.iter().filter(|name| name.ends_with(".png")).collect();
-    assert_eq!(figures, ["filled.png", "status.png"]);
-    let message = refused(directory.plateau(["plot", "run.h5", "--figure", "stauts"]));
-    assert!(message.contains("topography") && message.contains("status"), "{message}");
 }

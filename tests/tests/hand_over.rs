@@ -61,7 +61,7 @@ fn who_asks_back_is_told_and_help_is_the_programs_own() {
 
 #[test]
 fn without_who_answers_it_is_said_what_to_install() {
-    for arguments in [&["fit", "study.toml"][..], &["compare", "a.toml"], &["sweep", "effects", "s.toml"]] {
+    for arguments in [&["fit", "study.toml"][..], &["plot", "a.h5"], &["sweep", "effects", "s.toml"]] {
         let outcome = call(&[], arguments);
         assert_eq!(outcome.status, Some(1), "{outcome:?}");
         assert!(

@@ -2,7 +2,7 @@
 
 use std::os::unix::fs::symlink;
 
-use plateau_tests::program::{WorkingDirectory, own_commands, program, repository, run};
+use plateau_tests::program::{WorkingDirectory, own_commands, path, program, repository, run};
 use plateau_tests::run_file::RunFile;
 
 /// The lines of a help text below "Example:" or "Examples:".
@@ -16,7 +16,12 @@ fn examples(help: &str) -> Vec<&str> {
 fn runs(directory: &WorkingDirectory, example: &str) {
     let arguments = example.strip_prefix("plateau ").unwrap_or_else(|| panic!("{example:?} does not run plateau"));
     let mut shell = std::process::Command::new("sh");
-    shell.current_dir(directory.path(".")).arg("-c").arg(format!("\"$0\" {arguments}")).arg(program());
+    shell
+        .current_dir(directory.path("."))
+        .arg("-c")
+        .arg(format!("\"$0\" {arguments}"))
+        .arg(program())
+        .env("PATH", path());
     let outcome = run(shell);
     assert_eq!(outcome.status, Some(0), "{example}: {}", outcome.stderr);
     assert_eq!(outcome.stderr, "", "{example}");

@@ -168,7 +168,7 @@ fn a_format_version_that_is_none_is_refused() {
     run(&directory, "run.h5");
     for (version, found) in [(f64::NAN, "NaN"), (f64::NEG_INFINITY, "-inf"), (1.5, "1.5"), (0.0, "0"), (-1.0, "-1")] {
         edit(&directory, "run.h5", "version.h5", |file| set(file, "format_version", version));
-        let refused = directory.plateau(["report", "version.h5"]);
+        let refused = directory.plateau(["summary", "version.h5"]);
         let said = format!("its format_version is {found}, expected a whole number from 1 to 1");
         assert!(refused.status == Some(2) && refused.stderr.contains(&said), "{refused:?}");
         let (status, document) = verdict(&directory, "version.h5");

@@ -183,10 +183,11 @@ fn a_stopped_run_is_marked_interrupted_and_its_samples_are_whole() {
 fn what_is_made_of_a_run_says_when_a_file_may_not_grow() {
     let directory = WorkingDirectory::new();
     directory.plateau(["run", &scene("quick.toml"), "-o", "run.h5"]).quiet_success();
-    for command in [&["report", "run.h5", "-o", "r.html"][..], &["export", "run.h5", "--to", "npz", "-o", "r.npz"]] {
-        let outcome = run(directory.command_after("ulimit -f 8", command));
+    for made in ["r.npy", "r.sdf"] {
+        let heights = ["surface", "run.h5", "--dataset", "disc/height", "--at", "0 s", "--to", made];
+        let outcome = run(directory.command_after("ulimit -f 8", heights));
         assert_eq!(outcome.status, Some(1), "{outcome:?}");
-        assert!(outcome.stderr.contains("cannot write"), "{outcome:?}");
-        assert!(!directory.names().iter().any(|name| name.contains("r.html") || name.contains("r.npz")), "{outcome:?}");
+        assert!(outcome.stderr.contains("File too large"), "{outcome:?}");
+        assert!(!directory.names().iter().any(|name| name.contains(made)), "{outcome:?}");
     }
 }

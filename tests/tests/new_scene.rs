@@ -7,7 +7,7 @@ use plateau_tests::run_file::RunFile;
 
 /// From nothing to a figure: a pin of 6 x 6 mm at 30 mm, 30 N, 600 rpm, a measured patch of half a millimetre.
 #[test]
-fn a_measured_patch_and_the_numbers_of_a_rig_become_a_figure() {
+fn a_measured_patch_and_the_numbers_of_a_rig_become_a_run() {
     let directory = WorkingDirectory::new();
     fs::copy(repository().join("data/surfaces/afm_256x256.sdf"), directory.path("patch.sdf")).unwrap();
     // The same heights at 2 um a point: 0.512 mm wide.
@@ -27,7 +27,7 @@ fn a_measured_patch_and_the_numbers_of_a_rig_become_a_figure() {
     assert!(text.contains("\n# cutoff = \"10 nm\" "), "{text}");
     assert!(outcome.stdout.contains("no peaks are cut. With cutoff = \"10 nm\", one rms height"), "{}", outcome.stdout);
     fs::write(directory.path("mine.toml"), text.replace("# pixel = \"50 um\"", "pixel = \"2 um\"")).unwrap();
-    for command in [&["check", "mine.toml"][..], &["run", "mine.toml"], &["plot", "mine.h5", "-o", "figures"]] {
+    for command in [&["check", "mine.toml"][..], &["run", "mine.toml"], &["summary", "mine.h5"]] {
         let outcome = directory.plateau(command);
         assert_eq!(outcome.status, Some(0), "{command:?}: {}", outcome.stderr);
     }
@@ -37,7 +37,6 @@ fn a_measured_patch_and_the_numbers_of_a_rig_become_a_figure() {
         [run.floats("radius").len(), run.floats("disc_angle").len(), run.floats("pin_angle").len()],
         [120, 3770, 120]
     );
-    assert!(directory.path("figures/contact-area.png").exists(), "{:?}", directory.names());
 }
 
 #[test]

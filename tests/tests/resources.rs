@@ -210,7 +210,7 @@ fn too_few_handles_are_not_taken_for_damage() {
 fn the_name_of_a_file_decides_no_exit_status() {
     let directory = WorkingDirectory::new();
     for name in ["a (os error 24).h5", "a, errno = 12, b.h5"] {
-        for arguments in [&["plot"][..], &["verify"], &["surface"], &["sweep", "plan"]] {
+        for arguments in [&["summary"][..], &["verify"], &["surface"], &["sweep", "plan"]] {
             let outcome = directory.plateau(arguments.iter().chain(&[name]));
             assert_eq!(outcome.status, Some(2), "{arguments:?}: {outcome:?}");
         }
@@ -236,7 +236,7 @@ fn check_shows_where_files_really_are() {
     directory.write("scenes/base.toml", text);
     directory.write("scenes/scene.toml", "extends = \"../scenes/base.toml\"\n");
     symlink(directory.path("elsewhere"), directory.path("results")).unwrap();
-    let arguments = ["check", "scenes/scene.toml", "--set", "output.file=results/run.h5"];
+    let arguments = ["check", "scenes/scene.toml", "--all", "--set", "output.file=results/run.h5"];
     let text = directory.without_path(&directory.plateau(arguments).quiet_success());
     assert!(text.contains("scenes/../scenes/base.toml, which is [directory]/scenes/base.toml\n"), "{text}");
     assert!(text.contains("writes  results/run.h5, which is [directory]/elsewhere/run.h5\n"), "{text}");

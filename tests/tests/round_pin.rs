@@ -128,7 +128,7 @@ fn a_killed_run_of_a_round_pin_ends_as_an_undisturbed_one() {
 }
 
 #[test]
-fn files_of_a_round_pin_are_read_drawn_and_exported() {
+fn fibres_of_a_round_pin_are_read_from_its_run_file() {
     let directory = WorkingDirectory::new();
     let sets = [&ROUND[..], &["operation.steps=60"]].concat();
     run(&directory, "one.h5", &sets, &[]);
@@ -137,14 +137,6 @@ fn files_of_a_round_pin_are_read_drawn_and_exported() {
         (format!("pin.base.file={}", directory.path("one.h5").display()), "pin.base.dataset=/pin/base");
     let second = run(&directory, "two.h5", &[&sets[..], &[&file, dataset]].concat(), &[]);
     assert_eq!(second.bytes("pin/base"), RunFile::open(directory.path("one.h5")).bytes("pin/base"));
-
-    directory.plateau(["plot", "one.h5", "-o", "figures", "--format", "svg"]).quiet_success();
-    directory.plateau(["report", "one.h5", "-o", "one.html"]).quiet_success();
-    directory.plateau(["export", "one.h5", "--to", "csv", "--maps"]).quiet_success();
-    directory.plateau(["export", "one.h5", "--to", "npz"]).quiet_success();
-    directory.plateau(["export", "one.h5", "--to", "vtk"]).quiet_success();
-    let names = directory.names();
-    assert!(names.iter().any(|name| name.ends_with(".npz")), "{names:?}");
 }
 
 #[test]

@@ -69,7 +69,7 @@ fn the_last_map_or_one_at_a_time_is_the_surface_of_the_next_run() {
         assert_eq!([recess, cut].map(|warning| checked.stderr.contains(warning)), warnings, "{checked:?}");
     }
     // Where the map comes from is in the report.
-    let checked = directory.plateau(["check", "next.toml"]);
+    let checked = directory.plateau(["check", "next.toml", "--all"]);
     assert!(checked.stdout.contains("dataset /disc/height, recorded by a run at 1."), "{checked:?}");
 
     for (disc, pin, said) in [

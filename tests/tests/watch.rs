@@ -145,7 +145,7 @@ fn a_file_that_is_not_there_yet_is_waited_for() {
 fn what_is_no_run_file_is_refused() {
     let directory = WorkingDirectory::new();
     let file = directory.write("notes.txt", "precious");
-    for command in [&["watch", "notes.txt"][..], &["export", "notes.txt", "--to", "csv"]] {
+    for command in [&["watch", "notes.txt"][..], &["summary", "notes.txt"]] {
         let outcome = directory.plateau(command);
         assert_eq!((outcome.status, outcome.stdout.as_str()), (Some(2), ""));
         assert_eq!(

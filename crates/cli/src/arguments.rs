@@ -4,7 +4,6 @@ mod accuracy;
 mod cores;
 mod handed;
 mod new;
-mod plot;
 mod quantity;
 mod reading;
 mod run;
@@ -25,10 +24,9 @@ use crate::version;
 pub use accuracy::AccuracyArguments;
 pub use handed::HandedArguments;
 pub use new::NewArguments;
-pub use plot::PlotArguments;
 pub use reading::{ReadArguments, as_options};
 pub use run::{CheckArguments, RunArguments, SceneArguments};
-pub use run_files::{ExportArguments, ExportFormat, RepairArguments, ReportArguments, VerifyArguments, WatchArguments};
+pub use run_files::{RepairArguments, SummaryArguments, VerifyArguments, WatchArguments};
 pub use surface::SurfaceArguments;
 pub use sweep::{CollectArguments, PlanArguments, SlurmArguments, SweepCommand, SweepRunArguments};
 
@@ -86,21 +84,17 @@ pub enum Command {
     #[command(after_help = "Example:\n  plateau check data/scenes/cermet.toml")]
     Check(CheckArguments),
     /// Draw the figures of a run, or of several side by side
-    #[command(
-        after_help = "Examples:\n  plateau run data/scenes/quick.toml -o quick.h5\n  plateau plot quick.h5 -o figures"
-    )]
-    Plot(PlotArguments),
-    /// Make one HTML page of a run, or of several to compare: numbers, charts, maps
-    #[command(after_help = "Examples:\n  plateau run data/scenes/quick.toml -o quick.h5\n  \
-                      plateau report quick.h5 -o quick.html")]
-    Report(ReportArguments),
+    #[command(disable_help_flag = true)]
+    Plot(HandedArguments),
+    /// Make one HTML page of a run, or of several to compare: the answer, figures, tables
+    #[command(disable_help_flag = true)]
+    Report(HandedArguments),
     /// Follow a run in the terminal: state, progress, contact area
     #[command(after_help = "Examples:\n  plateau run data/scenes/quick.toml -o quick.h5\n  plateau watch quick.h5")]
     Watch(WatchArguments),
-    /// Write a run file for other programs: tables, NumPy arrays, ParaView's grids
-    #[command(after_help = "Examples:\n  plateau run data/scenes/quick.toml -o quick.h5\n  \
-                      plateau export quick.h5 --to csv\n  plateau export quick.h5 --to vtk -o quick-vtk")]
-    Export(ExportArguments),
+    /// Write a run file for other programs: CSV, Excel, NumPy, netCDF, ParaView
+    #[command(disable_help_flag = true)]
+    Export(HandedArguments),
     /// Measure how exact a scene's runs are against the time they take
     #[command(after_help = "Example:\n  plateau accuracy data/scenes/quick.toml --budget 20s -o quick-accuracy")]
     Accuracy(AccuracyArguments),
@@ -126,6 +120,9 @@ pub enum Command {
                       A file that was closed in good order is not touched. To go on with the run: plateau run SCENE --resume"
     )]
     Repair(RepairArguments),
+    /// Print what the Python package asks of a run file, as JSON
+    #[command(hide = true)]
+    Summary(SummaryArguments),
     /// Print the JSON Schema of scenes, with which editors complete and check them
     #[command(
         after_help = "Example:\n  plateau schema\n\nFor an editor: plateau schema > scene.schema.json; see docs/scenes.md."

@@ -15,13 +15,23 @@ const PROGRAM: &str = "PLATEAU_PROGRAM";
 /// Tells the one that answers, and what it calls, which word was handed over.
 const HANDED: &str = "PLATEAU_HANDED";
 /// Words that the Python package answers.
-const OF_PYTHON: [&str; 3] = ["sweep", "fit", "compare"];
+const OF_PYTHON: [&str; 7] = ["sweep", "fit", "compare", "plot", "report", "export", "figure"];
 
 /// Becomes the program that answers a word, with these arguments; comes back only where that fails.
 ///
 /// # Errors
 /// [`Failure::Run`] where there is no such program, with what to install, or it cannot be started.
 pub fn hand_over(word: &str, arguments: impl IntoIterator<Item = OsString>) -> Result<(), Failure> {
+    let mut command = command(word)?;
+    let error: io::Error = command.args(arguments).args(message::level_as_option()).exec();
+    Err(Failure::because(&error, format_args!("{}: {error}", command.get_program().display())))
+}
+
+/// The program that answers a word, to be started.
+///
+/// # Errors
+/// [`Failure::Run`] where there is no such program, with what to install.
+pub fn command(word: &str) -> Result<Command, Failure> {
     let Some(answering) = answering(word) else {
         let package = if OF_PYTHON.contains(&word) {
             "it comes with the Python package: pip install 'plateau-brake[all]'; in a checkout ./plateau has it"
@@ -37,12 +47,11 @@ pub fn hand_over(word: &str, arguments: impl IntoIterator<Item = OsString>) -> R
         return Err(Failure::run(message));
     }
     let mut command = Command::new(&answering);
-    command.env(HANDED, word).args(arguments).args(message::level_as_option());
+    command.env(HANDED, word);
     if let Ok(program) = env::current_exe() {
         command.env(PROGRAM, program);
     }
-    let error: io::Error = command.exec();
-    Err(Failure::because(&error, format_args!("{}: {error}", answering.display())))
+    Ok(command)
 }
 
 /// The program that answers a word, if there is one.

@@ -5,9 +5,11 @@ mod answer;
 mod arguments;
 mod called;
 mod commands;
+mod csv_table;
 mod environment;
 mod excerpt;
 mod failure;
+mod figure;
 mod hand_over;
 mod interrupt;
 mod little_memory;
@@ -21,13 +23,13 @@ mod sweep;
 mod table;
 mod terminal;
 mod version;
+mod watch;
 
 use std::process::ExitCode;
 
 use clap::{CommandFactory as _, Parser};
 use plateau_io::number;
 use plateau_io::process::report_file_size_limit;
-use plateau_present::csv_table;
 use plateau_run::machine;
 
 use failure::Failure;

@@ -2,7 +2,7 @@
 
 use std::fmt;
 use std::io::{self, Write as _};
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 use console::{Style, StyledObject};
 use plateau_io::text::{shown, shown_message};
@@ -10,6 +10,7 @@ use plateau_io::text::{shown, shown_message};
 static WARNINGS: AtomicBool = AtomicBool::new(true);
 static QUIET: AtomicBool = AtomicBool::new(false);
 static VERBOSE: AtomicBool = AtomicBool::new(false);
+static COUNT: AtomicUsize = AtomicUsize::new(0);
 
 /// How much is said, as `-q` and `-v` ask for: errors alone, or also what is done to surfaces.
 pub fn set_level(quiet: bool, verbose: bool) {
@@ -45,9 +46,15 @@ pub fn error(message: impl fmt::Display) {
 
 /// Says what deserves attention though the program goes on.
 pub fn warning(message: impl fmt::Display) {
+    COUNT.fetch_add(1, Ordering::Relaxed);
     if may_be_said() {
         say(format_args!("plateau: {}", coloured("warning:", Style::new().yellow().bold())), message);
     }
+}
+
+/// Number of warnings until now, also of those that `-q` keeps back.
+pub fn warnings() -> usize {
+    COUNT.load(Ordering::Relaxed)
 }
 
 /// Says what is worth knowing.

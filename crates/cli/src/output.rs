@@ -1,10 +1,9 @@
 //! Files that a command leaves beside its run file: whole, or not at all.
 
-use std::fs::{self, File};
-use std::io::{self, BufWriter, ErrorKind, Write as _};
+use std::fs;
+use std::io::{self, ErrorKind, Write as _};
 use std::path::{Path, PathBuf};
 
-use plateau_io::export::ExportError;
 use plateau_io::regular;
 use plateau_io::temporary::Temporary;
 
@@ -54,21 +53,9 @@ pub fn ending(path: &Path) -> String {
 /// [`Failure::Input`] when there is a file that is not to be replaced or none can be made there, [`Failure::Run`] when the
 /// system fails while it is written.
 pub fn write(path: &Path, content: &[u8], force: bool) -> Result<(), Failure> {
-    fill(path, force, |mut file| Ok(file.write_all(content).and_then(|()| file.flush())?))
-}
-
-/// Writes a file piece by piece; it appears under its name when it is complete.
-///
-/// # Errors
-/// Those of [`write()`], and [`Failure::Input`] when the run file that it is made of cannot be read.
-pub fn fill(
-    path: &Path,
-    force: bool,
-    fill: impl FnOnce(BufWriter<File>) -> Result<(), ExportError>,
-) -> Result<(), Failure> {
     // The target of a link is replaced, not the link: who names a file may name it by one.
     let target = if force { path.canonicalize().unwrap_or_else(|_| path.to_owned()) } else { path.to_owned() };
-    fill_at(path, &target, force, fill)
+    write_at(path, &target, content, force)
 }
 
 /// As [`write()`], a file in a folder that was named: a link of its name is not followed but replaced, for it was somebody else who
@@ -77,33 +64,14 @@ pub fn fill(
 /// # Errors
 /// Those of [`write()`].
 pub fn write_in_folder(path: &Path, content: &[u8], force: bool) -> Result<(), Failure> {
-    fill_in_folder(path, force, |mut file| Ok(file.write_all(content).and_then(|()| file.flush())?))
+    write_at(path, path, content, force)
 }
 
-/// As [`write_in_folder`], piece by piece.
-///
-/// # Errors
-/// Those of [`fill()`].
-pub fn fill_in_folder(
-    path: &Path,
-    force: bool,
-    fill: impl FnOnce(BufWriter<File>) -> Result<(), ExportError>,
-) -> Result<(), Failure> {
-    fill_at(path, path, force, fill)
-}
-
-fn fill_at(
-    path: &Path,
-    target: &Path,
-    force: bool,
-    fill: impl FnOnce(BufWriter<File>) -> Result<(), ExportError>,
-) -> Result<(), Failure> {
-    let (temporary, file) = Temporary::create(target).map_err(|error| unwritable(path, &error))?;
-    let written = fill(BufWriter::new(file)).and_then(|()| Ok(temporary.publish(force)?));
-    written.map_err(|error| match error {
-        ExportError::Write(error) if error.kind() == ErrorKind::AlreadyExists => exists(path),
-        ExportError::Write(error) => Failure::run(format_args!("cannot write {}: {error}", path.display())),
-        ExportError::Read(error) => Failure::input(error),
+fn write_at(path: &Path, target: &Path, content: &[u8], force: bool) -> Result<(), Failure> {
+    let (temporary, mut file) = Temporary::create(target).map_err(|error| unwritable(path, &error))?;
+    file.write_all(content).and_then(|()| temporary.publish(force)).map_err(|error| match error.kind() {
+        ErrorKind::AlreadyExists => exists(path),
+        _ => Failure::run(format_args!("cannot write {}: {error}", path.display())),
     })
 }
 

@@ -3,9 +3,9 @@
 use std::env;
 use std::io::{self, Write};
 
+use crate::watch::page::{self, Style};
+use crate::watch::{Look, Pace};
 use console::Term;
-use plateau_present::watch::page::{self, Style};
-use plateau_present::watch::{Look, Pace};
 
 use crate::message;
 

@@ -9,7 +9,6 @@
 //! | the run file and its writer | [`run_file`] |
 //! | studies: many runs, their results | [`study`] |
 //! | what a stopped run goes on from | [`checkpoint`] |
-//! | run files for other programs: CSV, NumPy, ParaView | [`export`] |
 //! | numbers as people read them | [`number`] |
 //! | text of numbers, in whatever dialect | [`delimited`] |
 //! | HDF5 files of named results | [`dataset_file`] |
@@ -29,7 +28,6 @@ pub mod checkpoint;
 pub mod claim;
 pub mod dataset_file;
 pub mod delimited;
-pub mod export;
 pub mod generation;
 mod hdf5_file;
 pub mod limits;

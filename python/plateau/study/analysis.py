@@ -12,24 +12,12 @@ import pandas
 from scipy import optimize, stats
 
 from plateau.errors import InputError, PlateauWarning, RunFailed, UnknownNameError
-from plateau.study.model import (
-    MODELS,
-    ROUNDING,
-    SOLE,
-    Fitted,
-    NothingToFit,
-    Squares,
-    Term,
-    contrasts,
-    f_test,
-    fitted,
-    is_same,
-    misfit,
-    named,
-)
+from plateau.output_folder import plain
+from plateau.study.model import MODELS, ROUNDING, SOLE, Fitted, NothingToFit, Squares, Term
+from plateau.study.model import contrasts, f_test, fitted, is_same, misfit, named
 from plateau.study.data import Numbers, Response, Study
 from plateau.study.results import analysed
-from plateau.study.units import Unit, unit_for, with_digits
+from plateau.units import Unit, shown_unit, unit_for, with_digits, with_minus
 
 # Powers of a response between which the best is looked for, and distance of those at which the search begins.
 POWERS, STEP = (-5.0, 5.0), 0.05
@@ -84,8 +72,8 @@ class ResponseEffects:
 
     @property
     def title(self) -> str:
-        """What is fitted, such as ``log(contact area, m2)``."""
-        unit = "" if self.response.unit == "1" else f", {self.response.unit}"
+        """What is fitted, such as ``log(contact area, m²)``."""
+        unit = "" if self.response.unit == "1" else f", {shown_unit(self.response.unit)}"
         return self.response.name if self.response.transform == "none" else f"{self.response.transform}({self.response.name}{unit})"
 
     @property
@@ -374,7 +362,7 @@ def _words(fit: Fitted, product: Product) -> str:
     parts = []
     for (kind, *which), same in itertools.groupby(product):
         factor = fit.study.factors[which[0]] if which else None
-        level = f"[{factor.name} {factor.text(factor.levels[which[1]])}]" if factor and kind == 1 else "[centre points]"
+        level = f"[{factor.name} {factor.shown(factor.levels[which[1]])}]" if factor and kind == 1 else "[centre points]"
         parts.append((named(factor) if factor and kind == 0 else level) + "²" * (len(list(same)) - 1))
     return "·".join(parts)
 
@@ -437,6 +425,8 @@ class Effects:
         if self.repeats:
             verb, counts = ("repeats", "counts") if self.repeats == 1 else ("repeat", "count")
             why = "the same scene with the same seeds gives the same result. Only [replicates] with several seeds tell the pure error."
+            if self.study.document.get("centre_points", 1) > 1:
+                why += " Leave out centre_points: one is enough, with a rotatable design, too."
             said.append(f"{self.repeats} of {len(self.study.runs)} runs {verb} another one and {counts} once with it: {why}\n")
         return "\n".join([*said, *map(_text, self.responses)])
 
@@ -525,11 +515,6 @@ def _effects(study: Study, response: Response, model: str | None, terms: str, co
     return ResponseEffects(response, fit, "", table, power, _advice(fit, power), equations(fit), cautions)
 
 
-def _plain(value: Any) -> Any:
-    """A value of a document: null where there is none."""
-    return None if isinstance(value, float) and not np.isfinite(value) else value
-
-
 def _report(one: ResponseEffects) -> dict[str, Any]:
     """A response in the document."""
     fit, response, terms = one.fit, one.response, one.terms
@@ -537,15 +522,15 @@ def _report(one: ResponseEffects) -> dict[str, Any]:
     report |= {"transform": None if response.transform == "none" else response.transform} | dict.fromkeys(MEMBERS)
     if fit is None:
         return report | {"runs": 0, "missing": 0, "error_from": "", "equations": [], "terms": [], "cautions": []}
-    report |= {"model": fit.model, "model_reason": fit.reason} | {key: _plain(value) for key, value in one.summary.items()}
+    report |= {"model": fit.model, "model_reason": fit.reason} | {key: plain(value) for key, value in one.summary.items()}
     for row in one.table[one.table["factors"].isna() & (one.table["term"] != "total")].to_dict("records"):
-        squares = {name: _plain(row[name]) for name in ("degrees_of_freedom", "sum_of_squares", "f", "p")}
+        squares = {name: plain(row[name]) for name in ("degrees_of_freedom", "sum_of_squares", "f", "p")}
         report[row["term"].replace(" ", "_")] = squares
     for row in terms[(terms["term"] == "centre points") & terms["f"].notna()].to_dict("records"):
         report["curvature"] = {"difference": row["effect"], "interval": [row["low"], row["high"]], "f": row["f"], "p": row["p"]}
     report |= {"misfit": misfit(fit), "box_cox": one.box_cox and {"lambda": one.box_cox[0], "interval": list(one.box_cox[1:])}}
     if fit.left_out is not None:
-        report |= {"terms_left_out": [fit.label(term) for term in fit.left_out], "aicc": _plain(fit.aicc)}
+        report |= {"terms_left_out": [fit.label(term) for term in fit.left_out], "aicc": plain(fit.aicc)}
     report["equations"] = [{"units": units, "terms": products.to_dict("records")} for units, products in one.equations.items()]
     if np.isnan(fit.error) and (judged := lenth(terms.loc[terms["factors"].str.len() > 0, "effect"], fit.confidence)):
         names = ("pseudo_standard_error", "margin_of_error", "simultaneous_margin_of_error")
@@ -553,8 +538,8 @@ def _report(one: ResponseEffects) -> dict[str, Any]:
     copied = [*COLUMNS[3:5], "share", "variance_inflation", "f", "p", "effect", "standard_error", "aliased_with", "seed_ratio"]
     report["terms"] = [
         {"label": row["term"], "interval": None if np.isnan(row["low"]) else [row["low"], row["high"]]}
-        | {name: _plain(row[name]) for name in copied}
-        | {"error_degrees_of_freedom": _plain(row["error_freedom"])}
+        | {name: plain(row[name]) for name in copied}
+        | {"error_degrees_of_freedom": plain(row["error_freedom"])}
         for row in terms.to_dict("records")
     ]
     return report | {"cautions": one.cautions}
@@ -606,7 +591,9 @@ def told(one: ResponseEffects) -> tuple[list[str], list[list[str]], list[str]]:
         signed = [("−" if value < 0 else "+", abs(value) * scale, words) for words, value in products.itertuples(index=False)]
         pieces = [f"{sign} {value:.6g} {words}".strip() for sign, value, words in signed]
         below += [f"{said}:", f"  {one.title}{f' [{unit.symbol}]' if symbol else ''} = {' '.join(pieces).removeprefix('+ ')}"]
-    return lines, rows, below
+    if any("[centre points]" in words for products in one.equations.values() for words in products["variables"]):
+        below.append("[centre points] is 1 at the centre points, where a curve shows that is left out elsewhere, and 0 at all other points")
+    return list(map(with_minus, lines)), rows, list(map(with_minus, below))
 
 
 def _text(one: ResponseEffects) -> str:

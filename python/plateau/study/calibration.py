@@ -17,10 +17,10 @@ from plateau.program import call
 from plateau.study.data import Factor, Numbers, Study
 from plateau.study.likelihood import NEAR, SETTLED, Likelihood, Runs, Target
 from plateau.study.measured import measurements
-from plateau.study.output_folder import plain
+from plateau.output_folder import plain
 from plateau.study.results import analysed
 from plateau.study.runs import finished, made_study
-from plateau.study.units import unit_for
+from plateau.units import shown_unit, unit_for, with_minus
 
 # Points before the next fit; points that are kept for the most likely place; rounds without a gain after which none is expected.
 AT_A_TIME, RESERVE, PATIENCE = 4, 2, 3
@@ -41,18 +41,7 @@ ENDS = {
 
 @dataclass(frozen=True)
 class Outcome:
-    """The last fit and how it came about.
-
-    Attributes
-    ----------
-    likelihood : Likelihood
-    rounds : int
-        Fits that were made one after the other.
-    ended : str
-        Why no more runs were made; one of `ENDS`.
-    checks : list of dict
-        Runs at most likely places: place, forecasts and runs of each term, and whether they agreed.
-    """
+    """The last fit, how many were made one after the other, why no more runs were (one of `ENDS`), and runs at most likely places."""
 
     likelihood: Likelihood
     rounds: int
@@ -68,21 +57,7 @@ class Outcome:
 def calibrated(target: Target, runs: Runs, make: Callable[[Numbers], Runs], seeds: int, most: int, can_run: Sequence[bool]) -> Outcome:
     """Makes runs where they teach most, and the last of them at the most likely place; where these contradict, all is fitted again.
 
-    Parameters
-    ----------
-    target : Target
-    runs : Runs
-        Of the study's design.
-    make : callable
-        Makes runs at coded places, with all seeds.
-    seeds, most : int
-        Runs at a place, and in all.
-    can_run : sequence of bool
-        For each measurement, whether runs give it.
-
-    Returns
-    -------
-    Outcome
+    `make` makes runs at coded places with all seeds; `can_run` tells of each measurement whether runs give it.
     """
     shares, checks, ended = list[float](), list[dict[str, Any]](), ""
     asked = np.array([])
@@ -268,29 +243,14 @@ class Fit:
             likely = float(rows["most_likely"].iloc[0])
             about = {"name": factor.name, "keys": factor.keys.split(", "), "unit": factor.unit, "most_likely": likely}
             keys.append({**about, "interval": pieces, "undetermined": is_open})
-        found = {
-            "study": self.study.title,
-            "keys": keys,
-            "responses": self.responses.rename(columns={"response": "name"}).to_dict("records"),
-            "series": self._series_summary(),
-            "confidence": self.confidence,
-            "misfit": self.misfit,
-            "degrees_of_freedom": self.freedom,
-            "p": self.p,
-            "determined": self.determined,
-            "notes": self.notes,
-            "runs": len(self.outcome.likelihood.runs.x),
-            "runs_at_most": self.most,
-            "rounds": self.outcome.rounds,
-            "ended": self.outcome.ended,
-            "surrogate_share": float(self.outcome.likelihood.share_by_term().max()),
-            "check": self._check_word(),
-            "checks": self.checks.to_dict("records"),
-            "files": list(files),
-        }
-        if not found["series"]:
-            del found["series"]
-        return dict(plain(found))
+        likelihood, responses = self.outcome.likelihood, self.responses.rename(columns={"response": "name"}).to_dict("records")
+        found = {"study": self.study.title, "keys": keys, "responses": responses}
+        found |= {"series": series} if (series := self._series_summary()) else {}
+        found |= {"confidence": self.confidence, "misfit": self.misfit, "degrees_of_freedom": self.freedom, "p": self.p}
+        found |= {"determined": self.determined, "notes": self.notes, "runs": len(likelihood.runs.x), "runs_at_most": self.most}
+        found |= {"rounds": self.outcome.rounds, "ended": self.outcome.ended}
+        found |= {"surrogate_share": float(likelihood.share_by_term().max()), "check": self._check_word()}
+        return dict(plain(found | {"checks": self.checks.to_dict("records"), "files": list(files)}))
 
     def _check_word(self) -> str:
         return "failed" if self.outcome.has_failed else "held" if self.outcome.checks else "none"
@@ -300,18 +260,11 @@ class Fit:
         for at, components in likelihood.components.items():
             one = self.target.measured[at]
             away = _away(likelihood, at)
-            found.append(
-                {
-                    "name": one.response.name,
-                    "unit": one.response.unit,
-                    "points": len(one.times),
-                    "correlation_time": one.correlation_time,
-                    "independent_points": float(np.linalg.solve(one.correlations, np.ones(len(one.times))).sum()),
-                    "components": components.basis.shape[1],
-                    "apart": float(np.sqrt((away**2).mean())),
-                    "successive": float((away[1:] * away[:-1]).sum() / max((away**2).sum(), 1e-300)),
-                }
-            )
+            points, alike = len(one.times), float((away[1:] * away[:-1]).sum() / max((away**2).sum(), 1e-300))
+            said = {"name": one.response.name, "unit": one.response.unit, "points": points, "correlation_time": one.correlation_time}
+            said |= {"independent_points": float(np.linalg.solve(one.correlations, np.ones(points)).sum())}
+            said |= {"components": components.basis.shape[1], "apart": float(np.sqrt((away**2).mean())), "successive": alike}
+            found.append(said)
         return found
 
     def text(self) -> str:
@@ -321,7 +274,7 @@ class Fit:
             rows = self.keys[self.keys["key"] == factor.name]
             likely = rows["most_likely"].iloc[0]
             pieces = " or ".join(_interval(factor, row) for _, row in rows.iterrows() if math.isfinite(row["low"]))
-            told = [factor.name, _said(factor, likely) if math.isfinite(likely) else "–", pieces or "none: runs contradict the forecast"]
+            told = [factor.name, factor.shown(likely, 4) if math.isfinite(likely) else "–", pieces or "none: runs contradict the forecast"]
             lines.append(dict(zip(["key", "most likely", f"{level} interval"], told, strict=True)))
         blocks = ["Keys", _columns(lines)]
         lines = []
@@ -330,15 +283,10 @@ class Fit:
             deviation = math.hypot(row["surrogate_deviation"], row["seeds_deviation"])
             away = (row["forecast"] - row["measured"]) / math.hypot(row["uncertainty"], deviation, row["discrepancy"])
             scatter = row["seed_to_seed"]
-            lines.append(
-                {
-                    "response": row["response"],
-                    "measured": unit.text(row["measured"], row["uncertainty"]),
-                    "runs give": unit.text(row["forecast"], deviation),
-                    "seed to seed": f"{scatter * unit.per_si:.2g} {unit.symbol}".strip() if math.isfinite(scatter) else "not known",
-                    "apart": f"{away:.1f} deviations".replace("-0.0", "0.0").replace("-", "−"),
-                }
-            )
+            apart = f"{scatter * unit.per_si:.2g} {unit.symbol}".strip() if math.isfinite(scatter) else "not known"
+            line = {"response": row["response"], "measured": unit.text(row["measured"], row["uncertainty"])}
+            line |= {"runs give": unit.text(row["forecast"], deviation), "seed to seed": apart}
+            lines.append(line | {"apart": f"{away:.1f} deviations".replace("-0.0", "0.0")})
         blocks += ["\nResponses at the most likely values", _columns(lines)] if lines else []
         lines = [
             {
@@ -374,7 +322,7 @@ class Fit:
             if stated
             else "taken for exact; [fit] discrepancy = 0.05 gives it an uncertainty of 5 %",
         }
-        return "\n".join([*blocks, "", self.study.title, *(f"  {name:<8} {words}" for name, words in summary.items())])
+        return with_minus("\n".join([*blocks, "", self.study.title, *(f"  {name:<8} {words}" for name, words in summary.items())]))
 
     def figures(self) -> dict[str, Any]:
         """Draws profiles of the keys, regions of their pairs, series."""
@@ -393,14 +341,9 @@ def _columns(lines: list[dict[str, Any]]) -> str:
     )
 
 
-def _said(factor: Factor, value: float) -> str:
-    """A value of a key with four digits."""
-    return f"{float(factor.in_study_unit(value)):.4g} {factor.study_unit}".strip()
-
-
 def _interval(factor: Factor, row: pandas.Series) -> str:
-    low, high = _said(factor, row["low"]), _said(factor, row["high"])
-    bare = low.removesuffix(factor.study_unit).strip()
+    low, high = factor.shown(row["low"], 4), factor.shown(row["high"], 4)
+    bare = factor.shown(row["low"], 4, with_unit=False)
     if row["open_below"] and row["open_above"]:
         return f"not determined by these data: anywhere from {bare} to {high}"
     if row["open_below"]:
@@ -603,19 +546,11 @@ def told(study: Study, target: Target, outcome: Outcome, confidence: float, most
             continue
         (number,) = terms
         process = likelihood.terms[number].process
-        responses.append(
-            {
-                **about,
-                "measured": one.values[0],
-                "uncertainty": one.uncertainties[0],
-                "forecast": means[number],
-                "surrogate_deviation": math.sqrt(own[number]),
-                "seeds_deviation": math.sqrt(of_seeds[number]),
-                "seed_to_seed": math.sqrt(process.run_variance + of_seeds[number] * process.seeds) if process.seeds > 1 else math.nan,
-                "leave_one_out_error": float(np.sqrt(np.square(process.loo()[0]).mean())),
-                "discrepancy": abs(target.discrepancies[at] * one.values[0]),
-            }
-        )
+        scatter = math.sqrt(process.run_variance + of_seeds[number] * process.seeds) if process.seeds > 1 else math.nan
+        row = {**about, "measured": one.values[0], "uncertainty": one.uncertainties[0], "forecast": means[number]}
+        row |= {"surrogate_deviation": math.sqrt(own[number]), "seeds_deviation": math.sqrt(of_seeds[number]), "seed_to_seed": scatter}
+        row |= {"leave_one_out_error": float(np.sqrt(np.square(process.loo()[0]).mean()))}
+        responses.append(row | {"discrepancy": abs(target.discrepancies[at] * one.values[0])})
     names = ["response", "unit", "measured", "uncertainty", "forecast", "surrogate_deviation", "seeds_deviation", "seed_to_seed"]
     names += ["leave_one_out_error", "discrepancy"]
     checks = []
@@ -651,21 +586,10 @@ def told(study: Study, target: Target, outcome: Outcome, confidence: float, most
 
 
 def products(slopes: Numbers, halves: Numbers, threshold: float) -> tuple[list[tuple[Numbers, float]] | None, list[tuple[Numbers, float]]]:
-    """Products of powers of keys that are determined where the keys are not, or are known far better than these.
+    """Exponents of keys, with 1 for the leading one, of products that are determined where the keys are not, or are known far better.
 
-    Parameters
-    ----------
-    slopes : numpy.ndarray
-        Of the responses over their deviations, by logarithms of keys as multiples of half their ranges.
-    halves : numpy.ndarray
-        These halves.
-    threshold : float
-        Rise of -2 ln L at the ends of intervals.
-
-    Returns
-    -------
-    tuple
-        Exponents, with 1 for the leading key, and the factor by which the product may be off: determined ones, None if all keys are; others.
+    `slopes` are those of the responses over their deviations, by logarithms of keys as multiples of `halves`, half their ranges. Each
+    product has the factor by which it may be off; the determined ones are None if all keys are.
     """
     curvature = slopes.T @ slopes
     values, axes = np.linalg.eigh(curvature)
@@ -708,9 +632,9 @@ def _determined(factors: Sequence[Factor], likelihood: Likelihood, threshold: fl
             (factors[at], round(float(row[at]), 4), values[at])
             for at in sorted(np.flatnonzero(row).tolist(), key=lambda at: (row[at] != 1.0, at))
         ]
-        name = " × ".join(factor.name if power == 1.0 else f"{factor.name}^{power:g}".replace("-", "−") for factor, power, _ in powers)
+        name = " × ".join(factor.name if power == 1.0 else with_minus(f"{factor.name}^{power:g}") for factor, power, _ in powers)
         value = math.prod(float(factor.in_study_unit(value)) ** power for factor, power, value in powers)
-        units = " and ".join(factor.study_unit for factor, _, _ in powers if factor.study_unit)
+        units = " and ".join(shown_unit(factor.study_unit) for factor, _, _ in powers if factor.study_unit)
         return f"{name} = {value:.4g} ({value / times:.4g} … {value * times:.4g}{', with ' + units if units else ''})"
 
     if found is None:
@@ -739,7 +663,7 @@ def _notes(fit: Fit) -> list[str]:
     if outcome.has_failed:
         check = outcome.checks[-1]
         places = zip(fit.study.factors, check["place"], strict=True)
-        where = ", ".join(f"{factor.name} = {_said(factor, float(factor.value(at)))}" for factor, at in places)
+        where = ", ".join(f"{factor.name} = {factor.shown(float(factor.value(at)), 4)}" for factor, at in places)
         worst = int(np.nanargmax(np.abs(check["runs"] - check["forecast"]) / check["deviation"]))
         notes.append(
             f"Runs at the most likely place ({where}) contradict the forecast, most in {names[check['of'][worst]]}, and no runs were left to find "
@@ -840,7 +764,7 @@ class Plan:
         """What ``plateau fit --plan`` prints."""
         keys = []
         for factor in self.study.factors:
-            low, high = map(factor.text, factor.ends)
+            low, high = map(factor.shown, factor.ends)
             keys.append({"key": factor.name, "between": f"{low} … {high}{', equal ratios' if factor.logarithmic else ''}"})
         measured = []
         for one in self.target.measured:
@@ -855,7 +779,7 @@ class Plan:
         if math.isfinite(self.estimated_time):
             rows |= {"estimated": f"{self.estimated_time:.3g} s for all", "memory": f"{self.memory / 1e6:.3g} MB for each"}
         lines = [f"  {name:<10}  {words}" for name, words in rows.items()]
-        return "\n".join(["Looked for", _columns(keys), "\nFitted to", _columns(measured), "", self.study.title, *lines])
+        return with_minus("\n".join(["Looked for", _columns(keys), "\nFitted to", _columns(measured), "", self.study.title, *lines]))
 
 
 def plan(study: Study | str | os.PathLike[str]) -> Plan:

@@ -11,6 +11,8 @@ import numpy.typing as npt
 import pandas
 import xarray
 
+from plateau.units import shown_unit, with_minus
+
 Numbers = npt.NDArray[np.float64]
 
 # Scales on which a response can be fitted, and the way back. It never falls, so that ends of intervals stay ends.
@@ -70,17 +72,7 @@ class Factor:
         return (self.levels[0], self.levels[1]) if self.is_range else (min(self.levels), max(self.levels))
 
     def coded(self, values: Any) -> Numbers:
-        """Places between the ends: -1 at the lower one, 1 at the upper one.
-
-        Parameters
-        ----------
-        values : array_like of float
-            Values in SI units.
-
-        Returns
-        -------
-        numpy.ndarray
-        """
+        """Places of values, SI, between the ends: -1 at the lower one, 1 at the upper one."""
         low, high = self.ends
         place = np.asarray(values, float)
         if self.logarithmic:
@@ -88,48 +80,25 @@ class Factor:
         return np.asarray((2.0 * place - (low + high)) / (high - low))
 
     def value(self, coded: Any) -> Numbers:
-        """Values in SI units at coded places; the inverse of `coded`.
-
-        Parameters
-        ----------
-        coded : array_like of float
-
-        Returns
-        -------
-        numpy.ndarray
-        """
+        """Values in SI units at coded places; the inverse of `coded`."""
         (low, high), share = self.ends, (np.asarray(coded, float) + 1.0) / 2.0
         return np.asarray(low * (high / low) ** share if self.logarithmic else low + (high - low) * share)
 
     def in_study_unit(self, values: Any) -> Numbers:
-        """Numbers in the unit of the study.
-
-        Parameters
-        ----------
-        values : array_like of float
-            Values in SI units.
-
-        Returns
-        -------
-        numpy.ndarray
-        """
+        """Numbers, SI, in the unit of the study."""
         return np.asarray((np.asarray(values, float) - self.zero) / self.one)
 
     def text(self, value: Any) -> str:
-        """A value for people, such as ``"7 N"``.
-
-        Parameters
-        ----------
-        value : float or str
-            In SI units, or a word.
-
-        Returns
-        -------
-        str
-        """
+        """A value, SI or a word, as it is typed, such as ``"7 N"``."""
         if isinstance(value, str):
             return value
         return f"{float(self.in_study_unit(value)):.6g} {self.study_unit}".strip()
+
+    def shown(self, value: Any, digits: int = 6, *, with_unit: bool = True) -> str:
+        """A value as it is shown, such as ``"−5 °C"``; `text` has it as it is typed."""
+        if isinstance(value, str):
+            return value
+        return f"{with_minus(f'{float(self.in_study_unit(value)):.{digits}g}')} {shown_unit(self.study_unit) if with_unit else ''}".strip()
 
 
 @dataclass(frozen=True)
@@ -161,33 +130,12 @@ class Response:
     asked: dict[str, Any]
 
     def scaled(self, values: Any) -> Numbers:
-        """Values on the scale of the fit.
-
-        Parameters
-        ----------
-        values : array_like of float
-            SI units.
-
-        Returns
-        -------
-        numpy.ndarray
-            Not finite where the scale has no such value.
-        """
+        """Values, SI, on the scale of the fit; not finite where it has no such value."""
         with np.errstate(divide="ignore", invalid="ignore"):
             return np.asarray(TRANSFORMS[self.transform][0](np.asarray(values, float)))
 
     def back(self, values: Any) -> Numbers:
-        """Values of a fit in SI units, no more than can be.
-
-        Parameters
-        ----------
-        values : array_like of float
-            On the scale of the fit.
-
-        Returns
-        -------
-        numpy.ndarray
-        """
+        """Values of a fit in SI units, no more than can be."""
         return np.asarray(np.clip(TRANSFORMS[self.transform][1](np.asarray(values, float)), self.low, self.high))
 
 

@@ -1,20 +1,18 @@
-"""Figures of studies in one look: 88 or 180 mm wide, letters of 7 to 8 points, colours that colour-blind readers tell apart."""
+"""Figures of studies."""
 
-import functools
-import io
 import itertools
 import re
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pandas
 from scipy import stats
 
-from plateau.errors import MissingPackageError
-from plateau.looks import APART, CHOSEN, LINES, QUIET
+from plateau.quantities import series_of
 from plateau.study.data import Factor, Numbers, Response
-from plateau.study.units import Unit, unit_for, unit_of
+from plateau.style import APART, CHOSEN, DASHES, LINES, NARROW, QUIET, WIDE, Figures, in_style, labelled, new, wrapped
+from plateau.units import Unit, shown_unit, unit_for, unit_of, with_minus
 
 if TYPE_CHECKING:
     from plateau.study.analysis import Effects, ResponseEffects
@@ -24,72 +22,11 @@ if TYPE_CHECKING:
     from plateau.study.scene_comparison import Comparison
     from plateau.study.variance_parts import Sensitivity
 
-# Figures by the names of their files; the label of a figure is its caption.
-Figures = dict[str, Any]
-MM = 1 / 25.4
-NARROW, WIDE = 88.0, 180.0
-# Formats, and what is left out of their files so that equal figures give equal files.
-FORMATS: dict[str, dict[str, Any]] = {"png": {}, "svg": {"Date": None, "Creator": None}, "pdf": {"CreationDate": None, "ModDate": None}}
-LOOK: Any = {
-    "font.size": 8,
-    "axes.titlesize": 8,
-    "legend.fontsize": 7,
-    "xtick.labelsize": 7,
-    "ytick.labelsize": 7,
-    "axes.linewidth": 0.6,
-    "axes.spines.top": False,
-    "axes.spines.right": False,
-    "xtick.major.width": 0.6,
-    "ytick.major.width": 0.6,
-    "lines.linewidth": 1.0,
-    "lines.markersize": 3.5,
-    "axes.formatter.useoffset": False,
-    "axes.formatter.limits": (-3, 5),
-    "axes.formatter.use_mathtext": True,
-    "legend.frameon": False,
-    "savefig.dpi": 300,
-    # Letters stay letters.
-    "svg.fonttype": "none",
-    "pdf.fonttype": 42,
-    "svg.hashsalt": "plateau",
-}
-DASHES = ["-", "--", "-.", ":", (0, (4, 1, 1, 1, 1, 1)), (0, (1, 1))]
-# Most terms, and panels of pairs, of a figure; most panels beside each other; letters of a label on one line.
-MOST_TERMS, MOST_PAIRS, BESIDE, LETTERS = 20, 12, 4, 24
+# Most terms, and panels of pairs, of a figure; most panels beside each other.
+MOST_TERMS, MOST_PAIRS, BESIDE = 20, 12, 4
 # Standardised residuals beyond this have the number of their run.
 FAR = 2.5
 STEPS = 61
-
-
-def in_look(draws: Callable[..., Figures]) -> Callable[..., Figures]:
-    """Draws in the look of this module, whatever the settings of matplotlib are."""
-
-    @functools.wraps(draws)
-    def drawn(*arguments: Any, **options: Any) -> Figures:
-        try:
-            import matplotlib
-        except ImportError as error:
-            raise MissingPackageError("figures need matplotlib: pip install 'plateau-brake[all]', or pip install matplotlib") from error
-        with matplotlib.rc_context(matplotlib.rcParamsDefault | LOOK):
-            return draws(*arguments, **options)
-
-    return drawn
-
-
-def saved(figures: Figures) -> dict[str, bytes]:
-    """Files of figures as PNG, SVG and PDF; equal figures give equal files."""
-    import matplotlib
-
-    files = {}
-    with matplotlib.rc_context(LOOK):
-        for name, figure in figures.items():
-            for form, dates in FORMATS.items():
-                with io.BytesIO() as file:
-                    figure.savefig(file, format=form, metadata=dates)
-                    files[f"{name}.{form}"] = file.getvalue()
-                # The places of all that is drawn are the same in each.
-                figure.set_layout_engine("none")
-    return files
 
 
 def file_names(names: Sequence[str]) -> list[str]:
@@ -102,27 +39,6 @@ def file_names(names: Sequence[str]) -> list[str]:
     return found
 
 
-def _new(width: float, height: float, caption: str, rows: int = 1, columns: int = 1, note: str = "", **options: Any) -> tuple[Any, Any]:
-    """A figure of this size, mm, and its axes, an array of two dimensions; a note stands below them."""
-    from matplotlib.figure import Figure
-
-    figure = Figure(figsize=(width * MM, height * MM), layout="constrained", label=caption)
-    if note:
-        figure.supxlabel(_wrapped(note, round(0.75 * width)), fontsize=7, color=QUIET, x=0.01, ha="left")
-    return figure, figure.subplots(rows, columns, squeeze=False, **options)
-
-
-def _wrapped(text: str, letters: int = LETTERS) -> str:
-    import textwrap
-
-    # What is between two $ would be a formula.
-    return "\n".join(textwrap.wrap(text.replace("$", r"\$"), letters))
-
-
-def _labelled(name: str, unit: str) -> str:
-    return _wrapped(", ".join(filter(None, [name, unit])), 36)
-
-
 def _positions(factor: Factor, values: Any) -> Any:
     """Where values of a factor are on its axis: numbers in the unit of the study, words side by side."""
     return (
@@ -130,38 +46,52 @@ def _positions(factor: Factor, values: Any) -> Any:
     )
 
 
-def _axis(axis: Any, factor: Factor, way: str = "x") -> None:
-    """The axis of a factor."""
+def _axis(axis: Any, factor: Factor, way: str = "x", *, has_levels: bool = False) -> None:
+    """The axis of a factor, with its levels alone if there is nothing between them."""
     own = getattr(axis, f"{way}axis")
-    own.set_label_text(_labelled(factor.name, factor.study_unit))
+    own.set_label_text(labelled(factor.name, shown_unit(factor.study_unit)))
     if not factor.is_number:
-        own.set_ticks(range(len(factor.levels)), [_wrapped(str(level), 12) for level in factor.levels])
+        own.set_ticks(range(len(factor.levels)), [wrapped(str(level), 12) for level in factor.levels])
         if way == "x":
             axis.set_xlim(-0.5, len(factor.levels) - 0.5)
             if sum(len(str(level)) for level in factor.levels) > 20:
                 axis.tick_params(axis="x", rotation=90)
     elif factor.logarithmic:
-        getattr(axis, f"set_{way}scale")("log")
-    elif not factor.is_range and len(factor.levels) <= 4:
+        _logarithmic(axis, way)
+    elif not 1e-3 <= np.abs(ends := factor.in_study_unit(np.array(factor.ends))).max() < 1e5 and ends.any():
+        # A power of ten at the end of an axis would stand on its label.
+        axis.locator_params(axis=way, nbins=3)
+        own.set_major_formatter(lambda value, _: _number(value))
+    if has_levels and factor.is_number and not factor.is_range and not factor.logarithmic and len(factor.levels) <= 4:
         own.set_ticks(factor.in_study_unit(np.array(factor.levels)))
 
 
-def _scale(axis: Any, response: Response) -> None:
-    """The axis of values of a response; logarithms are the scale of one that is fitted so."""
-    if response.transform == "log":
-        from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
+def _logarithmic(axis: Any, way: str) -> None:
+    """A logarithmic scale with few numbers, which do not touch."""
+    from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullFormatter
 
-        axis.set_yscale("log")
-        low, high = axis.get_ylim()
-        axis.yaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0) if high < 100.0 * low else (1.0,)))
-        axis.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
-        axis.yaxis.set_minor_formatter(NullFormatter())
+    own = getattr(axis, f"{way}axis")
+    getattr(axis, f"set_{way}scale")("log")
+    low, high = sorted(own.get_view_interval())
+    steps = LogLocator(subs=(1.0, 2.0, 5.0) if high < 100.0 * low else (1.0,))
+    own.set_major_locator(MaxNLocator(4, steps=[1, 2, 2.5, 5, 10]) if high < 5.0 * low else steps)
+    own.set_major_formatter(FuncFormatter(lambda value, _: _number(value)))
+    own.set_minor_formatter(NullFormatter())
+
+
+def _number(value: float) -> str:
+    """A number as axes have it, with a power of ten if it is far from 1."""
+    if value == 0.0 or 1e-3 <= abs(value) < 1e5:
+        return with_minus(f"{value:.6g}")
+    digits, power = f"{value:.3e}".split("e")
+    times = "" if float(digits) == 1.0 else rf"{float(digits):g}\times"
+    return rf"${times}10^{{{int(power)}}}$"
 
 
 # Effects ---------------------------------------------------------------------------------------------------------------------------
 
 
-@in_look
+@in_style
 def effects_figures(found: "Effects") -> Figures:
     """Draws effects, means, interactions, residuals and surfaces of each response."""
     figures: Figures = {}
@@ -188,12 +118,12 @@ def _pareto(one: "ResponseEffects", fit: "Fitted") -> Any:
     level = f"{100 * fit.confidence:g} %"
     has_effects = bool(table["effect"].notna().any())
     margins = table["margin_of_error"].dropna()
-    notes = [f"Bars: {level} interval" if table["low"].notna().any() else "", "full: p < " + f"{1 - fit.confidence:.3g}"]
+    notes = [f"Bars: {level} interval" if table["low"].notna().any() else "", f"filled: p < {1 - fit.confidence:.3g}"]
     notes = notes if table["p"].notna().any() else ["dotted: margin of error (Lenth)"] if len(margins) else []
     notes += [f"{left_out} smaller terms are not shown"] if left_out > 0 else []
     caption = f"{one.title}: effects with {level} intervals, and shares of the variance"
     height = 22 + 5 * len(table) + 4 * bool(notes)
-    figure, axes = _new(WIDE, height, caption, 1, 1 + has_effects, "; ".join(filter(None, notes)), sharey=True)
+    figure, axes = new(WIDE, height, caption, 1, 1 + has_effects, "; ".join(filter(None, notes)), sharey=True)
     places = np.arange(len(table))
     is_sure = (table["p"] < 1.0 - fit.confidence).to_numpy() | (table["effect"].abs() > table["margin_of_error"]).to_numpy()
     colours = np.where(is_sure, LINES[0], QUIET)
@@ -207,12 +137,13 @@ def _pareto(one: "ResponseEffects", fit: "Fitted") -> Any:
         for sign in (-1.0, 1.0) if len(margins) else ():
             axes[0, 0].axvline(sign * margins.iloc[0] * unit.per_si, color=LINES[1], linestyle=":")
         axes[0, 0].axvline(0.0, color=QUIET, linewidth=0.6)
+        axes[0, 0].locator_params(axis="x", nbins=6)
         axes[0, 0].set_xlabel(
-            _labelled(f"effect on {one.title.split(',')[0] if one.response.transform == 'none' else one.title}", unit.of_differences)
+            labelled(f"effect on {one.title.split(',')[0] if one.response.transform == 'none' else one.title}", unit.of_differences)
         )
     axes[0, -1].barh(places, 100 * table["share"], height=0.6, color=colours)
     axes[0, -1].set(xlabel="share of the variance, %", xlim=(0, None))
-    axes[0, 0].set_yticks(places, [_wrapped(str(term), 40) for term in table["term"]])
+    axes[0, 0].set_yticks(places, [wrapped(str(term), 40) for term in table["term"]])
     axes[0, 0].invert_yaxis()
     return figure
 
@@ -230,20 +161,20 @@ def _main_effects(one: "ResponseEffects", fit: "Fitted") -> Any:
     # With squares, means over runs are not those at the middle of the others.
     is_straight = fit.model != "quadratic"
     said = [
-        f"Bars and bands: {level} interval of the model's mean" if np.isfinite(fit.error) else "",
+        f"Bars and bands: {level} interval of the model’s mean" if np.isfinite(fit.error) else "",
         "rings: means of runs" if is_straight else "",
         averaged,
     ]
     note = "; ".join(filter(None, said))
     width = WIDE if columns > 2 else NARROW
-    figure, axes = _new(width, 12 + 46 * rows, caption, rows, columns, note, sharey=True)
+    figure, axes = new(width, 12 + 46 * rows, caption, rows, columns, note, sharey=True)
     unit = unit_of(one.response.unit, one.response.back(fit.values))
     for axis, factor in zip(axes.flat, own, strict=False):
         means = one.means(factor.name)
         _means(axis, one.response, unit, factor, one.means(factor.name, steps=STEPS // 2), LINES[0], "-")
         if is_straight:
             axis.plot(_positions(factor, means[factor.name]), _shown(one.response, unit, means["observed"]), "o", mec=LINES[0], mfc="none")
-        _axis(axis, factor)
+        _axis(axis, factor, has_levels=True)
     _finished(axes, own, one.response, unit)
     return figure
 
@@ -259,7 +190,7 @@ def _means(
     x = _positions(factor, means[factor.name])
     middle, low, high = (_shown(response, unit, means[name]) for name in ("mean", "low", "high"))
     if factor.is_number:
-        axis.fill_between(x, low, high, color=colour, alpha=0.18, linewidth=0)
+        axis.fill_between(x, low, high, facecolor=(colour, 0.15), edgecolor=(colour, 0.6), linewidth=0.4)
         axis.plot(x, middle, color=colour, linestyle=dashes, **options)
     else:
         x = x + options.pop("aside", 0.0)
@@ -272,8 +203,10 @@ def _finished(axes: Any, own: Sequence[Any], response: Response, unit: Unit) -> 
     for axis in axes.flat[len(own) :]:
         axis.set_axis_off()
     for axis in axes[:, 0]:
-        axis.set_ylabel(_labelled(response.name, unit.symbol))
-    _scale(axes[0, 0], response)
+        axis.set_ylabel(labelled(response.name, unit.symbol))
+    if response.transform == "log":
+        # It is fitted so.
+        _logarithmic(axes[0, 0], "y")
 
 
 def _interactions(one: "ResponseEffects", fit: "Fitted") -> Any:
@@ -285,12 +218,12 @@ def _interactions(one: "ResponseEffects", fit: "Fitted") -> Any:
     left_out, pairs = len(table) - MOST_PAIRS, list(table["factors"].head(MOST_PAIRS))
     columns = min(len(pairs), 3)
     rows = -(-len(pairs) // columns)
-    notes = [f"Bars and bands: {100 * fit.confidence:g} % interval of the model's mean, the others averaged over their levels"]
+    notes = [f"Bars and bands: {100 * fit.confidence:g} % interval of the model’s mean, the others averaged over their levels"]
     notes = notes if np.isfinite(fit.error) else ["The others averaged over their levels"]
     notes += [f"{left_out} pairs with smaller shares are not shown"] if left_out > 0 else []
     caption = f"{one.response.name}: means at pairs of levels, the pair with the largest share first"
     width = WIDE if columns > 1 else NARROW
-    figure, axes = _new(width, 12 + 56 * rows, caption, rows, columns, "; ".join(notes), sharey=True)
+    figure, axes = new(width, 12 + 56 * rows, caption, rows, columns, "; ".join(notes), sharey=True)
     unit = unit_of(one.response.unit, one.response.back(fit.values))
     for axis, pair in zip(axes.flat, pairs, strict=False):
         # Over the factor with more values, which is a number if there is one; a line for each level of the other.
@@ -308,10 +241,13 @@ def _interactions(one: "ResponseEffects", fit: "Fitted") -> Any:
         for number, level in enumerate(dict.fromkeys(shown)):
             own = means[[value == level for value in means[line.name]]]
             aside = 0.0 if x.is_number else 0.08 * (number - (len(shown) - 1) / 2)
-            options = {"label": _wrapped(line.text(level), 16)} | ({} if x.is_number else {"aside": aside})
+            options = {"label": wrapped(line.shown(level), 16)} | ({} if x.is_number else {"aside": aside})
             _means(axis, one.response, unit, x, own, LINES[number], DASHES[number], **options)
-        _axis(axis, x)
-        axis.legend(title=_wrapped(line.name), title_fontsize=7, loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=4, columnspacing=1.0)
+        _axis(axis, x, has_levels=True)
+        # As many beside each other as a panel is wide.
+        beside = max(36 // (6 + max(len(line.shown(level)) for level in shown)), 1)
+        style = {"loc": "lower left", "bbox_to_anchor": (0.0, 1.0), "ncols": beside, "columnspacing": 1.0}
+        axis.legend(title=wrapped(line.name), title_fontsize=7, alignment="left", **style)
     _finished(axes, pairs, one.response, unit)
     return figure
 
@@ -324,14 +260,14 @@ def _residuals(one: "ResponseEffects", fit: "Fitted") -> Any:
     unit = unit_for(one.unit, float(table["residual"].abs().max()))
     of_fit = unit_of(one.response.unit, table["fitted"]) if one.response.transform == "none" else Unit("", 1.0)
     caption = f"{one.title}: residuals against fitted values, in the order of the runs, and against normal quantiles"
-    figure, axes = _new(WIDE, 60, caption, 1, 3)
+    figure, axes = new(WIDE, 60, caption, 1, 3)
     residuals, far = table["residual"].to_numpy() * unit.per_si, table["standardised"].abs().to_numpy() > FAR
     quantiles = np.full(len(table), np.nan)
     quantiles[np.argsort(residuals, kind="stable")] = stats.probplot(residuals, fit=False)[0]
     standardised = table["standardised"].to_numpy()
-    of_residuals = _labelled("residual", unit.of_differences)
+    of_residuals = labelled("residual", unit.of_differences)
     panels = [
-        (of_fit.value(table["fitted"].to_numpy()), residuals, _labelled("fitted", of_fit.symbol or one.title), of_residuals),
+        (of_fit.value(table["fitted"].to_numpy()), residuals, labelled("fitted", of_fit.symbol or one.title), of_residuals),
         (table["made_as"].to_numpy(), residuals, "order of the runs", of_residuals),
         (quantiles, standardised, "normal quantile", "residual, standard deviations"),
     ]
@@ -339,7 +275,7 @@ def _residuals(one: "ResponseEffects", fit: "Fitted") -> Any:
         axis.plot(x, y, "o", color=LINES[0], alpha=0.7 if len(x) < 100 else 0.4, markeredgewidth=0)
         axis.set(xlabel=label, ylabel=of_y)
         for at in np.flatnonzero(far)[:12] if axis is not axes[0, 2] else ():
-            axis.annotate(str(table["run"].iloc[at]), (x[at], y[at]), xytext=(3, 0), textcoords="offset points", fontsize=6, va="center")
+            axis.annotate(str(table["run"].iloc[at]), (x[at], y[at]), xytext=(3, 0), textcoords="offset points", fontsize=7, va="center")
     for axis in axes[0, :2]:
         axis.axhline(0.0, color=QUIET, linewidth=0.6)
     axes[0, 2].axline((0.0, 0.0), slope=1.0, color=QUIET, linewidth=0.6)
@@ -373,11 +309,11 @@ def _surface(one: "ResponseEffects", fit: "Fitted") -> Any:
     values = np.where(fit.fit.tells(rows), one.response.back(rows @ fit.coefficients), np.nan).reshape(STEPS, STEPS)
     if not np.isfinite(values).any():
         return None
-    held = ", ".join(f"{factor.name} = {factor.text(others[factor.name])}" for factor in factors if factor.name not in (x.name, y.name))
+    held = ", ".join(f"{factor.name} = {factor.shown(others[factor.name], 4)}" for factor in factors if factor.name not in (x.name, y.name))
     caption = f"{one.response.name}: what the model expects over {x.name} and {y.name}" + (f", at {held}" if held else "")
-    note = "; ".join(filter(None, [f"At {held}" if held else "", "dots: runs, whatever the others are" if held else "dots: runs"]))
+    note = "; ".join(filter(None, [f"At {held}" if held else "", "dots: runs, whatever the others are" if held else "Dots: runs"]))
     unit = unit_of(one.response.unit, values)
-    label, is_log = _labelled(one.response.name, unit.symbol), one.response.transform == "log"
+    label, is_log = labelled(one.response.name, unit.symbol), one.response.transform == "log"
     return _map(x, y, grid, unit.value(values), label, caption, note, fit.study.runs, is_log)
 
 
@@ -402,21 +338,20 @@ def _map(
     runs: pandas.DataFrame | None = None,
     is_log: bool = False,
 ) -> Any:
-    """A map over two factors with lines of equal values."""
+    """A map over two factors with lines of equal values, whose numbers are those of its bar."""
     from matplotlib.ticker import LogLocator
 
-    figure, axes = _new(NARROW, 76 + 4 * (len(note) // 60), caption, note=note)
+    figure, axes = new(NARROW, 76 + 4 * (len(note) // 60), caption, note=note)
     axis = axes[0, 0]
     across, along = x.in_study_unit(grid[0]), y.in_study_unit(grid[1])
     if np.ptp(values[np.isfinite(values)]) > 0:
-        options: dict[str, Any] = {"levels": 12}
-        if is_log and (values > 0.0).all() and values.max() > 20.0 * values.min():
-            options = {"locator": LogLocator(subs=(1.0, 2.0, 5.0))}
+        is_wide = is_log and (values > 0.0).all() and values.max() > 20.0 * values.min()
+        options: dict[str, Any] = {"locator": LogLocator(subs=(1.0, 2.0, 5.0))} if is_wide else {"levels": 12}
         drawn = axis.contourf(across, along, values.T, cmap="viridis", **options)
         drawn.set_edgecolor("face")
-        lines = axis.contour(across, along, values.T, levels=drawn.levels[::2], colors="white", linewidths=0.6)
-        axis.clabel(lines, fontsize=6, fmt="%g")
-        figure.colorbar(drawn, ax=axis, label=label, ticks=drawn.levels[:: 1 + len(drawn.levels) // 12], format="%g")
+        axis.contour(across, along, values.T, levels=drawn.levels[::2], colors="white", linewidths=0.6)
+        # Every line has its number beside the bar, where it hides nothing.
+        figure.colorbar(drawn, ax=axis, label=label, ticks=drawn.levels[::2], **({"format": "%g"} if is_wide else {}))
     if runs is not None:
         places = runs[[x.name, y.name]].drop_duplicates()
         style = {"mfc": "white", "mec": "black", "mew": 0.6, "ms": 3.5, "clip_on": False, "zorder": 5}
@@ -429,21 +364,9 @@ def _map(
 # Optimum ---------------------------------------------------------------------------------------------------------------------------
 
 
-@in_look
+@in_style
 def optimum_figures(found: "Optimum", contour: str | None = None) -> Figures:
-    """Draws the profiler, and the desirability over two factors.
-
-    Parameters
-    ----------
-    found : Optimum
-    contour : str, optional
-        Names of the two factors with a comma between; the two that matter most unless given.
-
-    Returns
-    -------
-    dict of matplotlib.figure.Figure
-        ``"profiler"`` and, where there are two numbers that may be anywhere, ``"contour"``.
-    """
+    """Draws the profiler and, where two numbers may be anywhere, the desirability over those that matter most, or over a pair by name."""
     from plateau.study.goals import overall
 
     problem = found.problem
@@ -465,11 +388,11 @@ def optimum_figures(found: "Optimum", contour: str | None = None) -> Figures:
     level = f"{100 * problem.confidence:g} %"
     note = f"Bands: {level} interval of means; vertical lines: best settings" + ("; dotted: limits" if problem.limits else "")
     width = WIDE if len(own) > 2 else NARROW
-    figure, axes = _new(width, 14 + 34 * (len(shown) + 1), caption, len(shown) + 1, len(own), note, sharex="col", sharey="row")
+    figure, axes = new(width, 14 + 34 * (len(shown) + 1), caption, len(shown) + 1, len(own), note, sharex="col", sharey="row")
     spans = {}
     for column, factor in enumerate(own):
         levels = factors[factor.name]
-        values = factor.value(np.linspace(-1.0, 1.0, STEPS)) if levels is None else np.array(levels)
+        values = _range(factor, best, STEPS) if levels is None else np.array(levels)
         points = pandas.concat([best] * len(values), ignore_index=True).assign(**{factor.name: values})
         forecasts, places = problem.forecasts(points, with_intervals=True), _positions(factor, values)
         style = {"color": LINES[0], "linestyle": "-" if levels is None else "none", "marker": "" if levels is None else "o"}
@@ -484,7 +407,7 @@ def optimum_figures(found: "Optimum", contour: str | None = None) -> Figures:
                 axis.vlines(places, low, high, color=LINES[0], linewidth=1.0)
             for limit in (limit for limit in problem.limits if limit.response == name):
                 axis.axhline(unit.value(limit.value), color=LINES[1], linestyle=":")
-            axes[row, 0].set_ylabel(_labelled(name, unit.symbol))
+            axes[row, 0].set_ylabel(labelled(name, unit.symbol))
         desirability = np.nan_to_num(worth(points))
         spans[factor.name] = float(np.ptp(desirability))
         axes[-1, column].plot(places, desirability, **style)
@@ -497,11 +420,11 @@ def optimum_figures(found: "Optimum", contour: str | None = None) -> Figures:
     if pair or len(ranges) > 1:
         x, y = pair or sorted(ranges[:2], key=problem.study.factors.index)
         settings = {str(name): best[name].iloc[0] for name in best}
-        grid = [factor.value(np.linspace(-1.0, 1.0, 2 * STEPS)) for factor in (x, y)]
+        grid = [_range(factor, best, 2 * STEPS) for factor in (x, y)]
         points = _grid_points(x, y, grid, settings)
         values = worth(points).reshape(2 * STEPS, 2 * STEPS)
         if np.isfinite(values).any() and np.nanmax(values) > np.nanmin(values):
-            held = [f"{row.factor} = {row.text}" for row in found.settings.itertuples() if row.factor not in (x.name, y.name)]
+            held = [f"{one.name} = {one.shown(settings[one.name], 4)}" for one in problem.study.factors if one not in (x, y)]
             at = f", at {', '.join(held)}" if held else ""
             note = f"Star: best settings{at}" + ("; grey: a limit is missed" if problem.limits else "")
             map_ = _map(x, y, grid, values, "desirability", f"Desirability over {x.name} and {y.name}{at}", note)
@@ -512,14 +435,14 @@ def optimum_figures(found: "Optimum", contour: str | None = None) -> Figures:
     return figures
 
 
-def contour_pair(factors: Sequence[Factor], free: Sequence[str], asked: str | None) -> tuple[Factor, Factor] | None:
-    """The two factors of a contour that was asked for.
+def _range(factor: Factor, best: pandas.DataFrame, count: int) -> Numbers:
+    """Values over a range, and as far beyond it as the best ones are, which may be those of an axial run."""
+    place = float(factor.coded(best[factor.name].iloc[0]))
+    return factor.value(np.linspace(min(place, -1.0), max(place, 1.0), count))
 
-    Raises
-    ------
-    InputError
-        If they are not two different factors that may be anywhere in a range.
-    """
+
+def contour_pair(factors: Sequence[Factor], free: Sequence[str], asked: str | None) -> tuple[Factor, Factor] | None:
+    """The two factors of a contour that was asked for; refuses others than two different ones that may be anywhere in a range."""
     from plateau.errors import InputError
 
     if asked is None:
@@ -539,7 +462,7 @@ def contour_pair(factors: Sequence[Factor], free: Sequence[str], asked: str | No
 # Sensitivity -----------------------------------------------------------------------------------------------------------------------
 
 
-@in_look
+@in_style
 def sensitivity_figures(found: "Sensitivity") -> Figures:
     """Draws parts of the variance of each response, or elementary effects."""
     figures: Figures = {}
@@ -560,7 +483,7 @@ def _indices(found: "Sensitivity", response: Response, table: pandas.DataFrame) 
     note = f"Bars: {level} intervals of what the runs leave open" + (
         "; seeds: part of the variance of single runs" if is_seeds.any() else ""
     )
-    figure, axes = _new(NARROW, 30 + 7 * len(table), f"{response.name}: parts of the variance, with {level} intervals", note=note)
+    figure, axes = new(NARROW, 30 + 7 * len(table), f"{response.name}: parts of the variance, with {level} intervals", note=note)
     axis, places = axes[0, 0], np.arange(len(table))
     for kind, label, aside, colour, mark in (
         ("first_order", "alone (first order)", -0.15, LINES[0], "o"),
@@ -570,8 +493,8 @@ def _indices(found: "Sensitivity", response: Response, table: pandas.DataFrame) 
         axis.errorbar(
             middle, places + aside, xerr=[middle - low, high - middle], fmt=mark, color=colour, elinewidth=1.4, capsize=2, label=label
         )
-    axis.set(xlabel=_labelled(f"part of the variance of {response.name}", ""), xlim=(-0.02, 1.02))
-    axis.set_yticks(places, [_wrapped(str(name)) for name in table["factor"]])
+    axis.set(xlabel=labelled(f"part of the variance of {response.name}", ""), xlim=(-0.02, 1.02))
+    axis.set_yticks(places, [wrapped(str(name)) for name in table["factor"]])
     axis.invert_yaxis()
     figure.legend(loc="outside upper left", ncols=2, columnspacing=1.0)
     return figure
@@ -584,14 +507,14 @@ def _elementary(found: "Sensitivity", response: Response, table: pandas.DataFram
     caption = (
         f"{response.name}: elementary effects over the whole range of each factor; above the line a factor acts unevenly or with others"
     )
-    figure, axes = _new(NARROW, 76, caption, note="Bars: standard error; line: deviation = mean size")
+    figure, axes = new(NARROW, 76, caption, note="Bars: standard error; line: deviation = mean size")
     axis = axes[0, 0]
     axis.errorbar(sizes, deviations, xerr=np.nan_to_num(errors), fmt="o", color=LINES[0], capsize=2)
     for name, x, y in zip(table["factor"], sizes, deviations, strict=True):
-        axis.annotate(_wrapped(str(name)), (x, y), xytext=(3, 3), textcoords="offset points", fontsize=7)
+        axis.annotate(wrapped(str(name)), (x, y), xytext=(3, 3), textcoords="offset points", fontsize=7)
     axis.axline((0.0, 0.0), slope=1.0, color=QUIET, linewidth=0.6)
     axis.set(
-        xlabel=_labelled("mean size of effects, μ*", unit.of_differences), ylabel=_labelled("deviation of effects, σ", unit.of_differences)
+        xlabel=labelled("mean size of effects, μ*", unit.of_differences), ylabel=labelled("deviation of effects, σ", unit.of_differences)
     )
     axis.set(xlim=(0.0, 1.15 * np.nanmax(sizes + np.nan_to_num(errors))), ylim=(-0.03 * np.nanmax(deviations, initial=1e-300), None))
     return figure
@@ -600,14 +523,14 @@ def _elementary(found: "Sensitivity", response: Response, table: pandas.DataFram
 # Fit -------------------------------------------------------------------------------------------------------------------------------
 
 
-@in_look
+@in_style
 def fit_figures(found: "Fit") -> Figures:
     """Draws profiles of the keys, regions of their pairs, and series beside what was measured."""
     factors, level = {factor.name: factor for factor in found.study.factors}, f"{100 * found.confidence:g} %"
     columns = min(len(factors), 3)
     caption = f"How far −2 ln L rises where a key is held at a value, the others at their most likely ones; shaded: {level} interval"
     width, note = (WIDE if columns > 1 else NARROW), f"Dashed: threshold of the {level} interval, which is shaded"
-    figure, axes = _new(width, 14 + 50 * -(-len(factors) // columns), caption, -(-len(factors) // columns), columns, note, sharey=True)
+    figure, axes = new(width, 14 + 50 * -(-len(factors) // columns), caption, -(-len(factors) // columns), columns, note, sharey=True)
     for axis, (name, rows) in zip(axes.flat, found.profiles.groupby("key", sort=False), strict=False):
         factor, threshold = factors[str(name)], float(rows["threshold"].iloc[0])
         axis.plot(factor.in_study_unit(rows["value"]), rows["rise"], color=LINES[0])
@@ -625,7 +548,7 @@ def fit_figures(found: "Fit") -> Figures:
     for file, names, across, along, rises in regions:
         x, y = (factors[name] for name in names)
         caption = f"Where {x.name} and {y.name} may be: {level} region; dots: runs"
-        figure, axes = _new(
+        figure, axes = new(
             NARROW, 76, caption, note=f"Shaded: {level} region; dots: runs" if not found.outcome.has_failed else "Dots: runs"
         )
         axis = axes[0, 0]
@@ -634,23 +557,22 @@ def fit_figures(found: "Fit") -> Figures:
             at = x.in_study_unit(across), y.in_study_unit(along)
             axis.contourf(*at, rises, [-1.0, threshold], colors=[LINES[0]], alpha=0.2)
             axis.contour(*at, rises, [threshold], colors=[LINES[0]], linewidths=1.0)
-        axis.plot(x.in_study_unit(found.runs[x.name]), y.in_study_unit(found.runs[y.name]), "o", mfc="white", mec="black", mew=0.6, ms=3.0)
+        axis.plot(x.in_study_unit(found.runs[x.name]), y.in_study_unit(found.runs[y.name]), "o", mfc="white", mec="black", mew=0.6, ms=3.0, clip_on=False)
         _axis(axis, x)
         _axis(axis, y, "y")
         figures[file] = figure
     measured = [(str(name), rows) for name, rows in found.series.groupby("response", sort=False)] if len(found.series) else []
     for (name, rows), stem in zip(measured, file_names([name for name, _ in measured]), strict=True):
         unit, time = unit_for(rows["unit"].iloc[0], float(rows["measured"].abs().max())), unit_for("s", float(rows["time"].max()))
-        figure, axes = _new(
-            NARROW, 66, f"{name}: measured, and what runs give at the most likely values; bars and band: one standard deviation"
-        )
+        caption = f"{name}: measured, and what runs give at the most likely values; bars: one standard deviation"
+        figure, axes = new(NARROW, 66, caption, note="Runs: at the most likely values; bars: one standard deviation")
         axis, at = axes[0, 0], time.value(rows["time"].to_numpy())
         middle, half = unit.value(rows["forecast"].to_numpy()), unit.per_si * rows["forecast_deviation"].to_numpy()
         bars, points = unit.per_si * rows["uncertainty"].to_numpy(), unit.value(rows["measured"].to_numpy())
-        axis.errorbar(at, points, bars, fmt="o", color="black", ms=2.5, elinewidth=0.6, label="measured")
-        axis.plot(at, middle, color=LINES[0], label="runs", zorder=3)
-        axis.fill_between(at, middle - half, middle + half, color=LINES[0], alpha=0.25, linewidth=0, zorder=3)
-        axis.set(xlabel=_labelled("time", time.symbol), ylabel=_labelled(name, unit.symbol))
+        axis.errorbar(at, points, bars, fmt="o", color="black", mfc="white", elinewidth=0.6, capsize=2, label="measured")
+        # Runs are told at the measured times alone: no line says what is between them.
+        axis.errorbar(at, middle, half, fmt="s", color=LINES[0], ms=2.5, elinewidth=1.4, label="runs", zorder=3)
+        axis.set(xlabel=labelled("time", time.symbol), ylabel=labelled(name, unit.symbol))
         figure.legend(loc="outside upper left", ncols=2)
         figures[f"series-{stem}"] = figure
     return figures
@@ -659,29 +581,32 @@ def fit_figures(found: "Fit") -> Figures:
 # Comparison ------------------------------------------------------------------------------------------------------------------------
 
 
-@in_look
+@in_style
 def comparison_figures(found: "Comparison") -> Figures:
     """Draws each series against time, mean with the standard deviation of runs, and below it the differences with their intervals."""
     figures: Figures = {}
     reference = next(iter(found.scenes))
     for series, curves in found.curves.groupby("series", sort=False):
-        name, unit = str(series).replace("_", " "), unit_for(curves["unit"].iloc[0], float(curves["mean"].abs().max()))
+        name, unit = series_of(str(series)).title, unit_for(curves["unit"].iloc[0], float(curves["mean"].abs().max()))
+        of_time = unit_of("s", curves["time"])
         level = f"{100 * found.confidence:g} %"
         caption = f"{name} against time: means over the seeds with the standard deviation of runs, and differences with {level} intervals"
-        note = f"Bands: above, standard deviation of runs; below, {level} interval at each time alone"
-        figure, axes = _new(NARROW, 92, caption, 2, 1, note, sharex=True, height_ratios=[2, 1])
+        note = f"Bands: standard deviation of runs; below, {level} interval of the difference from {reference} at each time alone"
+        figure, axes = new(NARROW, 92, caption, 2, 1, note, sharex=True, height_ratios=[2, 1])
         top, below = axes[:, 0]
         for number, (scene, curve) in enumerate(curves.groupby("scene", sort=False)):
             colour, dashes = LINES[number % len(LINES)], DASHES[number % len(DASHES)]
-            time, band = curve["time"], {"color": colour, "alpha": 0.18, "linewidth": 0}
+            time, band = of_time.value(curve["time"]), {"color": colour, "alpha": 0.18, "linewidth": 0}
             middle, half = unit.value(curve["mean"].to_numpy()), unit.per_si * curve["deviation"].fillna(0.0).to_numpy()
             change, low, high = (unit.per_si * curve[end].to_numpy() for end in ("difference", "low", "high"))
-            top.plot(time, middle, color=colour, linestyle=dashes, label=_wrapped(str(scene), 30))
+            top.plot(time, middle, color=colour, linestyle=dashes, label=wrapped(str(scene), 30))
             top.fill_between(time, middle - half, middle + half, **band)
             below.plot(time, change, color=colour, linestyle=dashes)
             below.fill_between(time, low, high, **band)
-        top.set(ylabel=_labelled(name, unit.symbol))
-        below.set(xlabel="time, s", ylabel=_labelled(f"less {reference}", unit.of_differences))
+        # Titles of series are longer than the axis.
+        top.set_title(wrapped(name, 46), loc="left")
+        top.set(ylabel=labelled("mean", unit.symbol))
+        below.set(xlabel=labelled("time", of_time.symbol), ylabel=labelled("difference", unit.of_differences))
         below.axhline(0.0, color=QUIET, linewidth=0.6)
         figure.legend(*top.get_legend_handles_labels(), loc="outside upper left", ncols=2, columnspacing=1.0)
         figure.align_ylabels()

@@ -13,9 +13,9 @@ from scipy import optimize, stats
 
 from plateau.errors import InputError
 from plateau.study.data import Numbers, Study
-from plateau.study.prediction import _assignment, _axis, _beyond, _factor, _value
+from plateau.study.settings import axis_of, beyond_of, held_values
 from plateau.study.surrogate import Surrogate
-from plateau.study.units import parsed
+from plateau.units import parsed
 
 # Typed more strictly than it can be called.
 minimize: Any = optimize.minimize
@@ -251,12 +251,9 @@ def wanted(
 
 def axes_of(study: Study, hold: Mapping[str, Any] | Sequence[str], is_curved: bool) -> list[list[Any] | None]:
     """Where each factor may be: its levels, the value that it is held at, or None anywhere in its range."""
-    held: dict[str, Any] = {}
-    for name, said in hold.items() if isinstance(hold, Mapping) else [_assignment(study, text) for text in hold]:
-        factor = _factor(study, name, "--hold")
-        held[factor.name] = _value(factor, said, "--hold", is_curved)
-    place = pandas.DataFrame({factor.name: [held.get(factor.name, _axis(factor, None, is_curved)[0])] for factor in study.factors})
-    if beyond := _beyond(study, place)[0]:
+    held = held_values(study, hold, "--hold", is_curved)
+    place = pandas.DataFrame({factor.name: [held.get(factor.name, axis_of(factor, None, is_curved)[0])] for factor in study.factors})
+    if beyond := beyond_of(study, place)[0]:
         raise InputError(f"--hold: {beyond}; the search stays within the ranges")
     axes: list[list[Any] | None] = []
     for factor in study.factors:

@@ -22,22 +22,10 @@ NEAR = 0.02
 def improved(
     problem: Problem, runs: int, made: Callable[[pandas.DataFrame], pandas.DataFrame], at_a_time: int = 1
 ) -> tuple[Problem, pandas.DataFrame]:
-    """Makes runs where improvement is expected, and fits Gaussian processes anew after each round.
+    """Makes runs at most, those with each seed counted, where improvement is expected, and fits processes anew after each round.
 
-    Parameters
-    ----------
-    problem : Problem
-    runs : int
-        At most so many, those with each seed counted. The last ones are made where the mean is expected to be best.
-    made : callable
-        Makes the runs at points.
-    at_a_time : int
-        Points of a round: after the first one, each is chosen as if the ones before it had given what is expected of them.
-
-    Returns
-    -------
-    tuple of Problem and DataFrame
-        With all runs in its study, and the points with the improvement that was expected of them.
+    The last ones are made where the mean is expected to be best. Of the points of a round each is chosen as if the ones before it had
+    given what is expected of them. Gives the problem with all runs, and the points with the improvement that was expected of them.
     """
     rows: list[dict[Any, Any]] = []
     left, number = runs // problem.study.seeds, 0
@@ -92,16 +80,6 @@ def expected_improvement(problem: Problem, points: pandas.DataFrame) -> Numbers:
     The reference is the best expected mean, not the best run, as runs are noisy (V. Picheny and others, Structural and Multidisciplinary
     Optimization 48, 607-626 (2013)). What is as uncertain at points that were run, too, is nothing that more runs tell. Points that miss a
     limit improve nothing.
-
-    Parameters
-    ----------
-    problem : Problem
-        With processes.
-    points : pandas.DataFrame
-
-    Returns
-    -------
-    numpy.ndarray
     """
     names = list(problem.forecasts(points.head(1)))
     known = problem.study.runs.drop_duplicates("point")

@@ -9,9 +9,8 @@ import pandas
 
 from plateau.errors import InputError
 from plateau.study.data import Factor, Response, Study
-from plateau.study.quantities import in_si
 from plateau.study.text_tables import TextTable, read_text_table, written_table
-from plateau.study.units import with_unit
+from plateau.units import in_si, with_unit
 
 REPLICATE = "replicate"
 # Numbers of a table and of the design are the same if they differ by less than this part of the largest one of the factor.

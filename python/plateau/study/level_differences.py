@@ -15,7 +15,7 @@ from plateau.study.analysis import usable
 from plateau.study.data import Study
 from plateau.study.model import Fitted, NothingToFit, fitted
 from plateau.study.results import analysed
-from plateau.study.units import unit_for
+from plateau.units import unit_for, with_minus
 
 
 @dataclass(frozen=True, repr=False)
@@ -53,7 +53,7 @@ class LevelDifferences:
             shown[["difference", "low", "high"]] *= unit.per_si
             text = shown.to_string(index=False, float_format=lambda value: f"{value:.4g}")
             said.append(f"{response}: {factor}{f', {unit.symbol}' if unit.symbol else ''}\n{text}\n")
-        return "\n".join([f"Differences between levels, simultaneous {100 * self.confidence:g} % intervals ({self.method})\n", *said])
+        return with_minus("\n".join([f"Differences between levels, simultaneous {100 * self.confidence:g} % intervals ({self.method})\n", *said]))
 
 
 def levels(

@@ -102,17 +102,8 @@ class Term:
 
 
 class Likelihood:
-    """-2 ln of the likelihood over the coded keys, from runs so far; `Process` says where it cannot be.
-
-    Attributes
-    ----------
-    terms : list of Term
-    covariance : numpy.ndarray
-        Of measurements and model, by term.
-    best : numpy.ndarray
-        The most likely place.
-    least : float
-        -2 ln L there.
+    """-2 ln of the likelihood over the coded keys, from runs so far, with the most likely place `best` and the `least` value there;
+    `Process` says where it cannot be. Its `covariance` is that of measurements and model, by term.
     """
 
     def __init__(self, target: Target, runs: Runs) -> None:
@@ -251,17 +242,7 @@ class Likelihood:
         return np.asarray(((now if own is None else own) / (np.diag(self.covariance) + seeds)).max(axis=0))
 
     def next_places(self, count: int, seeds: int, can_run: Sequence[bool]) -> tuple[Numbers, float]:
-        """Places where runs teach most, each as if those before it had been run, and the largest share of variance that is left then.
-
-        Parameters
-        ----------
-        count : int
-            At most so many places.
-        seeds : int
-            Runs at each.
-        can_run : sequence of bool
-            For each measurement, whether runs give it.
-        """
+        """Places where runs teach most, each as if those before it had been run, and the largest share of variance that is left then."""
         _, own, of_seeds = self.moments(self.places)
         fixed, candidates = np.diag(self.covariance) + of_seeds, self.snapped(self.places)
         misfit = self.misfit(candidates, with_processes=True)

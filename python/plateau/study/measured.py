@@ -16,11 +16,10 @@ import pandas
 from plateau.errors import InputError, RunFailed
 from plateau.study.data import Numbers, Response, Study
 from plateau.study.kept_values import KeptValues, file_of, imported_columns
-from plateau.study.output_folder import put
-from plateau.study.quantities import in_si, quantity
+from plateau.output_folder import put
 from plateau.study.results import analysed
 from plateau.study.text_tables import read_text_table
-from plateau.study.units import NUMBER
+from plateau.units import NUMBER, in_si, quantity
 
 
 @dataclass(frozen=True)
@@ -121,19 +120,9 @@ def _alone(file: Path) -> Iterator[None]:
 
 @dataclass(frozen=True)
 class Measurement:
-    """What was measured of a response, SI units.
+    """What was measured of a response, SI units, with standard uncertainties and where it stands; `times` is empty for a single value.
 
-    Attributes
-    ----------
-    response : Response
-    times : numpy.ndarray
-        Times of a series; empty for a single value.
-    values, uncertainties : numpy.ndarray
-        Standard uncertainties.
-    correlation_time : float
-        For how long errors of a series are alike; 0 if they are independent.
-    place : str
-        Where they stand.
+    Errors of a series are alike for `correlation_time`; they are independent if it is 0.
     """
 
     response: Response
@@ -157,22 +146,7 @@ class Measurement:
 
 
 def measurements(study: Study) -> list[Measurement]:
-    """What was measured of the responses of a study.
-
-    Parameters
-    ----------
-    study : Study
-
-    Returns
-    -------
-    list of Measurement
-        Of all responses with ``measured`` or ``measured_file``.
-
-    Raises
-    ------
-    InputError
-        If a value is wrong; with the response and its key, or file and line.
-    """
+    """What was measured of the responses of a study with ``measured`` or ``measured_file``."""
     found = []
     for response in study.responses:
         asked = response.asked

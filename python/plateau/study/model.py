@@ -104,16 +104,9 @@ def named(factor: Factor) -> str:
 class LeastSquares:
     """Least squares with columns that may depend on each other: of such columns the first keep their coefficients.
 
-    Attributes
-    ----------
-    kept : list of int
-        Columns that have a coefficient.
-    relations : dict
-        For each other column the kept columns that it is a combination of, and how much of each kept column is in it.
-    root : numpy.ndarray
-        Times its transpose it is the covariance of the kept coefficients in units of the error's variance.
-    basis : numpy.ndarray
-        Orthogonal basis of the kept columns, a row for each observation.
+    `kept` are those; `relations` has for each other column the kept ones that it is a combination of, and how much of each is in it. `root`
+    times its transpose is the covariance of the coefficients in units of the error's variance, and `basis` an orthogonal basis of the
+    kept columns, a row for each observation.
     """
 
     def __init__(self, matrix: Numbers) -> None:
@@ -168,37 +161,10 @@ class Squares:
 class Fitted:
     """A model that was fitted to a response, on the scale of the response.
 
-    Attributes
-    ----------
-    study, response : Study, Response
-    model, reason : str
-        ``"main"``, ``"interactions"``, ``"full"`` or ``"quadratic"``, and why it is that one; empty where there is nothing to say.
-    terms : list of tuple of int
-        Factors of each term, by index; a square names its factor twice, centre points have none.
-    codings : list of Coding
-        How each factor becomes numbers.
-    centre : dict
-        Factors of the term of centre points and where they are there, coded; empty without that term.
-    runs : pandas.DataFrame
-        The runs that were fitted, each once: factors, ``replicate`` and ``point``, numbered by equal settings, from 0.
-    values : numpy.ndarray
-        Their responses.
-    missing : int
-        Runs without a response.
-    confidence : float
-    seeds, point_count : int
-        Numbers of sets of seeds, which are blocks of the model, and of different points.
-    columns : list of slice
-        Columns of the mean, the blocks (none without) and each term in ``design``, the model matrix of the runs.
-    fit : LeastSquares
-    mean, coefficients, residuals, leverages : float, numpy.ndarray
-        Mean response; coefficients of all columns, 0 where others have the estimate; by run, what the model leaves, and how much it
-        determines its own fitted value.
-    residual, total : Squares
-    error : float
-        Mean square of the residual; NaN where nothing, or nothing but rounding, is left.
-    left_out, aicc, aicc_of_all : list of tuple of int or None, float, float
-        Terms that the choice by AICc left out (None if none was made), and the criterion of those that were kept, and of all.
+    Its `runs` were fitted, each once, with equal settings as one `point`; sets of seeds are blocks. `columns` are those of the mean, the
+    blocks and each term in `design`, and `coefficients` are 0 where others have the estimate. `centre` has the coded places of the term of
+    centre points, `error` is the mean square of the residual, NaN where nothing but rounding is left, and `left_out` are the terms that a
+    choice by AICc left out, None if none was made.
     """
 
     def __init__(
@@ -438,22 +404,10 @@ class Fitted:
         return pandas.DataFrame({"value": rows @ self.coefficients, **columns, "leverage": leverage}, index=points.index)
 
     def forecast(self, points: pandas.DataFrame, confidence: float | None = None, apart: Any = 0.0) -> pandas.DataFrame:
-        """Forecasts with intervals, no narrower than errors at points that were left out support.
+        """``value`` with ``mean_low`` and ``mean_high`` of the mean over all seeds, ``run_low`` and ``run_high`` of one more run, SI, and
+        ``leverage``; intervals are no narrower than errors at points that were left out support.
 
-        Parameters
-        ----------
-        points : pandas.DataFrame
-            A column for each factor, SI units or words.
-        confidence : float, optional
-            That of the fit unless given.
-        apart : array_like of float
-            Standard deviations of what the values may be wrong by besides, on the scale of the fit.
-
-        Returns
-        -------
-        pandas.DataFrame
-            ``value``, ``mean_low``, ``mean_high`` of the mean over all seeds, ``run_low``, ``run_high`` of one more run, in SI units, and
-            ``leverage``.
+        `apart` is the standard deviation of what values may be wrong by besides, on the scale of the fit.
         """
         found = self.variances(points)
         tail = 0.5 + 0.5 * (confidence or self.confidence)
@@ -509,32 +463,9 @@ def f_test(squares: Squares, error: Squares) -> tuple[float, float]:
 def fitted(
     study: Study, response: Response, model: str | None = None, terms: str = "all", confidence: float = 0.95, centre: bool = False
 ) -> Fitted:
-    """Fits a model to a response.
+    """Fits a model to a response; with `centre`, centre points have a term of their own where their squares cannot be told apart.
 
-    Parameters
-    ----------
-    study : Study
-    response : Response
-        One of the study.
-    model : str, optional
-        ``"main"``, ``"interactions"``, ``"full"`` or ``"quadratic"``; one that the design allows unless given.
-    terms : str
-        ``"all"`` of the model, or ``"aicc"``: those with the least AICc.
-    confidence : float
-        Confidence level, between 0 and 1.
-    centre : bool
-        Whether centre points have a term of their own where their squares cannot be told apart (Minitab's Ct Pt).
-
-    Returns
-    -------
-    Fitted
-
-    Raises
-    ------
-    NothingToFit
-        If the response has no values, or the same one in all runs.
-    InputError
-        If a value is beyond the domain of the transform, or an argument is wrong.
+    Raises `NothingToFit` if the response has no values, or the same one in all runs.
     """
     if not 0.0 < confidence < 1.0:
         raise InputError(f"confidence level {confidence}: it lies between 0 and 1, such as 0.95")

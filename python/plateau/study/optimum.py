@@ -15,32 +15,21 @@ from plateau.study.analysis import together, usable
 from plateau.study.data import Numbers, Study
 from plateau.study.goals import ROUNDING, Goal, Limit, Problem, axes_of, beyond_runs, overall, wanted
 from plateau.study.improvement import improved, is_run
-from plateau.study.output_folder import plain
-from plateau.study.prediction import INTERVALS, _beyond, _forecast, _no_curve
+from plateau.output_folder import plain
+from plateau.study.prediction import INTERVALS, forecast_table
 from plateau.study.results import analysed
 from plateau.study.runs import make_runs
+from plateau.study.settings import beyond_of, no_curve
 from plateau.study.surrogate import Surrogate, surrogates
-from plateau.study.units import Unit, unit_of
+from plateau.units import Unit, unit_of, with_minus
 
 # In differences that count: on a limit; in halves of a range: at its end, and so far from its middle that a model knows nothing.
 ON_LIMIT, AT_END, FAR = 2e-3, 1e-3, 5.0
 
 
 def canonical(function: Callable[[Numbers], Numbers], count: int) -> dict[str, Any]:
-    """Canonical analysis of a quadratic function.
-
-    Parameters
-    ----------
-    function : callable
-        Values at coded places, an array with a row for each.
-    count : int
-        Number of factors.
-
-    Returns
-    -------
-    dict
-        ``stationary`` (coded place; NaN if there is none), ``value`` there, ``eigenvalues`` in ascending order, ``directions`` (a column each),
-        ``nature``: ``"maximum"``, ``"minimum"``, ``"saddle"``, or ``"ridge"`` if an eigenvalue is 0 but for rounding.
+    """Canonical analysis of a quadratic function of coded places: ``stationary`` place (NaN without one) and ``value`` there,
+    ``eigenvalues`` in ascending order with ``directions``, a column each, and the ``nature``: a ``"ridge"`` has an eigenvalue of 0.
     """
     unit = np.eye(count)
     middle, up, down = function(np.zeros((1, count)))[0], function(unit), function(-unit)
@@ -81,6 +70,8 @@ class Optimum:
     cautions : list of str
     problem : Problem
         Goals, limits, and the study with the runs that were made on the way.
+    looked_for : int
+        Runs that were to be made on the way at most.
     """
 
     settings: pandas.DataFrame
@@ -92,6 +83,7 @@ class Optimum:
     rounds: pandas.DataFrame
     cautions: list[str]
     problem: Problem = field(repr=False)
+    looked_for: int = 0
 
     def _margin(self, limit: Limit) -> float:
         return float(limit.margin(self.table[self.table["response"] == limit.response])[0])
@@ -119,33 +111,20 @@ class Optimum:
         for place in self.settings.to_dict("records"):
             number = None if isinstance(place["value"], str) else float(place["value"])
             settings.append({"factor": place["factor"], "value": place["text"], "number": number, "given": True})
-        return {
-            "study": self.problem.study.title,
-            "confidence": self.problem.confidence,
-            "settings": settings,
-            "responses": responses,
-            "goals": [
-                {
-                    **{name: getattr(goal, name) for name in ("response", "aim", "values", "importance")},
-                    "desirability": worth[goal.response],
-                }
-                for goal in self.problem.goals
-            ],
-            "desirability": self.desirability,
-            "keeps_limits": self.keeps_limits,
-            "limits": limits,
-            "at_ends": self.at_ends,
-            "confirmed": confirmed if any(confirmed) else None,
-            "canonical": self.canonical,
-            "rounds": plain(self.rounds.to_dict("records")),
-            "cautions": self.cautions,
-        }
+        goals = [
+            {**{name: getattr(goal, name) for name in ("response", "aim", "values", "importance")}, "desirability": worth[goal.response]}
+            for goal in self.problem.goals
+        ]
+        found = {"study": self.problem.study.title, "confidence": self.problem.confidence, "settings": settings, "responses": responses}
+        found |= {"goals": goals, "desirability": self.desirability, "keeps_limits": self.keeps_limits, "limits": limits}
+        found |= {"at_ends": self.at_ends, "confirmed": confirmed if any(confirmed) else None, "canonical": self.canonical}
+        return found | {"rounds": plain(self.rounds.to_dict("records")), "cautions": self.cautions}
 
     def text(self) -> str:
         """What ``plateau sweep optimize`` prints."""
         responses = {response.name: response for response in self.problem.study.responses}
         found = "best at" if self.keeps_limits else "no settings within the ranges keep all limits; they are missed least at"
-        place = ", ".join(f"{row.factor} = {row.text}" for row in self.settings.itertuples())
+        place = ", ".join(f"{one.name} = {one.shown(value)}" for one, value in zip(self.problem.study.factors, self.settings["value"], strict=True))
         lines = [self.problem.study.title, f"  {found} {place}", f"  desirability {self.desirability:.3g}"]
         level, cells, confirmed = f"{100 * self.problem.confidence:g} %", [], []
         for row in self.table.to_dict("records"):
@@ -175,20 +154,24 @@ class Optimum:
                 lines.append(f"  held back by {words}{risk if limit.on == 'mean' else ''}")
         if self.at_ends:
             lines.append(f"  at an end of the range: {', '.join(self.at_ends)}; the study knows nothing beyond it")
+        factors = {factor.name: factor for factor in self.problem.study.factors}
         for each in self.canonical:
             is_near = all(abs(row["coded"]) <= FAR for row in each["stationary"])
-            at = ", ".join(f"{row['factor']} = {row['text']}" for row in each["stationary"])
+            at = ", ".join(f"{row['factor']} = {factors[row['factor']].shown(row['value'])}" for row in each["stationary"])
             where = "" if all(row["is_within"] for row in each["stationary"]) else ", outside the ranges"
             lines.append(
                 f"  {each['response']}: the quadratic model has a {each['nature']}{f' at {at}{where}' if at and is_near else ' far outside the ranges' if at else ''}"
             )
+        if self.looked_for:
+            of = ", ".join(name for name, one in self.problem.surrogates.items() if one.takes_process)
+            lines.append(f"  {of}: a Gaussian process told where runs may be better, and tells what is predicted")
+            points, gains = len(self.rounds), self.rounds.get("expected_improvement")
+            said = "1 point was" if points == 1 else f"{points} points were"
+            nothing = "nothing new was run: the best place that is expected was run before, and no other is expected to gain anything"
+            lines.append(f"  {nothing if gains is None else f'{said} run on the way, the last one expected to gain {gains.iloc[-1]:.2g}'}")
         if confirmed:
             lines += ["Confirmed by runs at this place, mean ± standard error", *confirmed]
-        if len(self.rounds):
-            lines.append(
-                f"{len(self.rounds)} points were run on the way, the last one expected to gain {self.rounds['expected_improvement'].iloc[-1]:.2g}"
-            )
-        return "\n".join([*lines, *(f"  caution: {caution}" for caution in self.cautions), ""])
+        return with_minus("\n".join([*lines, *(f"  caution: {caution}" for caution in self.cautions), ""]))
 
     @staticmethod
     def _of(row: dict[Any, Any], wanted: Sequence[Any]) -> list[Any]:
@@ -203,7 +186,7 @@ class Optimum:
         forecast = problem.forecasts(point)[limit.response]
         most = f"the {'most' if limit.is_least else 'least'} within the ranges is {unit.text(float(forecast['value'].iloc[0]))}, at "
         can = ", so that it can be kept alone, but not with the others" if limit.margin(forecast)[0] >= 0.0 else ""
-        return most + ", ".join(f"{factor.name} = {factor.text(point[factor.name].iloc[0])}" for factor in self.problem.study.factors) + can
+        return most + ", ".join(f"{factor.name} = {factor.shown(point[factor.name].iloc[0])}" for factor in self.problem.study.factors) + can
 
     def figures(self, contour: str | None = None) -> dict[str, Any]:
         """The profiler, and the desirability over two factors, by their names with a comma between."""
@@ -292,7 +275,7 @@ def optimize(
         )
     if confirm or runs:
         confirming = made(best).drop_duplicates("same_as")
-    return _told(problem, best, confirming, rounds)
+    return replace(_told(problem, best, confirming, rounds), looked_for=runs)
 
 
 AIMS = {"maximize": "large,", "minimize": "small,", "target": "near the middle of"}
@@ -305,9 +288,9 @@ def _limit_words(limit: Limit, unit: Unit) -> str:
 
 def _told(problem: Problem, best: pandas.DataFrame, confirming: pandas.DataFrame | None, rounds: pandas.DataFrame) -> Optimum:
     study = problem.study
-    beyond = _beyond(study, best)
-    tables = {name: _forecast(one, best, beyond, problem.confidence, confirming) for name, one in problem.surrogates.items()}
-    cautions = [*together(study), *_no_curve(study, best)]
+    beyond = beyond_of(study, best)
+    tables = {name: forecast_table(one, best, beyond, problem.confidence, confirming) for name, one in problem.surrogates.items()}
+    cautions = [*together(study), *no_curve(study, best)]
     cautions += [f"{name}: {said}" for name, table in tables.items() for said in table.attrs["cautions"]]
     table = pandas.DataFrame(
         {"response": [response.name for response in study.responses], "unit": [response.unit for response in study.responses]}
@@ -322,8 +305,7 @@ def _told(problem: Problem, best: pandas.DataFrame, confirming: pandas.DataFrame
         value = best[factor.name].iloc[0]
         settings.append({"factor": factor.name, "unit": factor.unit, "value": value, "text": factor.text(value)})
         if axis is None and abs(factor.coded(value)) > 1.0 - AT_END:
-            end, blank, unit = factor.text(value).partition(" ")
-            at_ends.append(f"{factor.name} ({end.replace('-', chr(0x2212))}{blank}{unit})")
+            at_ends.append(f"{factor.name} ({factor.shown(value)})")
     total = float(overall(problem.goals, [worth[goal.response] for goal in problem.goals])) if keeps else 0.0
     if keeps and total <= 0.0:
         cautions.append("a goal is worth nothing wherever the others are worth something; give wider values, such as NAME=LOW..HIGH")

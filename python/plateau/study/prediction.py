@@ -2,7 +2,6 @@
 
 import itertools
 import os
-import re
 import warnings
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -14,17 +13,17 @@ import pandas
 
 from plateau.errors import InputError, InputTypeError, PlateauWarning
 from plateau.study.analysis import together, usable
-from plateau.study.data import Factor, Study
+from plateau.study.data import Study
 from plateau.study.kept_values import factor_value
-from plateau.study.output_folder import plain
-from plateau.study.quantities import in_si
+from plateau.output_folder import plain
 from plateau.study.results import analysed
+from plateau.study.settings import SAME, axis_of, beyond_of, factor_named, held_values, joined, no_curve, value_of
 from plateau.study.surrogate import Surrogate, surrogates
 from plateau.study.text_tables import read_text_table
-from plateau.study.units import NUMBER, unit_for, unit_of, with_digits, with_unit
+from plateau.units import unit_for, unit_of, with_digits, with_minus, with_unit
 
-# Most places of a grid; coded values that differ by less are the same.
-MOST_PLACES, SAME = 1_000_000, 1e-9
+# Most places of a grid.
+MOST_PLACES = 1_000_000
 INTERVALS = ["mean_low", "mean_high", "run_low", "run_high"]
 
 
@@ -71,34 +70,24 @@ class Prediction:
                 head = with_unit(f"{response.name} {words}".strip(), "" if name == "confirmed_runs" else response.unit)
                 wide[head] = rows[name].to_numpy()
         at_place = self.table.groupby("place", sort=False)
-        return wide.assign(beyond=at_place["beyond"].first().to_numpy(), cautions=[_joined(own["cautions"]) for _, own in at_place])
+        return wide.assign(beyond=at_place["beyond"].first().to_numpy(), cautions=[joined(own["cautions"]) for _, own in at_place])
 
     def document(self) -> dict[str, Any]:
         """What ``plateau sweep predict --json`` prints, SI units."""
         places = []
         for (_, rows), (_, place) in zip(self.table.groupby("place", sort=False), self.places.iterrows(), strict=True):
-            settings = [
-                {
-                    "factor": factor.name,
-                    "value": factor.text(value),
-                    "number": value if factor.is_number else None,
-                    "given": factor.name in self.given,
-                }
-                for factor, value in zip(self.study.factors, place[[factor.name for factor in self.study.factors]], strict=True)
-            ]
+            settings: list[dict[str, Any]] = []
+            for factor in self.study.factors:
+                value, number = factor.text(place[factor.name]), place[factor.name] if factor.is_number else None
+                settings.append({"factor": factor.name, "value": value, "number": number, "given": factor.name in self.given})
             responses, confirmed = [], []
             for (_, row), surrogate in zip(rows.iterrows(), self.surrogates, strict=True):
                 value, *ends, leverage, mean, error = (
                     plain(row[name]) for name in ["value", *INTERVALS, "leverage", "confirmed", "confirmed_error"]
                 )
                 intervals = [None if None in pair else pair for pair in (ends[:2], ends[2:])]
-                own = {
-                    "name": row["response"],
-                    "unit": row["unit"],
-                    "value": value,
-                    "mean_interval": intervals[0],
-                    "run_interval": intervals[1],
-                }
+                own = {"name": row["response"], "unit": row["unit"], "value": value}
+                own |= {"mean_interval": intervals[0], "run_interval": intervals[1]}
                 cautions = [caution for caution in row["cautions"].split("; ") if caution]
                 responses.append({**own, "error": surrogate.error or None, "leverage": leverage, "cautions": cautions})
                 count, is_within = int(row["confirmed_runs"]), row["is_within"]
@@ -116,7 +105,7 @@ class Prediction:
         level, lines = f"{100 * self.confidence:g} %", []
         for (number, rows), (_, place) in zip(self.table.groupby("place", sort=False), self.places.iterrows(), strict=True):
             where = [
-                f"{one.name} = {one.text(place[one.name])}{'' if one.name in self.given else ' (not given)'}" for one in self.study.factors
+                f"{one.name} = {one.shown(place[one.name])}{'' if one.name in self.given else ' (not given)'}" for one in self.study.factors
             ]
             lines += [self.study.title if number == 1 else "", f"  at {', '.join(where)}"]
             cells = []
@@ -143,7 +132,7 @@ class Prediction:
                     f"  {name}: means of runs are {unit_for(rows['unit'].iloc[0], apart).text(apart, is_difference=True)} apart, {within}"
                 )
         lines += [f"  {one.response.name}: {one.error or one.reason}" for one in self.surrogates if one.process is not None or one.error]
-        return "\n".join([*lines, *(f"  caution: {caution}" for caution in self.cautions), ""])
+        return with_minus("\n".join([*lines, *(f"  caution: {caution}" for caution in self.cautions), ""]))
 
 
 def predict(
@@ -194,24 +183,18 @@ def predict(
     is_curved = all(one.fit.model == "quadratic" for one in known if one.fit)
     if not isinstance(at, Mapping) and not all(isinstance(text, str) for text in at):
         raise InputTypeError(f"at = {at!r}: expected a dictionary, such as {{\"load\": \"7 N\"}}; several places are points=DataFrame(...)")
-    pairs = at.items() if isinstance(at, Mapping) else [_assignment(opened, text) for text in at]
-    held: dict[str, Any] = {}
-    for name, said in pairs:
-        factor = _factor(opened, name, "--at")
-        if factor.name in held:
-            raise InputError(f"--at: {factor.name} is given twice")
-        held[factor.name] = _value(factor, said, "--at", is_curved)
+    held = held_values(opened, at, "--at", is_curved)
     if points is not None:
         places, given = _rows(opened, points, held, is_curved)
     else:
         if grid and grid > MOST_PLACES:
             raise InputError(f"--grid {grid}: more than {MOST_PLACES} places; hold factors with --at")
-        axes = {one.name: [held[one.name]] if one.name in held else _axis(one, grid, is_curved) for one in opened.factors}
+        axes = {one.name: [held[one.name]] if one.name in held else axis_of(one, grid, is_curved) for one in opened.factors}
         if np.prod([float(len(axis)) for axis in axes.values()]) > MOST_PLACES:
             raise InputError(f"--grid {grid}: more than {MOST_PLACES} places; hold factors with --at")
         places = pandas.DataFrame(list(itertools.product(*axes.values())), columns=list(axes))
         given = list(axes) if grid else list(held)
-    beyond = _beyond(opened, places)
+    beyond = beyond_of(opened, places)
     if not extrapolate and (first := next((at for at, said in enumerate(beyond) if said), None)) is not None:
         which = f"place {first + 1}: " if len(places) > 1 else ""
         raise InputError(f"{which}{beyond[first]}; the model knows nothing there, give --extrapolate to see what it says nevertheless")
@@ -220,10 +203,10 @@ def predict(
         from plateau.study.runs import make_runs
 
         made = make_runs(opened, places, jobs=jobs, workers=workers)
-    general = [*together(opened), *_no_curve(opened, places)]
+    general = [*together(opened), *no_curve(opened, places)]
     for said in general:
         warnings.warn(said, PlateauWarning, stacklevel=2)
-    tables = [_forecast(one, places, beyond, confidence, made) for one in known]
+    tables = [forecast_table(one, places, beyond, confidence, made) for one in known]
     cautions = general + [
         f"{one.response.name}: {said}" for one, table in zip(known, tables, strict=True) for said in table.attrs["cautions"]
     ]
@@ -231,7 +214,7 @@ def predict(
     return Prediction(opened, places, given, table.drop(columns="own"), known, confidence, cautions)
 
 
-def _forecast(
+def forecast_table(
     one: Surrogate, places: pandas.DataFrame, beyond: list[str], confidence: float, made: pandas.DataFrame | None
 ) -> pandas.DataFrame:
     """Forecasts of a response, with what is to be known of each."""
@@ -255,13 +238,10 @@ def _forecast(
             notes.append(long + (f" ({int(marks.sum())} of {len(places)} places)" if len(places) > 1 else ""))
         for at in np.flatnonzero(marks):
             said[at].append(long.split(":")[0])
-    cautions = [_joined([*(caution.split(":")[0].split(" (")[0] for caution in one.cautions), *own]) for own in said]
+    cautions = [joined([*(caution.split(":")[0].split(" (")[0] for caution in one.cautions), *own]) for own in said]
     table = places.assign(response=response.name, unit=response.unit, **found, beyond=beyond, cautions=cautions)
-    runs = (
-        made.groupby("point")[response.name].agg(["mean", "sem", "count"])
-        if made is not None
-        else pandas.DataFrame(columns=["mean", "sem", "count"])
-    )
+    kinds = ["mean", "sem", "count"]
+    runs = pandas.DataFrame(columns=kinds) if made is None else made.groupby("point")[response.name].agg(kinds)
     runs = runs.reindex(range(1, len(places) + 1)).astype(float).set_axis(places.index)
     is_known = runs["count"].gt(0) & table["run_low"].notna()
     within = (table["run_low"].le(runs["mean"]) & table["run_high"].ge(runs["mean"])).astype(object).where(is_known, None)
@@ -272,105 +252,20 @@ def _forecast(
     return table
 
 
-def _factor(study: Study, name: str, where: str) -> Factor:
-    for factor in study.factors:
-        if name.strip() in (factor.name, *factor.keys.split(", ")):
-            return factor
-    raise InputError(f"{where}: {name!r} is not a factor of the study, expected one of {', '.join(one.name for one in study.factors)}")
-
-
-def _assignment(study: Study, text: str) -> tuple[str, str]:
-    """Name and value of ``NAME=VALUE``; both may have ``=`` in them."""
-    names = {name for factor in study.factors for name in (factor.name, *factor.keys.split(", "))}
-    parts = [(text[: at.start()].strip(), text[at.end() :].strip()) for at in re.finditer("=", text)]
-    return next((part for part in parts if part[0] in names), parts[0] if parts else (text, ""))
-
-
-def _value(factor: Factor, said: Any, where: str, is_curved: bool) -> Any:
-    """A value of a factor, from a text with its unit, an SI number or a word."""
-    if not factor.is_number:
-        if str(said) not in factor.levels:
-            raise InputError(f"{where}: {factor.name} = {said}: expected one of {', '.join(factor.levels)}")
-        return str(said)
-    value = said
-    if isinstance(said, str):
-        number = re.match(NUMBER, text := said.strip().replace("−", "-"))
-        unit = text[number.end() :].strip() if number else ""
-        if not number or bool(unit) < bool(factor.study_unit):
-            what = f'a quantity such as "{factor.text(factor.ends[0])}"' if factor.study_unit else "a plain number"
-            raise InputError(f"{where}: {factor.name} = {said}: expected {what}")
-        # What a scene has may be given in any unit that measures the same.
-        is_own = unit == factor.study_unit
-        try:
-            value = float(number[0]) * factor.one + factor.zero if is_own else in_si(number[0], unit, factor.unit or "1")
-        except InputError as error:
-            raise InputError(f"{where}: {factor.name} = {said}: {error}") from None
-    if not np.isfinite(value) or factor.logarithmic and value <= 0:
-        raise InputError(f"{where}: {factor.name} = {said}: expected a {'number above 0' if factor.logarithmic else 'number'}")
-    if not factor.is_range:
-        same = [level for level in factor.levels if abs(level - value) <= SAME * max(map(abs, factor.levels))]
-        if not same and (factor.whole or len(factor.levels) > 2 and not is_curved):
-            levels = ", ".join(map(factor.text, factor.levels))
-            advice = "" if factor.whole else "; --model quadratic tells what lies between them"
-            raise InputError(f"{where}: {factor.name} = {said}: the model knows the levels {levels} alone{advice}")
-        value = same[0] if same else value
-    return float(value)
-
-
-def _axis(factor: Factor, grid: int | None, is_curved: bool) -> list[Any]:
-    """Values of a grid; the middle of a range or the first level without."""
-    is_between = factor.is_number and (factor.is_range or not factor.whole and (len(factor.levels) == 2 or is_curved))
-    if not is_between:
-        return list(factor.levels) if grid else [factor.levels[0]]
-    values = factor.value(np.linspace(-1.0, 1.0, max(grid, 1)) if grid and grid > 1 else [-1.0 if grid else 0.0])
-    return [float(value) for value in (np.unique(np.round(values)) if factor.whole else values)]
-
-
 def _rows(study: Study, points: Any, held: dict[str, Any], is_curved: bool) -> tuple[pandas.DataFrame, list[str]]:
     """The rows of a table, and the factors that they have."""
     columns: dict[str, list[Any]] = {}
     if isinstance(points, pandas.DataFrame):
         for head in points.columns:
-            factor = _factor(study, head, f"points: column {head!r}")
-            columns[factor.name] = [_value(factor, value, f"points: row {at}", is_curved) for at, value in enumerate(points[head])]
+            factor = factor_named(study, head, f"points: column {head!r}")
+            columns[factor.name] = [value_of(factor, value, f"points: row {at}", is_curved) for at, value in enumerate(points[head])]
         count = len(points)
     else:
         table = read_text_table(Path(points))
         for column, count in enumerate([len(table.rows)] * len(table.heads)):
-            factor = _factor(study, table.named(column)[0], f"{table.path}: column {table.heads[column]!r}")
+            factor = factor_named(study, table.named(column)[0], f"{table.path}: column {table.heads[column]!r}")
             values = ((factor_value(table, row, column, factor), table.place(row)) for row in range(count))
-            columns[factor.name] = [_value(factor, value, place, is_curved) for value, place in values]
-    rest = {one.name: held.get(one.name, _axis(one, None, is_curved)[0]) for one in study.factors}
+            columns[factor.name] = [value_of(factor, value, place, is_curved) for value, place in values]
+    rest = {one.name: held.get(one.name, axis_of(one, None, is_curved)[0]) for one in study.factors}
     places = pandas.DataFrame({one.name: columns.get(one.name, rest[one.name]) for one in study.factors}, index=range(count))
     return places, [*columns, *held]
-
-
-def _beyond(study: Study, places: pandas.DataFrame) -> list[str]:
-    """By place, which factors are beyond the runs."""
-    said: list[list[str]] = [[] for _ in range(len(places))]
-    for factor in (factor for factor in study.factors if factor.is_number):
-        run = factor.coded(study.runs[factor.name])
-        ends, coded = (min(run.min(), -1.0), max(run.max(), 1.0)), factor.coded(places[factor.name].to_numpy(float))
-        low, high = (factor.text(float(factor.value(end))).replace("-", "−") for end in ends)
-        low = low.removesuffix(factor.study_unit).strip() if factor.study_unit else low
-        for at in np.flatnonzero((coded < ends[0] - SAME) | (coded > ends[1] + SAME)):
-            said[at].append(f"{factor.name} is beyond {low} to {high}")
-    return [_joined(one) for one in said]
-
-
-def _no_curve(study: Study, places: pandas.DataFrame) -> list[str]:
-    """That the runs show no curve of factors with two values, between which there are places."""
-    names = []
-    for factor in (factor for factor in study.factors if factor.is_number):
-        values = np.unique(np.round(factor.coded(study.runs[factor.name]), 9))
-        if len(values) == 2 and (np.abs(factor.coded(places[factor.name].to_numpy(float))) < 1.0 - SAME).any():
-            names.append(factor.name)
-    if not names:
-        return []
-    said = f"{', '.join(names)}: the runs have two values of {'it' if len(names) == 1 else 'each'}, so that they show no curve: between these, "
-    said += "forecasts follow a straight line, and their intervals do not know by how much the response bends; give a third value in the middle, "
-    return [said + 'such as with design = "central-composite", and look with --confirm how far off a forecast is']
-
-
-def _joined(parts: Any) -> str:
-    return "; ".join(dict.fromkeys(part for one in parts for part in str(one).split("; ") if part))

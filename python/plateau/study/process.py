@@ -74,16 +74,9 @@ class Equations:
 class Process:
     """Gaussian process of a response; it raises ValueError where points are too few or responses all the same.
 
-    Parameters
-    ----------
-    x : array_like, shape (runs, columns)
-        Coded numbers (-1 to 1), and words as indicators (0 or 1). Equal rows are replicates, whose scatter tells the noise.
-    y : array_like, shape (runs,)
-        Responses; runs with NaN are left out.
-    noise_groups : array_like, optional
-        The set of seeds of each run: what a set adds to its runs is part of the errors.
-    axes : array_like of int, optional
-        Number of the length of each column: one of its own each, unless given. Indicators of one factor share one.
+    Columns of `x` are coded numbers and indicators of words; equal rows are replicates, whose scatter tells the noise. `noise_groups` are
+    the sets of seeds, and what a set adds to its runs is part of the errors. `axes` number the length of each column: indicators of one
+    factor share one.
     """
 
     def __init__(

@@ -16,7 +16,7 @@ from plateau.program import call, file_name
 from plateau.run_file import locking
 from plateau.study.data import Factor, Response, Study
 from plateau.study.kept_values import imported_values
-from plateau.study.units import with_unit
+from plateau.units import with_unit
 
 
 def open_study(path: str | os.PathLike[str]) -> Study:
@@ -56,17 +56,7 @@ def open_study(path: str | os.PathLike[str]) -> Study:
 
 
 def analysed(study: "Study | str | os.PathLike[str]") -> Study:
-    """Collects what there is of a study now, without writing into its folder, and opens it.
-
-    Parameters
-    ----------
-    study : path or Study
-        The study, TOML; or one that was opened, which stays as it is.
-
-    Returns
-    -------
-    Study
-    """
+    """Collects what there is of a study now, without writing into its folder, and opens it; one that was opened stays as it is."""
     if isinstance(study, Study):
         return study
     path = Path(file_name(study, "a study"))

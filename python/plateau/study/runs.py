@@ -30,30 +30,10 @@ def make_runs(
     retry: bool = False,
     progress: bool | None = None,
 ) -> pandas.DataFrame:
-    """Makes runs at points of a study, each with all its seeds.
+    """Makes runs at points of a study that was opened by its file, each with all its seeds.
 
-    Parameters
-    ----------
-    study : Study
-        A study that was opened by its file.
-    points : pandas.DataFrame
-        A column for each factor, by its name, and a row for each point: numbers in SI units, or words. Other columns are left aside.
-    jobs, workers : int, optional
-        Number of runs at the same time, and threads of each.
-    retry : bool
-        Make runs again that failed before, or that did not keep a series which is asked for.
-    progress : bool, optional
-        Whether progress is shown; by default in notebooks and terminals.
-
-    Returns
-    -------
-    pandas.DataFrame
-        As ``study.runs``, a row for each point and set of seeds: ``point`` is the row of ``points``, from 1. A run that failed has NaN.
-
-    Raises
-    ------
-    InputError, RunFailed
-        If the points cannot be run, or none of the runs ends well.
+    `points` have a column for each factor, SI units or words. With `retry`, runs are made again that failed, or did not keep a series.
+    Gives rows as ``study.runs``, of which ``point`` is the row of the points, from 1; NaN of runs that failed.
     """
     return made_study(study, points, progress, retry, jobs=jobs, workers=workers).runs
 

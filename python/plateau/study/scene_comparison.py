@@ -17,9 +17,9 @@ from plateau.commands import toml_document, toml_of
 from plateau.errors import InputError, PlateauWarning
 from plateau.program import call, file_name
 from plateau.study.data import Numbers, Response, Study
-from plateau.study.output_folder import plain
+from plateau.output_folder import plain
 from plateau.study.runs import finished
-from plateau.study.units import unit_for
+from plateau.units import unit_for, with_minus
 
 # What is compared unless asked otherwise: name, dataset with question, table of the scene without which there is no such series.
 USUAL = [
@@ -96,7 +96,7 @@ class Comparison:
 
     def text(self) -> str:
         """What ``plateau compare`` prints."""
-        return "\n".join([self.title, self.shown().to_string(index=False), *(f"  {words}" for words in self.said()), ""])
+        return with_minus("\n".join([self.title, self.shown().to_string(index=False), *(f"  {words}" for words in self.said()), ""]))
 
     def document(self) -> dict[str, Any]:
         """The JSON of ``plateau compare --json``; None where there is no number."""
@@ -178,7 +178,11 @@ def compare(
         study = {"version": 1, "title": name, "base": os.path.abspath(file), "set": changes, "directory": ".", "order": "standard"}
         study |= {"design": "csv", "file": "seeds.csv", "factor": [{"name": "seed", "key": keys or "title"}], "response": tables}
         (folder / "study.toml").write_text(toml_document(study), encoding="utf-8")
-        made[name] = finished(folder / "study.toml", progress, jobs=jobs, workers=workers)
+        with warnings.catch_warnings(record=True) as said:
+            warnings.simplefilter("always", PlateauWarning)
+            made[name] = finished(folder / "study.toml", progress, jobs=jobs, workers=workers)
+        for one in said:
+            warnings.warn(f"{name}: {one.message}", one.category, stacklevel=2)
     if len({scene["operation"].get("duration") for scene in resolved}) > 1:
         cautions.append("the scenes have different durations, so values at the end are at different times")
     return _compared(made, dict(zip(names, map(str, files), strict=True)), confidence, cautions, directory, not responses)
@@ -214,21 +218,7 @@ def _compared(
 
 
 def difference(reference: Any, other: Any, confidence: float = 0.95, comparisons: int = 1) -> dict[str, float]:
-    """The mean difference of paired values and their ratio, with t intervals; of several comparisons together by Bonferroni.
-
-    Parameters
-    ----------
-    reference, other : array_like of float
-        Values of the same seeds.
-    confidence : float
-    comparisons : int
-        Number of differences with the same reference.
-
-    Returns
-    -------
-    dict
-        ``runs``, ``difference``, ``low``, ``high``, ``p``, ``sureness``, ``ratio``, ``ratio_low``, ``ratio_high``.
-    """
+    """The mean difference of paired values and their ratio, with t intervals; of several comparisons together by Bonferroni."""
     one, two = np.asarray(reference, float), np.asarray(other, float)
     mean, low, high, p = _mean(two - one, confidence, comparisons)
     has_ratio = bool((one > 0.0).all() and (two > 0.0).all())

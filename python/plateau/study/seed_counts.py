@@ -1,6 +1,7 @@
 """Numbers of sets of seeds that a study needs, from the scatter between those of a pilot."""
 
 import os
+import warnings
 from dataclasses import dataclass
 from typing import Any
 
@@ -8,10 +9,10 @@ import numpy as np
 import pandas
 from scipy import stats
 
-from plateau.errors import InputError
+from plateau.errors import InputError, PlateauWarning
 from plateau.study.analysis import Effects, effects
 from plateau.study.data import Study
-from plateau.study.units import parsed
+from plateau.units import parsed, with_minus
 
 # Beyond this nobody runs them.
 MOST_SETS = 100_000
@@ -20,21 +21,7 @@ SAFE = 0.9
 
 
 def sets_for(scatter: float, half_width: float, confidence: float = 0.95) -> float:
-    """Number of sets of seeds with which a mean has an interval of this half width.
-
-    Parameters
-    ----------
-    scatter : float
-        Standard deviation of what is averaged, such as an effect or a difference, between sets of seeds.
-    half_width : float
-        In the same unit.
-    confidence : float
-
-    Returns
-    -------
-    float
-        The smallest n with t(n - 1) scatter / sqrt(n) <= half width; infinite beyond 100 000.
-    """
+    """The smallest n with t(n - 1) scatter / sqrt(n) <= half width, that of the interval of a mean; infinite beyond 100 000."""
     low, high = 1, 2
 
     def is_enough(count: int) -> bool:
@@ -74,7 +61,7 @@ class SeedsNeeded:
     def text(self) -> str:
         """The table for people."""
         pilot = f"{self.study.title}: sets of seeds needed, from the scatter between the {self.study.seeds} of the pilot\n"
-        return pilot + str(self.table.to_string(index=False, float_format=lambda value: f"{value:.4g}")) + "\n"
+        return pilot + with_minus(self.table.to_string(index=False, float_format=lambda value: f"{value:.4g}")) + "\n"
 
 
 def seeds_needed(
@@ -89,7 +76,8 @@ def seeds_needed(
     study : path, Study or Effects
         The pilot, with two sets of seeds or more.
     half_width : float or str, or dict of them by response, optional
-        SI, or with a unit, such as ``"0.05 mm2"``; on the scale of the fit. Without it, that with which each effect is told from none.
+        Text with a unit, such as ``"0.05 mm2"``; a number is in the SI unit of what is fitted, which a warning says. Without it, that with
+        which each effect is told from none.
     confidence : float
 
     Returns
@@ -106,9 +94,11 @@ def seeds_needed(
         raise InputError(f"{found.study.title}: one set of seeds shows no scatter; give [replicates] two at least, better five")
     table = found.table
     table = table[table["standard_error"].notna()]
-    rows = []
+    rows, bare = [], dict[str, str]()
     for row in table.to_dict("records"):
         asked = half_width.get(row["response"]) if isinstance(half_width, dict) else half_width
+        if isinstance(asked, int | float) and row["unit"] != "1":
+            bare[row["response"]] = f'{row["response"]}: half_width = {asked:g} is taken in {row["unit"]}; give text with a unit'
         try:
             wanted = parsed(row["unit"], asked) if isinstance(asked, str) else abs(row["effect"]) if asked is None else float(asked)
         except InputError as error:
@@ -118,4 +108,6 @@ def seeds_needed(
         sets = {"sets": sets_for(scatter, wanted, confidence), "sets_safe": sets_for(float(largest), wanted, confidence)}
         own = {name: row[name] for name in ("response", "term", "effect")}
         rows.append({**own, "scatter": scatter, "half_width": wanted, "unit": row["unit"], **sets})
+    for said in bare.values():
+        warnings.warn(said, PlateauWarning, stacklevel=2)
     return SeedsNeeded(found.study, pandas.DataFrame(rows))

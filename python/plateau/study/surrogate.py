@@ -10,7 +10,7 @@ from plateau.errors import InputError
 from plateau.study.data import Numbers, Response, Study
 from plateau.study.model import Fitted, NothingToFit, fitted
 from plateau.study.process import Process
-from plateau.study.units import unit_for, with_digits
+from plateau.units import unit_for, with_digits
 
 WORDS = {"main": "main effects", "interactions": "main effects and interactions", "full": "interactions of all orders"}
 # Designs that do not fill their ranges; in a table all numbers have to have more different values than these.
@@ -24,18 +24,7 @@ POINTS_FOR_EACH, MOST_POINTS = 10, 1000
 class Surrogate:
     """What forecasts a response: the model that was fitted to it, or a process, whichever forecasts points better that it does not know.
 
-    Attributes
-    ----------
-    study : Study
-    response : Response
-    fit : Fitted or None
-        The polynomial; None where nothing could be fitted.
-    process : Process or None
-        The process, where there is one to choose.
-    takes_process : bool
-        Whether it is taken.
-    error : str
-        Why nothing could be fitted; empty otherwise.
+    Either is None where there is none, and `error` says why nothing could be fitted.
     """
 
     study: Study
@@ -169,23 +158,7 @@ def fills_ranges(study: Study) -> bool:
 def surrogates(
     study: Study, model: str | None = None, terms: str = "all", confidence: float = 0.95, of_any_design: bool = False
 ) -> list[Surrogate]:
-    """What forecasts each response of a study.
-
-    Parameters
-    ----------
-    study : Study
-    model, terms : str, optional
-        As for `fitted`; if a model is asked for, there is no process.
-    confidence : float
-        Confidence level of cautions.
-    of_any_design : bool
-        Whether processes are tried of designs, too, whose points do not fill the ranges.
-
-    Returns
-    -------
-    list of Surrogate
-        One for each response, in their order.
-    """
+    """What forecasts each response; no process if a model is asked for, or points do not fill ranges, unless `of_any_design`."""
     return [_surrogate(study, one, model, terms, confidence, of_any_design or fills_ranges(study)) for one in study.responses]
 
 

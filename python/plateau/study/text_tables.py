@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from plateau.errors import InputError, MissingFileError
-from plateau.study.units import NUMBER
+from plateau.units import NUMBER
 
 # What a workbook has in its archive.
 WORKBOOKS = {"xl/": "a workbook (.xlsx)", "content.xml": "a workbook (.ods)"}
@@ -21,18 +21,7 @@ WORKBOOKS = {"xl/": "a workbook (.xlsx)", "content.xml": "a workbook (.ods)"}
 
 @dataclass(frozen=True)
 class TextTable:
-    """A table whose first line names its columns.
-
-    Attributes
-    ----------
-    path : Path
-    heads : list of str
-        What stands above the columns, such as ``"load [N]"``.
-    rows : list of list of str
-        Cells, numbers with decimal points.
-    lines : list of int
-        Numbers of the rows in the file, from 1.
-    """
+    """A table whose first line names its columns; rows have decimal points, and the numbers of their lines in the file, from 1."""
 
     path: Path
     heads: list[str]
@@ -72,21 +61,7 @@ class TextTable:
 
 
 def read_text_table(path: Path) -> TextTable:
-    """Reads a table in CSV, as programs and spreadsheets write it, in any usual encoding; lines that begin with # are left out.
-
-    Parameters
-    ----------
-    path : Path
-
-    Returns
-    -------
-    TextTable
-
-    Raises
-    ------
-    InputError
-        If it cannot be read; with the line.
-    """
+    """Reads a table in CSV, as programs and spreadsheets write it, in any usual encoding; lines that begin with # are left out."""
     numbered = [(number, line) for number, line in enumerate(_lines(_text(path)), 1)]
     stated = re.fullmatch(r'\s*"?sep=([;,\t])"?\s*', numbered[0][1], re.IGNORECASE) if numbered else None
     filled = [(number, line) for number, line in numbered[bool(stated) :] if line.strip()]

@@ -20,11 +20,11 @@ from plateau.errors import PlateauWarning
 from plateau.study.analysis import together, usable
 from plateau.study.data import Numbers, Study
 from plateau.study.model import Fitted
-from plateau.study.output_folder import plain
+from plateau.output_folder import plain
 from plateau.study.process import Process
 from plateau.study.results import analysed
 from plateau.study.surrogate import Surrogate, surrogates
-from plateau.study.units import unit_of, with_digits
+from plateau.units import unit_of, with_digits, with_minus
 
 # Places of the sample, functions that are drawn, and cosines of each.
 ROWS, FUNCTIONS, COSINES = 1024, 100, 200
@@ -112,7 +112,7 @@ class Sensitivity:
                 )
                 shown["factor"] = shown["factor"].where(shown["factor"] != SEEDS, "seeds (of single runs)")
             lines += ["  " + line.rstrip() for line in shown.to_string(index=False).splitlines()] + [""]
-        return "\n".join([*lines, *(f"caution: {caution}" for caution in self.cautions), ""])
+        return with_minus("\n".join([*lines, *(f"caution: {caution}" for caution in self.cautions), ""]))
 
     def figures(self) -> Any:
         """A figure for each response."""
@@ -162,31 +162,15 @@ def sensitivity(study: Study | str | os.PathLike[str], confidence: float = 0.95)
             variances[one.response.name] = variance
             cautions += [f"{one.response.name}: {caution}" for caution in one.cautions]
     numbers = ["mean_size", "mean", "deviation", "standard_error", "effects"]
-    columns = [
-        "response",
-        "factor",
-        *(f"{name}{end}" for name in ("first_order", "total") for end in ("", "_low", "_high")),
-        *numbers,
-        "unit",
-    ]
+    parts = [f"{name}{end}" for name in ("first_order", "total") for end in ("", "_low", "_high")]
+    columns = ["response", "factor", *parts, *numbers, "unit"]
     whole = pandas.concat(tables, ignore_index=True) if tables else pandas.DataFrame()
     return Sensitivity(opened, whole.reindex(columns=columns), known, variances, confidence, cautions)
 
 
 def sobol(a: Numbers, b: Numbers, mixed: Numbers) -> tuple[Numbers, Numbers, Numbers]:
-    """Indices of functions from their values at a sample.
-
-    Parameters
-    ----------
-    a, b : numpy.ndarray, shape (functions, rows)
-        Values at two samples.
-    mixed : numpy.ndarray, shape (functions, factors, rows)
-        Values at the first one with one factor of the second.
-
-    Returns
-    -------
-    tuple of numpy.ndarray
-        First order, total (function, factor), and variances.
+    """Indices of first order and total, and variances, of functions from their values at two samples, and at the first with one factor of
+    the second: shapes (functions, rows) and (functions, factors, rows).
     """
     both = np.concatenate([a, b], axis=-1)
     centre = np.concatenate([both, mixed.reshape(len(mixed), -1)], axis=-1).mean(-1)[:, None, None]

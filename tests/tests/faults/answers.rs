@@ -1,4 +1,4 @@
-//! What is made of runs: a study, its results, a report, figures and a table are each there as a whole, or as they were before.
+//! What is made of runs: a study, its results and a surface are each there as a whole, or as they were before.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -18,22 +18,9 @@ pub(super) struct Case {
     replaces: bool,
 }
 
-pub(super) const CASES: [Case; 8] = [
+pub(super) const CASES: [Case; 3] = [
     Case { arguments: &["sweep", "run", "study.toml"], makes: "results", replaces: false },
     Case { arguments: &["sweep", "collect", "swept.toml", "--force"], makes: "swept", replaces: false },
-    Case { arguments: &["report", "run.h5", "-o", "report.html", "--force"], makes: "report.html", replaces: true },
-    Case { arguments: &["plot", "run.h5", "-o", "figures", "--force"], makes: "figures", replaces: false },
-    Case {
-        arguments: &["export", "run.h5", "--to", "csv", "-o", "run.csv", "--force"],
-        makes: "run.csv",
-        replaces: true,
-    },
-    Case {
-        arguments: &["export", "run.h5", "--to", "npz", "-o", "run.npz", "--force"],
-        makes: "run.npz",
-        replaces: true,
-    },
-    Case { arguments: &["export", "run.h5", "--to", "vtk", "-o", "maps", "--force"], makes: "maps", replaces: false },
     Case { arguments: &["surface", "patch.sdf", "--to", "patch.h5", "--force"], makes: "patch.h5", replaces: true },
 ];
 

@@ -34,6 +34,9 @@ pub struct RunArguments {
 pub struct CheckArguments {
     #[command(flatten)]
     pub scene: SceneArguments,
+    /// Print also the resolved scene, what is done to surfaces, and what of the model is needed and left out
+    #[arg(long)]
+    pub all: bool,
     #[command(flatten)]
     pub execution: ExecutionArguments,
 }

@@ -1,23 +1,9 @@
-//! The command lines of the commands that show, check, mend and export run files.
+//! The command lines of the commands that show, check and mend run files.
 
 use std::num::NonZeroU64;
 use std::path::PathBuf;
 
-use clap::{Args, ValueEnum};
-
-/// Arguments of `plateau report`.
-#[derive(Debug, Args)]
-pub struct ReportArguments {
-    /// Run files, also of runs that go on or were stopped; at most 8, of which the others are compared with the first
-    #[arg(value_name = "RUN", required = true)]
-    pub runs: Vec<PathBuf>,
-    /// Page to write; named like the run file, or "report.html" for several, unless given
-    #[arg(short, long, value_name = "HTML")]
-    pub output: Option<PathBuf>,
-    /// Replace the page if it exists
-    #[arg(long)]
-    pub force: bool,
-}
+use clap::Args;
 
 /// Arguments of `plateau watch`.
 #[derive(Debug, Args)]
@@ -59,32 +45,12 @@ pub struct RepairArguments {
     pub force: bool,
 }
 
-/// Arguments of `plateau export`.
+/// Arguments of `plateau summary`.
 #[derive(Debug, Args)]
-pub struct ExportArguments {
+pub struct SummaryArguments {
     /// Run file, also of a run that goes on or was stopped
     pub run: PathBuf,
-    /// Format of the files
-    #[arg(long, value_name = "FORMAT", alias = "format")]
-    pub to: ExportFormat,
-    /// File to write, for vtk the folder, made if it is not there; named like the run file unless given
-    #[arg(short, long, value_name = "FILE")]
-    pub output: Option<PathBuf>,
-    /// Write the maps too; for csv, as the other formats have them anyway
+    /// Print JSON, as it does anyway
     #[arg(long)]
-    pub maps: bool,
-    /// Replace files that exist
-    #[arg(long)]
-    pub force: bool,
-}
-
-/// A format of other programs.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum ExportFormat {
-    /// Comma-separated values: the series; with --maps the maps
-    Csv,
-    /// NumPy archive: series and maps as arrays
-    Npz,
-    /// ParaView: maps on the cells of ring and pin, as a time series
-    Vtk,
+    pub json: bool,
 }

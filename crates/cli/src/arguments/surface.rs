@@ -24,6 +24,9 @@ pub struct SurfaceArguments {
     /// Draw map, histogram and Abbott-Firestone curve of each surface, in the format of the ending: .png, .svg or .pdf
     #[arg(long, value_name = "FILE")]
     pub plot: Option<PathBuf>,
+    /// Draw the surfaces in perspective, instead of maps and charts
+    #[arg(long, requires = "plot")]
+    pub relief: bool,
     /// Write the heights as they are, not levelled, in the format of the ending
     #[arg(long, value_name = "FILE")]
     pub to: Option<PathBuf>,
@@ -36,6 +39,9 @@ pub struct SurfaceArguments {
     /// Draw the pin's fibre map that the scene makes, beside the micrograph that it comes from, in the same formats
     #[arg(long, value_name = "FILE", requires = "prepare")]
     pub preview: Option<PathBuf>,
+    /// Write the data of the figures into this folder, which is there, and print nothing: for the Python package
+    #[arg(long, value_name = "DIR", hide = true, conflicts_with_all = ["plot", "preview", "json"])]
+    pub figure_data: Option<PathBuf>,
     #[command(flatten)]
     pub reading: ReadArguments,
     /// Replace the files that --plot, --preview and --to name if they exist

@@ -6,10 +6,7 @@ use std::path::PathBuf;
 use plateau_io::dataset_file::now;
 use plateau_io::scene::Scene;
 use plateau_io::surface::{self, Loaded};
-use plateau_present::figure::{Figure, Format, accuracy as drawing};
-use plateau_run::accuracy::{
-    AccuracyError, Found, Ladder, ReadReference, Report, Row, Wish, integrator_name, read_reference, search,
-};
+use plateau_run::accuracy::{AccuracyError, Found, Ladder, ReadReference, Wish, read_reference, search};
 use plateau_run::execution::decide;
 use plateau_run::{input_files, signal_in_words};
 
@@ -17,6 +14,7 @@ use super::load_scene;
 use crate::accuracy::{Making, csv, json, text};
 use crate::arguments::AccuracyArguments;
 use crate::failure::Failure;
+use crate::figure;
 use crate::message;
 use crate::output;
 use crate::table::print;
@@ -74,19 +72,26 @@ fn measure_into(
         start_time,
         state: if stopped.is_none() { "finished" } else { "interrupted" },
     };
-    let figure = figure(&report);
     let document = json(&report, &making);
     let [csv_file, json_file, drawings @ ..] = &places;
+    let mut written = vec![csv_file, json_file];
     let force = arguments.force;
     output::write_in_folder(csv_file, csv(&report.rows).as_bytes(), force)?;
     output::write_in_folder(json_file, document.as_bytes(), force)?;
-    for (path, format) in drawings.iter().zip(Format::ALL) {
-        output::write_in_folder(path, &figure.draw(format).map_err(Failure::run)?, force)?;
+    // Tables of hours of runs are worth something without figures.
+    match figure::draw("accuracy", json_file, &figure::FORMATS, &[]) {
+        Ok(drawn) => {
+            for (path, (_, content)) in drawings.iter().zip(&drawn) {
+                output::write_in_folder(path, content, force)?;
+                written.push(path);
+            }
+        }
+        Err(failure) => message::warning(format_args!("the figure is left out: {failure}")),
     }
     if arguments.scene.json {
         print(&document)?;
     } else {
-        let files: String = places.iter().map(|path| format!("wrote {}\n", path.display())).collect();
+        let files: String = written.iter().map(|path| format!("wrote {}\n", path.display())).collect();
         print(&format!("{}\n{files}", text(&report)))?;
     }
     match stopped {
@@ -123,37 +128,4 @@ fn failure(error: AccuracyError) -> Failure {
         AccuracyError::Stopped { signal, .. } => Failure::Stopped { signal, message: Some(error.to_string()) },
         AccuracyError::Mesh(_) | AccuracyError::Failed { .. } => Failure::run(error),
     }
-}
-
-/// The figure of what was found.
-fn figure(report: &Report) -> Figure {
-    let rung = |row: &Row| {
-        let value = row.rung.value();
-        let label = match row.rung.ladder {
-            // The legend says what the numbers of a colour are.
-            Ladder::TimeAcceleration | Ladder::Tolerance => format!("{value}"),
-            Ladder::Mesh => format!("{value}\u{d7} coarser"),
-            Ladder::Integrator => integrator_name(row.rung.numerics.integrator).to_owned(),
-            Ladder::Perturbation => format!("heights times 1 + {value:e}"),
-        };
-        drawing::Rung { time: row.cost().time, error: row.error(), on_front: row.on_front, label }
-    };
-    let ladder = |rows: &'_ [Row]| {
-        let ladder = rows[0].rung.ladder;
-        drawing::Ladder {
-            name: ladder.name(),
-            colour: ladder as usize,
-            is_joined: matches!(ladder, Ladder::TimeAcceleration | Ladder::Mesh),
-            is_chance: ladder == Ladder::Perturbation,
-            rungs: rows.iter().map(rung).collect(),
-        }
-    };
-    let same = |one: &Row, next: &Row| one.rung.ladder == next.rung.ladder;
-    let ladders: Vec<drawing::Ladder> = report.rows.chunk_by(same).map(ladder).collect();
-    let reference = drawing::Reference {
-        time: report.reference.outcome.wall_time.unwrap_or(f64::NAN),
-        error: report.own_error.contact_area(),
-        time_acceleration: report.reference.time_acceleration,
-    };
-    drawing::figure(&reference, &ladders)
 }

@@ -63,6 +63,6 @@ pub fn check(arguments: &CheckArguments) -> Result<(), Failure> {
         let text = serde_json::to_string_pretty(&check).map_err(Failure::run)?;
         print(&format!("{text}\n"))
     } else {
-        print(&check.to_text())
+        print(&check.to_text(arguments.all, message::warnings()))
     }
 }

@@ -28,6 +28,15 @@ impl File {
         let plain = env::current_dir().is_ok_and(|here| here.join(path) == Path::new(resolved));
         (access, if plain { path.clone() } else { format!("{path}, which is {resolved}") })
     }
+
+    /// What is read and the run file, in one line.
+    pub(super) fn in_one_line(files: &[Self]) -> String {
+        let of = |access: &str| {
+            files.iter().filter(|file| file.access == access).map(|file| &*file.path).collect::<Vec<_>>()
+        };
+        let written = of("writes").first().map_or(String::new(), |file| format!("; writes {file}"));
+        format!("reads {}{written}", of("reads").join(", "))
+    }
 }
 
 /// Every file that a run of the scene reads, and those that it writes, with where they really are.

@@ -1,7 +1,5 @@
 //! What `plateau check` reports of a scene: its numbers, and what they are in words.
 
-use std::fmt::Write as _;
-
 use plateau_core::engine::parts::{ACCELERATION, Part};
 use plateau_core::simulation::Execution;
 use plateau_io::checkpoint;
@@ -14,8 +12,8 @@ use super::check_cycle::CycleReport;
 use super::check_files::File;
 use super::check_outline::OutlineReport;
 use super::check_pulse::PulseReport;
-use crate::number;
 use crate::table::{list, table};
+use crate::{message, number};
 
 /// What `plateau check` reports.
 #[derive(Debug, Serialize)]
@@ -170,88 +168,74 @@ impl CheckReport {
         format!("{all}: {surfaces} for the surfaces (as now), {trial}")
     }
 
-    /// All of it as text.
-    pub(super) fn to_text(&self) -> String {
+    /// What matters first, as text, or all of it; with the number of warnings that were given.
+    pub(super) fn to_text(&self, all: bool, warnings: usize) -> String {
         let micrometres = |length: f64| format!("{} um", number::short(length * 1e6));
-        let stiffness = format!(
-            "Π = {}{}{}",
-            number::short(self.stiffness_number),
-            self.hot_stiffness_number.map_or(String::new(), |number| format!(
-                ", {} where thermal.wear_rate_factor is largest",
-                number::short(number)
-            )),
-            if self.warns_of_stiffness { " (large, see the warning)" } else { "" }
+        let mesh = format!(
+            "{} rows, {} columns round the ring, {} under the pin: {} disc and {} pin cells of {} by {}",
+            self.rows,
+            self.disc_columns,
+            self.pin_columns,
+            number::grouped((self.rows * self.disc_columns) as u64),
+            number::grouped((self.rows * self.pin_columns) as u64),
+            micrometres(self.cell_height),
+            micrometres(self.cell_width)
         );
-        let mut rows = vec![
-            (
-                "mesh",
-                format!(
-                    "{} rows, {} columns round the ring, {} under the pin: {} disc and {} pin cells of {} by {}",
-                    self.rows,
-                    self.disc_columns,
-                    self.pin_columns,
-                    number::grouped((self.rows * self.disc_columns) as u64),
-                    number::grouped((self.rows * self.pin_columns) as u64),
-                    micrometres(self.cell_height),
-                    micrometres(self.cell_width)
-                ),
+        let steps = format!(
+            "{}{} of {} s{}: {} revolutions, {} s",
+            if self.largest_acceleration.is_some() { "without acceleration " } else { "" },
+            number::grouped(self.steps),
+            number::short(self.step_time),
+            if self.cycle.is_some() { " in the mean" } else { "" },
+            number::short(self.revolutions),
+            number::short(self.cycle.as_ref().map_or(self.step_time * self.steps as f64, CycleReport::duration))
+        );
+        let told = if warnings == 0 {
+            "none".to_owned()
+        } else {
+            format!("{warnings}, {}", if message::is_quiet() { "which -q keeps back" } else { "on standard error" })
+        };
+        let pressure = if self.cycle.is_some() { "largest nominal pressure" } else { "nominal pressure" };
+        let mut rows = vec![("warnings", told), ("mesh", mesh)];
+        rows.extend(self.outline.as_ref().map(|outline| ("outline of the pin", outline.text())));
+        rows.push((pressure, format!("{} MPa", number::short(self.nominal_pressure * 1e-6))));
+        rows.push(("steps", steps));
+        rows.extend(self.cycle.iter().flat_map(CycleReport::rows));
+        rows.extend(self.pulse.as_ref().map(|pulse| ("contact area pulses", pulse.text())));
+        rows.push(("estimated time", self.time()));
+        rows.push(("memory for cells and maps", number::bytes(self.memory)));
+        let [file, checkpoint] = [self.run_file, self.checkpoint].map(number::bytes);
+        rows.push((
+            "output",
+            format!(
+                "samples: {}, moments with maps: {}; run file at most {file}, two checkpoints of at most {checkpoint}",
+                number::grouped(self.samples),
+                self.maps
             ),
-            (
-                if self.cycle.is_some() { "largest nominal pressure" } else { "nominal pressure" },
-                format!("{} MPa", number::short(self.nominal_pressure * 1e-6)),
-            ),
-            (
-                "steps",
-                format!(
-                    "{}{} of {} s{}: {} revolutions, {} s",
-                    if self.largest_acceleration.is_some() { "without acceleration " } else { "" },
-                    number::grouped(self.steps),
-                    number::short(self.step_time),
-                    if self.cycle.is_some() { " in the mean" } else { "" },
-                    number::short(self.revolutions),
-                    number::short(
-                        self.cycle.as_ref().map_or(self.step_time * self.steps as f64, CycleReport::duration)
-                    )
-                ),
-            ),
-            ("output", format!("samples: {}, moments with maps: {}", number::grouped(self.samples), self.maps)),
-            ("stiffness number", stiffness),
-            ("memory for cells and maps", number::bytes(self.memory)),
-            (
-                "storage",
-                format!(
-                    "run file at most {}, two checkpoints of at most {}",
-                    number::bytes(self.run_file),
-                    number::bytes(self.checkpoint)
-                ),
-            ),
-            ("workers", format!("{}, instruction set {}", self.workers, self.instruction_set)),
-            ("estimated time", self.time()),
-        ];
-        if let Some(cycle) = &self.cycle {
-            // Behind the steps.
-            rows.splice(3..3, cycle.rows());
+        ));
+        if !all {
+            rows.push(("files", File::in_one_line(&self.files)));
+            return table(&self.title, &rows) + "\nThe resolved scene and what is left out: --all\n";
         }
-        if let Some(pulse) = &self.pulse {
-            // Behind the steps, which no cycle has then.
-            rows.insert(3, ("contact area pulses", pulse.text()));
-        }
-        if let Some(outline) = &self.outline {
-            // Behind the mesh.
-            rows.insert(1, ("outline of the pin", outline.text()));
-        }
-        let mut text = format!("# {}\n\n{}\n", self.title, self.scene.trim_start());
-        // Writing to a String cannot fail.
-        let _ = write!(
-            text,
-            "{}\n{}\n{}\n{}\n{}",
+        rows.push(("stiffness number", self.stiffness()));
+        rows.push(("workers", format!("{}, instruction set {}", self.workers, self.instruction_set)));
+        [
+            table(&self.title, &rows),
             table("Files", &self.files.iter().map(File::row).collect::<Vec<_>>()),
             list("Surfaces", &self.surfaces),
-            table("Run", &rows),
             table("Needed", &reasons(&self.needed)),
-            table("Left out", &reasons(&self.left_out))
-        );
-        text
+            table("Left out", &reasons(&self.left_out)),
+            format!("# The resolved scene\n\n{}", self.scene.trim_start()),
+        ]
+        .join("\n")
+    }
+
+    fn stiffness(&self) -> String {
+        let hot = self.hot_stiffness_number.map_or(String::new(), |number| {
+            format!(", {} where thermal.wear_rate_factor is largest", number::short(number))
+        });
+        let large = if self.warns_of_stiffness { " (large, see the warning)" } else { "" };
+        format!("Π = {}{hot}{large}", number::short(self.stiffness_number))
     }
 }
 

@@ -30,7 +30,8 @@ fn print(program: &Command, page: Option<&str>) -> Result<(), Failure> {
 
 /// Pages are written all or none, as far as that can be told beforehand; the folder is made unless it is there.
 fn write(program: &Command, directory: &Path, force: bool) -> Result<(), Failure> {
-    let commands = [program].into_iter().chain(program.get_subcommands());
+    let shown = program.get_subcommands().filter(|command| !command.is_hide_set());
+    let commands = [program].into_iter().chain(shown);
     let pages = commands.map(Page::of).collect::<Result<Vec<_>, _>>()?;
     output::make_directory(directory)?;
     for page in &pages {

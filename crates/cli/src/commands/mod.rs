@@ -8,15 +8,13 @@ mod check_outline;
 mod check_pulse;
 mod check_report;
 mod completions;
-mod export;
 mod man;
 mod new;
-mod plot;
 mod repair;
-mod report;
 mod run;
 mod runs;
 mod schema;
+mod summary;
 mod surface;
 mod sweep;
 mod verify;
@@ -29,7 +27,6 @@ use crate::arguments::{Arguments, Command, SceneArguments};
 use crate::failure::Failure;
 use crate::hand_over::hand_over;
 use crate::message;
-use runs::{figures, named_like, open_run, open_runs};
 
 /// Does what the command line asks for.
 pub fn perform(arguments: Arguments) -> Result<(), Failure> {
@@ -38,10 +35,10 @@ pub fn perform(arguments: Arguments) -> Result<(), Failure> {
         Command::New(arguments) => new::new(&arguments),
         Command::Run(arguments) => run::run(&arguments),
         Command::Check(arguments) => check::check(&arguments),
-        Command::Plot(arguments) => plot::plot(&arguments),
-        Command::Report(arguments) => report::report(&arguments),
+        Command::Plot(handed) => hand_over("plot", handed.arguments),
+        Command::Report(handed) => hand_over("report", handed.arguments),
         Command::Watch(arguments) => watch::watch(&arguments),
-        Command::Export(arguments) => export::export(&arguments),
+        Command::Export(handed) => hand_over("export", handed.arguments),
         Command::Accuracy(arguments) => accuracy::accuracy(&arguments),
         Command::Sweep(command) => sweep::sweep(command),
         Command::Fit(handed) => hand_over("fit", handed.arguments),
@@ -49,6 +46,7 @@ pub fn perform(arguments: Arguments) -> Result<(), Failure> {
         Command::Surface(arguments) => surface::surface(&arguments),
         Command::Verify(arguments) => verify::verify(&arguments),
         Command::Repair(arguments) => repair::repair(&arguments),
+        Command::Summary(arguments) => summary::summary(&arguments),
         Command::Schema => schema::schema(),
         Command::Completions(arguments) => completions::completions(&arguments),
         Command::Man(arguments) => man::man(&arguments),

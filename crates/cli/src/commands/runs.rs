@@ -1,10 +1,9 @@
 //! Run files that a command line names, and what deserves to be said of them.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use plateau_io::number;
 use plateau_io::run_file::{RunFile, State};
-use plateau_present::figure::run::{self, Figures, MOST_RUNS, Options, moment};
 
 use crate::failure::Failure;
 use crate::message;
@@ -51,49 +50,24 @@ pub fn warn_of_times(run: &RunFile, at: &[f64]) {
     }
 }
 
-/// Opens run files that are shown together; warns of those that are not finished or named twice.
-///
-/// # Errors
-/// [`Failure::Input`] when there are too many of them, or one cannot be read.
-pub fn open_runs(paths: &[PathBuf]) -> Result<Vec<RunFile>, Failure> {
-    let count = paths.len();
-    if count > MOST_RUNS {
-        return Err(Failure::input(format!(
-            "{count} runs: expected at most {MOST_RUNS}, more make no legible figure; name fewer"
-        )));
-    }
-    let runs = paths.iter().map(|path| open_run(path)).collect::<Result<Vec<_>, _>>()?;
-    let real: Vec<_> = paths.iter().map(|path| path.canonicalize().ok()).collect();
-    for (index, path) in paths.iter().enumerate() {
-        if real[index].is_some() && real[..index].contains(&real[index]) {
-            message::warning(format_args!("{} is named more than once", path.display()));
-        }
-    }
-    Ok(runs)
+/// Indices of the maps that were recorded nearest to some times (s), in their order, each once.
+pub fn nearest(run: &RunFile, times: &[f64]) -> Vec<usize> {
+    let recorded = run.map_time();
+    let distance = |index: &usize, time: f64| (recorded[*index] - time).abs();
+    let nearest =
+        |time: &f64| (0..recorded.len()).min_by(|one, other| distance(one, *time).total_cmp(&distance(other, *time)));
+    let mut indices: Vec<usize> = times.iter().filter_map(nearest).collect();
+    indices.sort_unstable();
+    indices.dedup();
+    indices
 }
 
-/// The figures of runs; says what was left out of them.
-///
-/// # Errors
-/// [`Failure::Input`] when a file turns out to be damaged.
-pub fn figures(runs: &[RunFile], options: &Options) -> Result<Figures, Failure> {
-    runs.iter().for_each(|run| warn_of_times(run, &options.at));
-    let figures = run::figures(runs, options).map_err(Failure::input)?;
-    for reason in &figures.left_out {
-        message::note(reason);
+/// The time of a map, in words.
+pub fn moment(run: &RunFile, index: usize) -> String {
+    let seconds = run.map_time().get(index).copied().unwrap_or(f64::NAN);
+    match seconds {
+        short if short > 0.0 && short < 0.1 => format!("{} ms", number::rounded(1e3 * short, 4)),
+        long if long >= 2e4 => format!("{} h", number::rounded(long / 3600.0, 4)),
+        seconds => format!("{} s", number::rounded(seconds, 4)),
     }
-    Ok(figures)
-}
-
-/// A path in the working directory, named like a run file with another ending: where a command writes unless told.
-pub fn named_like(run: &Path, ending: &str) -> PathBuf {
-    let mut name = run.file_stem().unwrap_or(run.as_os_str()).to_owned();
-    name.push(ending);
-    name.into()
-}
-
-/// The runs and the files that they have read: none of them is replaced by what is made of the runs.
-pub(super) fn inputs_of(runs: &[RunFile]) -> Vec<PathBuf> {
-    let read = runs.iter().flat_map(RunFile::inputs).map(|input| PathBuf::from(input.path));
-    runs.iter().map(|run| run.path().to_owned()).chain(read).collect()
 }

@@ -6,8 +6,8 @@ use std::path::Path;
 use std::thread;
 use std::time::{Duration, Instant, SystemTime};
 
+use crate::watch::{Look, Pace};
 use plateau_io::run_file::{ReadError, State};
-use plateau_present::watch::{Look, Pace};
 
 use crate::arguments::WatchArguments;
 use crate::failure::Failure;

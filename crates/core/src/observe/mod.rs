@@ -11,7 +11,7 @@
 //! | `map.rs` | fields that can be recorded as maps |
 //! | `schedule.rs` | when samples and maps are due |
 //! | `pulse.rs` | how long the contact area takes to rise and fall once |
-//! | `window_mean.rs`, `drift.rs`, `running_in.rs`, `plateau_size.rs` | what is made of series and maps afterwards |
+//! | `window_mean.rs`, `drift.rs`, `running_in.rs` | what is made of series and maps afterwards |
 
 pub mod dissipation;
 pub mod drift;
@@ -19,7 +19,6 @@ pub mod event;
 pub mod extra;
 pub mod map;
 pub mod operation;
-pub mod plateau_size;
 pub mod pressure_spread;
 pub mod pulse;
 pub mod quantity;

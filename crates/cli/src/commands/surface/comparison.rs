@@ -5,27 +5,17 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use plateau_core::model::mesh::Mesh;
 use plateau_core::surface::describe::{Description, Grid, PARAMETERS, Parameter, Unit, sampling_errors};
 use plateau_core::surface::{Body, Level, Patch, level};
-use plateau_present::figure::surface_description::{DescribedSurface, Drawn, Ranges};
 
 use super::describe::describe;
+use super::figure_data::FigureData;
 use crate::failure::Failure;
 
 /// A prepared patch, described at its own pitch and averaged over cells of the mesh, as the heights of the body are.
 pub struct Comparison {
-    /// What the patch is called.
-    name: String,
-    /// Columns and rows of the patch.
-    points: [usize; 2],
-    /// Their distances, m.
-    pitch: [f64; 2],
     /// Parameters of the patch.
     pub patch: Description,
     /// Those of its averages over cells; none if no cell lies in it.
     pub cells: Option<Cells>,
-    /// Its heights; none unless they are to be drawn.
-    undrawn: Option<Vec<f64>>,
-    /// The same as a picture shows them.
-    drawn: Option<Drawn>,
 }
 
 /// A patch averaged over cells.
@@ -51,12 +41,15 @@ impl Comparison {
         mut patch: Patch,
         mesh: &Mesh,
         form: Level,
-        draws: bool,
+        figures: Option<&mut FigureData>,
     ) -> Result<Option<Self>, Failure> {
         body.turn(&mut patch.heights);
         level(&mut patch.heights, patch.rows, form, false);
         let grid = Grid::of(&patch);
         let Some(description) = describe(name, &grid)? else { return Ok(None) };
+        if let Some(figures) = figures {
+            figures.add(&format!("{name} patch"), Some(body), &grid, &description)?;
+        }
         // There are fewer of them than points of the patch.
         let cells = patch.cell_averages(mesh).and_then(|cells| {
             let grid = Grid::of(&cells);
@@ -67,34 +60,7 @@ impl Comparison {
                 errors: sampling_errors(&grid),
             })
         });
-        Ok(Some(Self {
-            name: format!("{name} patch"),
-            points: [patch.columns, patch.rows],
-            pitch: [patch.column_pitch, patch.row_pitch],
-            patch: description,
-            cells,
-            undrawn: draws.then_some(patch.heights),
-            drawn: None,
-        }))
-    }
-
-    /// Draws the patch within these ranges, if it is to be drawn.
-    pub fn draw(&mut self, ranges: &Ranges) {
-        let Some(heights) = self.undrawn.take() else { return };
-        let [columns, rows] = self.points;
-        let grid = Grid { columns, rows, pitch: Some(self.pitch), heights: &heights };
-        self.drawn = Some(Drawn::of(&grid, &self.patch, ranges));
-    }
-
-    /// What is drawn of the patch, if anything is.
-    pub fn described(&self) -> Option<DescribedSurface<'_>> {
-        Some(DescribedSurface {
-            title: self.name.clone(),
-            points: self.points,
-            pitch: Some(self.pitch),
-            drawn: self.drawn.as_ref()?,
-            description: &self.patch,
-        })
+        Ok(Some(Self { patch: description, cells }))
     }
 
     /// The values of every parameter, SI units, NaN where there is none.

@@ -1,6 +1,6 @@
 //! Surfaces as JSON.
 
-use plateau_core::surface::describe::{PARAMETERS, Parameter, Unit};
+use plateau_core::surface::describe::{Description, PARAMETERS, Parameter, Unit};
 use serde::Serialize;
 use serde::ser::{SerializeMap as _, Serializer};
 
@@ -28,6 +28,13 @@ pub fn scale(parameter: &Parameter) -> (&'static str, f64) {
     }
 }
 
+/// The parameters of a surface by their symbols, each in its unit.
+pub fn parameters(description: &Description) -> impl Iterator<Item = (&'static str, f64)> + '_ {
+    PARAMETERS
+        .iter()
+        .filter_map(|parameter| Some((parameter.symbol, (parameter.value)(description)? * scale(parameter).1)))
+}
+
 /// A surface: what it is, its parameters by their symbols, and their units.
 ///
 /// What the heights do not determine is null; what needs a pitch that is unknown is not there.
@@ -52,10 +59,8 @@ impl Serialize for Document<'_> {
         map.serialize_entry("level", subject.level)?;
         map.serialize_entry("notes", &subject.notes)?;
         map.serialize_entry("warnings", &subject.warnings)?;
-        for parameter in PARAMETERS {
-            if let Some(value) = (parameter.value)(&subject.description) {
-                map.serialize_entry(parameter.symbol, &(value * scale(parameter).1))?;
-            }
+        for (symbol, value) in parameters(&subject.description) {
+            map.serialize_entry(symbol, &value)?;
         }
         if let Some(spatial) = subject.description.autocorrelation {
             map.serialize_entry("Str_below", &spatial.aspect_ratio_below)?;
@@ -102,7 +107,7 @@ impl Serialize for Values<'_> {
 }
 
 /// The unit of every number of a [`Document`] that has one.
-struct Units;
+pub struct Units;
 
 impl Serialize for Units {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {

@@ -3,6 +3,7 @@
 mod comparison;
 mod describe;
 mod document;
+mod figure_data;
 mod recorded;
 mod subject;
 mod text;
@@ -12,16 +13,15 @@ use std::path::{Path, PathBuf};
 use plateau_core::surface::{Body, Level, Patch};
 use plateau_io::scene;
 use plateau_io::surface::{self, Loaded, Measured, WriteError, WriteOptions};
-use plateau_present::figure::fibre_map::{self, Micrograph};
-use plateau_present::figure::surface_description::{self, DescribedSurface};
-use plateau_present::figure::{Figure, Format};
 
 use crate::arguments::{SurfaceArguments, as_options};
 use crate::failure::Failure;
+use crate::figure;
 use crate::message;
 use crate::output;
 use crate::table::print;
 use comparison::Comparison;
+use figure_data::FigureData;
 use recorded::NamedHeights;
 use subject::Subject;
 
@@ -31,6 +31,11 @@ const MOST_PLOTTED: usize = 12;
 /// Describes, converts and draws surfaces.
 pub fn surface(arguments: &SurfaceArguments) -> Result<(), Failure> {
     refuse_impossible(arguments)?;
+    // What is drawn is written down while it is there, so that not all heights are held.
+    let temporary = draws(arguments).then(tempfile::tempdir).transpose();
+    let temporary = temporary.map_err(|error| Failure::run(format_args!("no temporary folder: {error}")))?;
+    let folder = temporary.as_ref().map(|folder| folder.path()).or(arguments.figure_data.as_deref());
+    let mut figures = folder.map(FigureData::new);
     let mut subjects = Vec::new();
     let level = arguments.level.unwrap_or(Level::Plane);
     for path in &arguments.files {
@@ -50,17 +55,16 @@ pub fn surface(arguments: &SurfaceArguments) -> Result<(), Failure> {
             convert(path, one, to, arguments.force)?;
         }
         for heights in found {
-            subjects.push(Subject::of_heights(heights, level, draws(arguments))?);
+            subjects.push(Subject::of_heights(heights, level, figures.as_mut())?);
         }
     }
-    let (mut read, mut preview) = (Vec::new(), None);
+    let mut read = Vec::new();
     if let Some(path) = &arguments.prepare {
-        let prepared = prepared(path, arguments)?;
-        (read, preview) = (prepared.inputs, prepared.preview);
-        subjects.extend(prepared.subjects);
+        let (prepared, inputs) = prepared(path, arguments, figures.as_mut())?;
+        subjects.extend(prepared);
+        read = inputs;
     }
-    Subject::draw_together(&mut subjects);
-    tell(&subjects, arguments, &read, preview)
+    tell(&subjects, arguments, &read, figures.as_ref().zip(folder))
 }
 
 /// Refuses to convert several maps of a run into one file.
@@ -75,7 +79,7 @@ fn several(path: &Path, found: &[NamedHeights]) -> Failure {
 }
 
 fn draws(arguments: &SurfaceArguments) -> bool {
-    arguments.plot.is_some()
+    arguments.plot.is_some() || arguments.preview.is_some()
 }
 
 /// Refuses what cannot be done, before anything is read.
@@ -90,7 +94,7 @@ fn refuse_impossible(arguments: &SurfaceArguments) -> Result<(), Failure> {
     }
     for (option, picture) in [("--plot", plot), ("--preview", preview)] {
         let Some(picture) = picture else { continue };
-        if Format::of(picture).is_none() {
+        if figure::format_of(picture).is_none() {
             let endings = "expected the ending .png, .svg or .pdf";
             return Err(Failure::input(format!("{option} {}: {endings}", picture.display())));
         }
@@ -146,14 +150,12 @@ fn convert(path: &Path, from: &mut NamedHeights, to: &Path, force: bool) -> Resu
     })
 }
 
-/// What a scene makes of its disc and pin, with the files that it reads, and its fibre map if that is to be drawn.
-struct Prepared {
-    subjects: [Subject; 2],
-    inputs: Vec<PathBuf>,
-    preview: Option<Figure>,
-}
-
-fn prepared(path: &Path, arguments: &SurfaceArguments) -> Result<Prepared, Failure> {
+/// What a scene makes of its disc and pin, with the files that it reads.
+fn prepared(
+    path: &Path,
+    arguments: &SurfaceArguments,
+    mut figures: Option<&mut FigureData>,
+) -> Result<([Subject; 2], Vec<PathBuf>), Failure> {
     let scene = scene::load(path, &[]).map_err(Failure::of_scene)?;
     for warning in &scene.warnings {
         message::warning(warning);
@@ -162,20 +164,17 @@ fn prepared(path: &Path, arguments: &SurfaceArguments) -> Result<Prepared, Failu
     loaded.warnings().for_each(message::warning);
     let Loaded { surfaces, report, inputs, .. } = loaded;
     let inputs = scene.files.iter().chain(&inputs).map(|(path, _)| path.clone()).collect();
-    let mut preview = None;
-    if arguments.preview.is_some() {
-        let micrograph = surface::micrograph(&scene).map_err(Failure::input)?;
-        let micrograph = micrograph.as_ref().map(|(map, pixel)| Micrograph { map, pixel: *pixel });
-        preview = Some(fibre_map::figure(&scene.parameters.mesh, &surfaces.pin_base, micrograph));
-    }
     let (mesh, level) = (&scene.parameters.mesh, arguments.level.unwrap_or(Level::None));
-    let mut subjects = Subject::of_scene(path, mesh, surfaces, &report, level, draws(arguments))?;
-    let patches = [(Body::Disc, patches.disc), (Body::Pin, patches.pin)];
-    for (subject, (body, patch)) in subjects.iter_mut().zip(patches) {
-        let compare = |patch| Comparison::of(body, &subject.name, patch, mesh, level, draws(arguments));
-        subject.comparison = patch.map(compare).transpose()?.flatten();
+    if let (Some(figures), true) = (&mut figures, arguments.preview.is_some() || arguments.figure_data.is_some()) {
+        let micrograph = surface::micrograph(&scene).map_err(Failure::input)?;
+        figures.fibre_map(mesh, &surfaces.pin_base, micrograph.as_ref().map(|(map, pixel)| (map, *pixel)))?;
     }
-    Ok(Prepared { subjects, inputs, preview })
+    let (mut disc, mut pin) = (patches.disc, patches.pin);
+    let comparison = |body: Body, name: &str, figures: Option<&mut FigureData>| {
+        let patch = if body == Body::Disc { disc.take() } else { pin.take() };
+        patch.map_or(Ok(None), |patch| Comparison::of(body, name, patch, mesh, level, figures))
+    };
+    Ok((Subject::of_scene(path, mesh, surfaces, &report, level, figures, comparison)?, inputs))
 }
 
 /// An error of a file.
@@ -196,17 +195,22 @@ fn tell(
     subjects: &[Subject],
     arguments: &SurfaceArguments,
     read: &[PathBuf],
-    preview: Option<Figure>,
+    figures: Option<(&FigureData, &Path)>,
 ) -> Result<(), Failure> {
-    let mut drawings: Vec<(PathBuf, Figure)> = Vec::new();
-    if let Some(plot) = &arguments.plot {
+    let mut drawings: Vec<(PathBuf, Vec<u8>)> = Vec::new();
+    if let Some((data, folder)) = figures {
         // A run file has several.
-        refuse_many(subjects.len())?;
-        let described: Vec<DescribedSurface> = subjects.iter().flat_map(Subject::described).collect();
-        let pages = surface_description::figures(&described);
-        drawings.extend(pages.into_iter().enumerate().map(|(at, page)| (of_page(plot, at + 1), page)));
+        if arguments.plot.is_some() {
+            refuse_many(data.count())?;
+        }
+        data.finish()?;
+        for (kind, place) in [("surfaces", &arguments.plot), ("fibre-map", &arguments.preview)] {
+            let Some(place) = place else { continue };
+            let options = if arguments.relief && kind == "surfaces" { &["--relief"][..] } else { &[] };
+            let pages = figure::draw(kind, folder, figure::format_of(place).as_slice(), options)?;
+            drawings.extend(pages.into_iter().map(|(name, content)| (of_page(place, kind, &name), content)));
+        }
     }
-    drawings.extend(arguments.preview.clone().zip(preview));
     // Before the first is written: either all are, or none.
     let inputs: Vec<PathBuf> = arguments.files.iter().chain(&arguments.prepare).chain(read).cloned().collect();
     let mut taken: Vec<&PathBuf> = arguments.to.iter().collect();
@@ -215,10 +219,11 @@ fn tell(
         output::check(path, arguments.force, &inputs)?;
         taken.push(path);
     }
-    for (path, figure) in &drawings {
-        // An ending that tells no format was refused before.
-        let content = figure.draw(Format::of(path).unwrap_or(Format::Png)).map_err(Failure::run)?;
-        output::write(path, &content, arguments.force)?;
+    for (path, content) in &drawings {
+        output::write(path, content, arguments.force)?;
+    }
+    if arguments.figure_data.is_some() {
+        return Ok(());
     }
     if arguments.json {
         return print(&document::document(subjects)?);
@@ -227,13 +232,12 @@ fn tell(
     print(&(text::text(subjects) + &written))
 }
 
-/// Where a page of a figure goes: the first to the named file, further ones beside it with their number.
-fn of_page(plot: &Path, number: usize) -> PathBuf {
-    let stem = plot.file_stem().unwrap_or_default().to_string_lossy();
-    let ending = output::ending(plot);
-    if number == 1 {
-        plot.to_owned()
-    } else {
-        plot.with_file_name(format!("{}.{ending}", Figure::name_of_page(&stem, number)))
+/// Where a page of a figure of this kind goes: the first to the named file, further ones beside it with the end of their names.
+fn of_page(place: &Path, kind: &str, name: &str) -> PathBuf {
+    let stem = place.file_stem().unwrap_or_default().to_string_lossy();
+    let own = Path::new(name).file_stem().unwrap_or_default().to_string_lossy();
+    match own.strip_prefix(kind) {
+        Some("") | None => place.to_owned(),
+        Some(end) => place.with_file_name(format!("{stem}{end}.{}", output::ending(place))),
     }
 }

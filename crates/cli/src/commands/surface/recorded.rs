@@ -8,9 +8,8 @@ use plateau_core::surface::Body;
 use plateau_io::memory::refuse_beyond;
 use plateau_io::run_file::{ReadError, RunFile, map_path};
 use plateau_io::surface::{Format, Measured};
-use plateau_present::figure::run::{moment, nearest};
 
-use super::super::runs::{warn_of_times, warn_of_unfinished};
+use super::super::runs::{moment, nearest, warn_of_times, warn_of_unfinished};
 use super::named;
 use crate::arguments::SurfaceArguments;
 use crate::failure::Failure;

@@ -7,10 +7,10 @@ use plateau_core::model::state::InitialSurfaces;
 use plateau_core::surface::describe::{Description, Grid};
 use plateau_core::surface::{Body, Level, implausible, level};
 use plateau_io::surface::Measured;
-use plateau_present::figure::surface_description::{DescribedSurface, Drawn, Ranges};
 
 use super::comparison::Comparison;
 use super::describe::describe;
+use super::figure_data::FigureData;
 use super::recorded::{NamedHeights, turn_pin};
 use crate::failure::Failure;
 use crate::message;
@@ -39,21 +39,11 @@ pub struct Subject {
     pub description: Description,
     /// The patch that the scene made it of, if it did of one.
     pub comparison: Option<Comparison>,
-    /// What is to be drawn with the scales of what it is compared with.
-    undrawn: Option<Undrawn>,
-    /// Its heights as a picture shows them; none unless one is drawn.
-    drawn: Option<Drawn>,
-}
-
-/// The heights of a body of a run or a scene.
-struct Undrawn {
-    body: Body,
-    heights: Vec<f64>,
 }
 
 impl Subject {
     /// The heights of a file, with the form taken out.
-    pub fn of_heights(heights: NamedHeights, form: Level, draws: bool) -> Result<Self, Failure> {
+    pub fn of_heights(heights: NamedHeights, form: Level, figures: Option<&mut FigureData>) -> Result<Self, Failure> {
         let NamedHeights { name, map, body, measured } = heights;
         let closed = body == Some(Body::Disc);
         let Measured { format, columns, rows, pitch, mut heights, notes, mut warnings, .. } = measured;
@@ -73,7 +63,9 @@ impl Subject {
         for warning in &warnings {
             message::warning(format_args!("{name}: {warning}"));
         }
-        let drawn = (draws && is_measured).then(|| Drawn::of(&grid, &description, &Ranges::of(&description)));
+        if let Some(figures) = figures {
+            figures.add(&title(&name), body, &grid, &description)?;
+        }
         Ok(Self {
             name,
             map,
@@ -85,8 +77,6 @@ impl Subject {
             notes,
             warnings,
             comparison: None,
-            undrawn: body.filter(|_| draws).map(|body| Undrawn { body, heights }),
-            drawn,
             description,
         })
     }
@@ -98,9 +88,10 @@ impl Subject {
         surfaces: InitialSurfaces,
         report: &[String],
         form: Level,
-        draws: bool,
+        mut figures: Option<&mut FigureData>,
+        mut comparison: impl FnMut(Body, &str, Option<&mut FigureData>) -> Result<Option<Comparison>, Failure>,
     ) -> Result<[Self; 2], Failure> {
-        let of_body = |body: Body, name: &str, mut heights: Vec<f64>| {
+        let mut of_body = |body: Body, name: &str, mut heights: Vec<f64>| {
             let closed = body == Body::Disc;
             level(&mut heights, mesh.rows(), form, closed);
             let (columns, rows) = (body.columns(mesh), mesh.rows());
@@ -108,6 +99,11 @@ impl Subject {
             let grid = Grid { columns, rows, pitch, heights: &heights };
             let description = describe(name, &grid)?;
             let description = description.ok_or_else(|| Failure::input("the mesh has no cells"))?;
+            // The patch that it was made of comes first.
+            let comparison = comparison(body, name, figures.as_deref_mut())?;
+            if let Some(figures) = &mut figures {
+                figures.add(name, Some(body), &grid, &description)?;
+            }
             let own = |line: &&String| line.starts_with(&format!("{name}."));
             Ok(Self {
                 name: name.to_owned(),
@@ -119,38 +115,13 @@ impl Subject {
                 level: level_name(form, closed),
                 notes: report.iter().filter(own).cloned().collect(),
                 warnings: Vec::new(),
-                comparison: None,
-                undrawn: draws.then_some(Undrawn { body, heights }),
-                drawn: None,
+                comparison,
                 description,
             })
         };
         let mut pin_height = surfaces.pin_height;
         turn_pin(&mut pin_height, mesh);
         Ok([of_body(Body::Disc, "disc", surfaces.disc_height)?, of_body(Body::Pin, "pin", pin_height)?])
-    }
-
-    /// Draws the bodies of runs and scenes: all that is shown of a disc with one scale, all that is shown of a pin with another.
-    pub fn draw_together(subjects: &mut [Self]) {
-        for body in [Body::Disc, Body::Pin] {
-            let of_body = |subject: &&mut Self| subject.undrawn.as_ref().is_some_and(|undrawn| undrawn.body == body);
-            let mut together: Vec<&mut Self> = subjects.iter_mut().filter(of_body).collect();
-            let described = together.iter().flat_map(|subject| {
-                let patch = subject.comparison.as_ref().map(|comparison| &comparison.patch);
-                patch.into_iter().chain([&subject.description])
-            });
-            let Some(ranges) = described.map(Ranges::of).reduce(Ranges::with) else { continue };
-            for subject in &mut together {
-                subject.draw(&ranges);
-            }
-        }
-    }
-
-    fn draw(&mut self, ranges: &Ranges) {
-        let Some(Undrawn { heights, .. }) = self.undrawn.take() else { return };
-        let grid = Grid { columns: self.columns, rows: self.rows, pitch: self.pitch, heights: &heights };
-        self.drawn = Some(Drawn::of(&grid, &self.description, ranges));
-        self.comparison.iter_mut().for_each(|comparison| comparison.draw(ranges));
     }
 
     /// Points that the grid has.
@@ -162,19 +133,11 @@ impl Subject {
     pub fn coverage(&self) -> f64 {
         self.description.measured as f64 / self.points() as f64
     }
+}
 
-    /// What is drawn of it, if anything is: the patch that it was made of first.
-    pub fn described(&self) -> impl Iterator<Item = DescribedSurface<'_>> {
-        let title = Path::new(&self.name).file_name().map_or(self.name.clone(), |name| name.to_string_lossy().into());
-        let own = self.drawn.as_ref().map(|drawn| DescribedSurface {
-            title,
-            points: [self.columns, self.rows],
-            pitch: self.pitch,
-            drawn,
-            description: &self.description,
-        });
-        self.comparison.as_ref().and_then(Comparison::described).into_iter().chain(own)
-    }
+/// A file by its name, without its folder.
+fn title(name: &str) -> String {
+    Path::new(name).file_name().map_or(name.to_owned(), |name| name.to_string_lossy().into())
 }
 
 /// The form that is taken out of a surface, or of one that closes round the ring.

@@ -175,7 +175,7 @@ const PREFIX: usize = 10;
 ///
 /// # Errors
 /// When the array has so many dimensions that their sizes find no room.
-pub(crate) fn preamble(descr: &str, shape: &[usize]) -> io::Result<Vec<u8>> {
+pub(super) fn preamble(descr: &str, shape: &[usize]) -> io::Result<Vec<u8>> {
     // A tuple of one has a comma after it.
     let sizes: String = shape.iter().map(|size| format!("{size}, ")).collect();
     let dictionary = format!("{{'descr': '{descr}', 'fortran_order': False, 'shape': ({}), }}", sizes.trim_end());

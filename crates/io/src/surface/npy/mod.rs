@@ -14,7 +14,7 @@ use zip::ZipArchive;
 pub use error::NpyError;
 pub(super) use header::HEAD;
 use header::Header;
-pub(crate) use header::preamble;
+use header::preamble;
 use number::Number;
 
 use super::options::inflated;
@@ -160,10 +160,18 @@ pub fn write(path: &Path, patch: &Patch) -> io::Result<()> {
     if patch.columns.checked_mul(patch.rows) != Some(patch.heights.len()) {
         return Err(io::Error::new(io::ErrorKind::InvalidInput, "the patch has other than columns times rows heights"));
     }
+    write_array(path, "<f8", &[patch.columns, patch.rows], patch.heights.iter().flat_map(|height| height.to_le_bytes()))
+}
+
+/// Writes an .npy file of this type and shape.
+///
+/// # Errors
+/// Those of the system.
+pub fn write_array(path: &Path, descr: &str, shape: &[usize], bytes: impl Iterator<Item = u8>) -> io::Result<()> {
     let mut file = BufWriter::new(File::create(path)?);
-    file.write_all(&preamble("<f8", &[patch.columns, patch.rows])?)?;
-    for height in &patch.heights {
-        file.write_all(&height.to_le_bytes())?;
+    file.write_all(&preamble(descr, shape)?)?;
+    for byte in bytes {
+        file.write_all(&[byte])?;
     }
     file.into_inner()?.sync_all()
 }

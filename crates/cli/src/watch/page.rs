@@ -1,0 +1,240 @@
+//! A look in words, and as a page of the terminal.
+
+use console::style;
+use plateau_io::run_file::State;
+
+use super::curve::{Dots, curve};
+use super::{Look, Pace};
+use crate::table::on_one_line;
+use plateau_io::number;
+
+/// Square millimetres in a square metre.
+const MM2: f64 = 1e6;
+/// Characters of the progress bar, at least and at most.
+const BAR: (usize, usize) = (8, 28);
+/// Lines of a curve, at least and at most.
+const CURVE_LINES: (usize, usize) = (3, 12);
+/// Characters of a curve in width, at least.
+const CURVE_WIDTH: usize = 20;
+
+/// How a page is drawn.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Style {
+    /// Letters beyond ASCII.
+    pub unicode: bool,
+    /// Characters of a line.
+    pub width: usize,
+    /// Lines of the terminal.
+    pub height: usize,
+}
+
+/// Everything in one line.
+pub fn line(look: &Look, pace: &Pace, warning: Option<&str>, unicode: bool) -> String {
+    let mut parts = vec![progress(look)];
+    parts.extend(speed(look, pace, warning));
+    parts.push(format!("{} samples", number::grouped(look.times.len() as u64)));
+    parts.extend(contact_area(look));
+    readable(&format!("{}: {}", look.state.name(), parts.join(", ")), unicode)
+}
+
+/// The lines of a page, which fit the terminal and leave its last line to the cursor.
+pub fn page(look: &Look, pace: &Pace, warning: Option<&str>, page: Style) -> Vec<String> {
+    let Style { unicode, height, .. } = page;
+    // One character less than there is room for: some terminals begin a new line after the last.
+    let width = page.width.saturating_sub(1);
+    let state = match look.state {
+        State::Running => style(look.state.name()).cyan(),
+        State::Finished => style(look.state.name()).green(),
+        State::Interrupted => style(look.state.name()).yellow(),
+        State::Failed => style(look.state.name()).red(),
+    };
+    let mut lines = vec![format!("{state}: {}", style(readable(&look.title, unicode)).bold())];
+    let progress = progress(look);
+    let bar = look.progress().and_then(|done| bar(done, unicode, width.saturating_sub(progress.len() + 2)));
+    lines.push(bar.map(|bar| bar + "  ").unwrap_or_default() + &progress);
+    let samples = format!("{} samples", number::grouped(look.times.len() as u64));
+    let speed = speed(look, pace, warning).into_iter().chain([samples]).collect::<Vec<_>>().join(", ");
+    lines.extend(folded(&speed, width));
+    lines.extend(contact_area(look).iter().flat_map(|text| folded(&readable(text, unicode), width)));
+    let warning = warning.map(|warning| folded(&readable(warning, unicode), width)).unwrap_or_default();
+    lines.extend(warning.iter().map(|line| style(line).yellow().to_string()));
+    let room = height.saturating_sub(lines.len() + 4);
+    lines.extend(chart(look, unicode, width, room));
+    // A page that scrolls could not be drawn over.
+    lines.truncate(height.saturating_sub(1).max(1));
+    let cut = if unicode { "…" } else { "~" };
+    lines.into_iter().map(|line| console::truncate_str(&line, width, cut).into_owned()).collect()
+}
+
+/// A text in lines of this width, as far as it can be broken after commas and semicolons.
+fn folded(text: &str, width: usize) -> Vec<String> {
+    let mut lines: Vec<String> = Vec::new();
+    for part in text.split_inclusive([',', ';']).map(str::trim_start) {
+        match lines.last_mut() {
+            Some(line) if console::measure_text_width(line) + 1 + console::measure_text_width(part) <= width => {
+                *line += " ";
+                *line += part;
+            }
+            _ => lines.push(part.to_owned()),
+        }
+    }
+    lines
+}
+
+fn progress(look: &Look) -> String {
+    let time = look.time();
+    match (look.duration, look.progress()) {
+        // The last step may end a little later than asked for.
+        (Some(duration), Some(done)) => {
+            let (time, duration) = (number::short(time.min(duration)), number::short(duration));
+            format!("{time} of {duration} s ({} %)", (100.0 * done).floor())
+        }
+        _ => format!("{} s", number::short(time)),
+    }
+}
+
+/// The speed, and the time left unless the run may have been killed.
+fn speed(look: &Look, pace: &Pace, warning: Option<&str>) -> Option<String> {
+    let speed = pace.speed(look)?;
+    let text = format!("{} simulated s per s", number::short(speed));
+    match (look.state, look.duration, warning) {
+        (State::Running, Some(duration), None) => {
+            Some(format!("{text}, {} left", number::duration((duration - look.time()).max(0.0) / speed)))
+        }
+        _ => Some(text),
+    }
+}
+
+fn contact_area(look: &Look) -> Option<String> {
+    let area = look.contact_area.last()?;
+    let mut text = format!("contact area {:.4} mm²", MM2 * area);
+    if let Some(mean) = look.contact_area_mean.last() {
+        text += &format!(", mean of the last revolution {:.4} mm²", MM2 * mean);
+    }
+    if let Some(filled) = look.filled_fraction {
+        text += &format!(", disc filled {:.1} %", 100.0 * filled);
+    }
+    Some(text)
+}
+
+/// A bar of so many characters, where that is enough for one.
+fn bar(done: f64, unicode: bool, room: usize) -> Option<String> {
+    let length = room.min(BAR.1);
+    let full = ((done * length as f64) as usize).min(length);
+    let (dark, light) = if unicode { ("█", "░") } else { ("#", "-") };
+    (length >= BAR.0).then(|| dark.repeat(full) + &light.repeat(length - full))
+}
+
+/// The contact area against time with its axes, where there is room for it and something to draw.
+fn chart(look: &Look, unicode: bool, width: usize, room: usize) -> Vec<String> {
+    let (title, values) = if look.contact_area_mean.is_empty() {
+        ("contact area, mm²", &look.contact_area)
+    } else {
+        ("contact area, mean of the last simulated revolution, mm²", &look.contact_area_mean)
+    };
+    let shown: Vec<f64> = values.iter().map(|area| MM2 * area).collect();
+    let finite = || shown.iter().copied().filter(|area| area.is_finite());
+    let (low, high) = (finite().fold(f64::INFINITY, f64::min), finite().fold(f64::NEG_INFINITY, f64::max));
+    let labels = [number::short(high), number::short(low)];
+    let margin = labels.iter().map(String::len).max().unwrap_or(0);
+    let columns = width.saturating_sub(margin + 2);
+    if look.times.len() < 2 || low > high || columns < CURVE_WIDTH || room < CURVE_LINES.0 {
+        return Vec::new();
+    }
+    let rows = room.min(CURVE_LINES.1);
+    let dots = if unicode { Dots::Braille } else { Dots::Stars };
+    let (side, corner, bottom) = if unicode { ('│', '└', "─") } else { ('|', '+', "-") };
+    let mut lines = vec![readable(title, unicode)];
+    let drawn = curve(&look.times, &shown, (low, high), (columns, rows), dots);
+    for (row, line) in drawn.into_iter().enumerate() {
+        let label = match row {
+            0 => labels[0].as_str(),
+            row if row + 1 == rows => labels[1].as_str(),
+            _ => "",
+        };
+        lines.push(format!("{label:>margin$} {side}{}", style(line).cyan()));
+    }
+    lines.push(format!("{:margin$} {corner}{}", "", bottom.repeat(columns)));
+    let (start, end) = (number::short(look.times[0]), format!("{} s", number::short(look.time())));
+    let between = columns.saturating_sub(start.len());
+    lines.push(format!("{:margin$}  {start}{end:>between$}", ""));
+    lines
+}
+
+/// A text without control characters, and without other letters than the terminal has.
+fn readable(text: &str, unicode: bool) -> String {
+    let readable = |letter| match letter {
+        '²' if !unicode => '2',
+        letter if unicode || letter.is_ascii() => letter,
+        _ => '?',
+    };
+    on_one_line(text).chars().map(readable).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use std::time::{Duration, Instant};
+
+    use super::*;
+
+    fn look() -> Look {
+        Look {
+            title: "Größe\u{1b}[2J".into(),
+            state: State::Running,
+            error: None,
+            times: vec![1.0, 2.0, 3.0],
+            duration: Some(12.0),
+            contact_area: vec![1e-6, 2e-6, 4e-6],
+            contact_area_mean: vec![1e-6, 1.5e-6, 2e-6],
+            filled_fraction: Some(0.25),
+            elapsed: Some(Duration::from_secs(6)),
+            age: Duration::ZERO,
+        }
+    }
+
+    #[test]
+    fn a_line_says_it_all() {
+        let pace = Pace::new(Instant::now());
+        // 3 s in 6 s: 0.5 s a second, 9 s to go.
+        assert_eq!(
+            line(&look(), &pace, None, false),
+            "running: 3.000 of 12.00 s (25 %), 0.5000 simulated s per s, 18.0 s left, 3 samples, \
+             contact area 4.0000 mm2, mean of the last revolution 2.0000 mm2, disc filled 25.0 %"
+        );
+        let warned = line(&look(), &pace, Some("no new sample"), true);
+        assert!(warned.contains(", 0.5000 simulated s per s, 3 samples, "), "{warned}");
+    }
+
+    #[test]
+    fn pages_fit_every_terminal() {
+        let pace = Pace::new(Instant::now());
+        for unicode in [false, true] {
+            for width in [1, 10, 30, 80, 200] {
+                for height in [1, 5, 10, 24, 80] {
+                    let lines =
+                        page(&look(), &pace, Some("the run may have been killed"), Style { unicode, width, height });
+                    let longest = lines.iter().map(|line| console::measure_text_width(line)).max().unwrap();
+                    assert!(longest < width.max(2), "{width} x {height}: {lines:?}");
+                    assert!(lines.len() < height.max(2), "{width} x {height}: {lines:?}");
+                    assert!(unicode || lines.iter().all(|line| line.is_ascii()), "{lines:?}");
+                    assert!(!lines[0].contains("\u{1b}[2J"), "{lines:?}");
+                }
+            }
+        }
+        let narrow = page(&look(), &pace, None, Style { unicode: false, width: 40, height: 10 });
+        assert_eq!(
+            narrow[1..],
+            [
+                "###-----------  3.000 of 12.00 s (25 %)",
+                "0.5000 simulated s per s, 18.0 s left,",
+                "3 samples",
+                "contact area 4.0000 mm2,",
+                "mean of the last revolution 2.0000 mm2,",
+                "disc filled 25.0 %",
+            ]
+        );
+        let lines = page(&look(), &pace, None, Style { unicode: false, width: 60, height: 24 });
+        assert!(lines.iter().any(|line| line.starts_with("2.000 |") && line.ends_with('*')), "{lines:?}");
+        assert!(lines.iter().any(|line| line.starts_with("1.000 |*")), "{lines:?}");
+    }
+}

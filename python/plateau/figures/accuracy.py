@@ -1,0 +1,134 @@
+"""The figure of ``plateau accuracy``: the error of runs against the time that they take."""
+
+import itertools
+import json
+import os
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from plateau.errors import InputError, MissingFileError
+from plateau.style import APART, LINES, NARROW, QUIET, in_style, new
+
+# By the name in the document: what the runs of a ladder differ in, their mark, and whether a line goes through them.
+LADDERS = {
+    "time_acceleration": ("time acceleration", "o", True),
+    "tolerance": ("tolerance of the time acceleration", "s", False),
+    "integrator": ("integrator", "D", False),
+    "mesh": ("coarser mesh", "^", True),
+    "perturbation": ("heights times 1 + the number", "v", False),
+}
+# What stands beside runs; the legend says what the numbers of a colour are.
+NAMES = {"integrator": "{integrator}", "mesh": "{value:g}×"}
+# Where names are put from their points, and the room around their own and other points, points of 1/72 inch; lines that lead there.
+DISTANCES, NEAR, ANGLES, ROOM, OTHERS = (5, 9, 14, 20, 27, 35, 44, 54, 65), 9, np.pi / 4 * np.array([1, 0, 7, 3, 4, 5, 2, 6]), 2.5, 7.0
+LEADER = {"arrowstyle": "-", "color": QUIET, "linewidth": 0.5, "shrinkA": 0, "shrinkB": 3}
+
+
+@in_style
+def plot_accuracy(folder_or_json: str | os.PathLike[str], ax: Any = None) -> Any:
+    """Draws the error of the contact area of runs against the time that they took.
+
+    Parameters
+    ----------
+    folder_or_json : path
+        The folder that ``plateau accuracy`` writes, or its accuracy.json.
+    ax : matplotlib.axes.Axes, optional
+        The axes to draw in; by default those of a new figure.
+
+    Returns
+    -------
+    matplotlib.axes.Axes
+    """
+    path = Path(folder_or_json)
+    path = path / "accuracy.json" if path.is_dir() else path
+    if not path.is_file():
+        raise MissingFileError(f"{path} does not exist: plateau accuracy SCENE -o FOLDER writes accuracy.json there")
+    told = json.loads(path.read_text(encoding="utf-8"))
+    if not isinstance(told, dict) or not {"reference", "runs"} <= set(told):
+        raise InputError(f"{path} has no reference and runs: expected the accuracy.json of plateau accuracy")
+    runs = [run for run in told["runs"] if (run["contact_area_error"] or 0) > 0 and (run["wall_time"] or 0) > 0]
+    # Chance far below all other errors would take most of the room.
+    least = min((run["contact_area_error"] for run in runs if run["ladder"] != "perturbation"), default=0.0)
+    runs = [run for run in runs if run["ladder"] != "perturbation" or run["contact_area_error"] >= 0.1 * least]
+    caption = "Error of the mean contact areas over equal windows of physical time, against the wall time of the run."
+    given, ax = ax, new(NARROW, 105, caption)[1][0, 0] if ax is None else ax
+    ax.set(xscale="log", yscale="log", xlabel="run time, s", ylabel="error of the contact area, %")
+
+    def points(some: list[dict[str, Any]]) -> Any:
+        return np.array([[run["wall_time"], 100 * run["contact_area_error"]] for run in some]).reshape(-1, 2)
+
+    front = points(sorted((run for run in runs if run["on_front"] == 1), key=lambda run: float(run["wall_time"])))
+    ax.plot(*front.T, color=APART, linewidth=5, solid_capstyle="round", label="no other run is quicker and more exact")
+    for number, (name, (label, mark, is_joined)) in enumerate(LADDERS.items()):
+        own = points([run for run in runs if run["ladder"] == name])
+        if len(own):
+            ax.plot(*own.T, mark, color=LINES[number], linestyle="-" if is_joined else "", label=label)
+    reference = told["reference"]
+    if reference["wall_time"]:
+        label = f"time of the reference, time acceleration {reference['time_acceleration']:g}"
+        ax.axvline(reference["wall_time"], color=QUIET, label=label)
+    if reference["contact_area_error"]:
+        ax.axhline(100 * reference["contact_area_error"], color=QUIET, linestyle="--", label="own error of the reference")
+    ax.margins(0.12)
+    _number_axes(ax)
+    if given is None:
+        ax.figure.legend(loc="outside upper left")
+    else:
+        ax.legend()
+    _name_points(ax, points(runs), [NAMES.get(run["ladder"], "{value:g}").format_map(run) for run in runs])
+    return ax
+
+
+def _number_axes(ax: Any) -> None:
+    """Numbers at 1, 2 and 5 of every decade where there are few decades."""
+    from matplotlib.ticker import LogLocator, NullFormatter, StrMethodFormatter
+
+    for axis in (ax.xaxis, ax.yaxis):
+        low, high = axis.get_view_interval()
+        axis.set_major_locator(LogLocator(subs=(1, 2, 5) if high < 1000 * low else (1,)))
+        axis.set_major_formatter(StrMethodFormatter("{x:g}"))
+        axis.set_minor_formatter(NullFormatter())
+
+
+def _name_points(ax: Any, points: Any, names: list[str]) -> None:
+    """Writes a name near each point, off all points, lines and other names, where there is room for it; a line leads to one far away."""
+    ax.figure.draw_without_rendering()
+    scale = ax.figure.dpi / 72
+    places = ax.transData.transform(points) / scale
+    taken = [[*(place - ROOM), *(place + ROOM)] for place in places]
+    for line in ax.lines:
+        ends = line.get_transform().transform(line.get_xydata()) / scale
+        taken += [box for one, other in zip(ends[:-1], ends[1:], strict=True) for box in _along(one, other)]
+    axes, written = ax.bbox.extents / scale + [1, 1, -1, -1], taken[: len(points)]
+    for number, (place, point, name) in enumerate(zip(places, points, names, strict=True)):
+        # Nearer to another point it would seem to be of that one.
+        others = [[*(one - OTHERS), *(one + OTHERS)] for one in np.delete(places, number, 0) if np.hypot(*(one - place)) > ROOM]
+        text = ax.annotate(name, point, (0, 0), textcoords="offset points", fontsize=7, ha="center", va="center", in_layout=False)
+        half = np.array(text.get_window_extent().size) / scale / 2
+        for far, angle in itertools.product(DISTANCES, ANGLES):
+            way = np.round([np.cos(angle), np.sin(angle)], 9)
+            low, high = (far * way + np.sign(way) * half + place + side * half for side in (-1, 1))
+            leader = _along(place + 5 * way, place + far * way) if far > NEAR else []
+            is_inside = (low > axes[:2]).all() and (high < axes[2:]).all()
+            if is_inside and not _meet([[*low, *high]], taken + others) and not _meet(leader, written):
+                text.set_position((low + high) / 2 - place)
+                own = [[*(low - 1), *(high + 1)], *leader]
+                written, taken = written + own, taken + own
+                if leader:
+                    ax.annotate("", point, far * way, textcoords="offset points", arrowprops=LEADER, in_layout=False)
+                break
+        else:
+            text.remove()
+
+
+def _along(one: Any, other: Any) -> list[list[float]]:
+    """Boxes along a line."""
+    parts = np.linspace(0, 1, int(np.hypot(*(other - one)) / 3) + 2)[:, None]
+    return [[*(place - 1), *(place + 1)] for place in one + (other - one) * parts]
+
+
+def _meet(some: list[list[float]], others: list[list[float]]) -> bool:
+    """Whether boxes (left, bottom, right, top) lie on others."""
+    return any(a[0] < b[2] and b[0] < a[2] and a[1] < b[3] and b[1] < a[3] for a in some for b in others)

@@ -1,0 +1,261 @@
+"""The words of studies: ``plateau sweep effects``, ``predict``, ``optimize``, ``sensitivity``, ``import``, ``plateau fit`` and ``plateau
+compare``. Each is a thin layer on a function of `plateau.study`."""
+
+import argparse
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from plateau.command_line import Words, count, json_of, of_all, options, progress, several, share, show
+from plateau.errors import RunFailed
+from plateau.output_folder import plain, put, refuse_earlier, refuse_file, relative, write
+
+if TYPE_CHECKING:
+    import pandas
+
+    from plateau.study.data import Study
+
+MODELS = ("main", "interactions", "full", "quadratic")
+# Columns of effects.csv that come first, as ever.
+EFFECTS = (
+    "response term degrees_of_freedom sum_of_squares mean_square f p share variance_inflation effect coefficient standard_error t low high"
+)
+EFFECTS += " margin_of_error simultaneous_margin_of_error aliased_with"
+
+
+def add(words: Words) -> None:
+    """Adds the words of studies to a parser."""
+    study = words.within("sweep")
+
+    def word(group: Words, name: str, about: str, answer: Callable[[argparse.Namespace], str], example: str) -> Any:
+        made = group.word(name, about, answer, example)
+        if group is study:
+            made.add_argument("study", type=Path, metavar="STUDY", help="Study file (TOML)")
+        return made
+
+    def common(
+        made: Any,
+        *,
+        output: str | None = None,
+        force: str = "Replace the files of an earlier call, and remove those that this call does not write",
+    ) -> None:
+        if output is not None:
+            made.add_argument("-o", "--output", type=Path, metavar="DIR", help=output)
+        made.add_argument("--json", action="store_true", help="Print one JSON document instead of text")
+        of_all(made, force)
+
+    def confidence(made: Any) -> None:
+        made.add_argument("--confidence", type=share, default=0.95, metavar="P", help="Confidence level of intervals [default: 0.95]")
+
+    def model(made: Any) -> None:
+        made.add_argument("--model", choices=MODELS, help="What is fitted; unless given, what the design allows")
+        made.add_argument("--terms", choices=("all", "aicc"), default="all", help="Which terms of it: all, or those that the runs support")
+        confidence(made)
+
+    def cores(made: Any) -> None:
+        made.add_argument("--jobs", type=count, metavar="N", help="Runs at a time; as many as there are cores unless given")
+        made.add_argument("--workers", type=count, default=1, metavar="N", help="Threads of each run [default: 1]")
+
+    made = word(study, "effects", "Tell what the factors do: effects, analysis of variance, figures", _effects, "  plateau sweep effects data/studies/pad-properties.toml")
+    model(made)
+    common(made, output='Folder for tables, figures and the page; "effects" in the study\'s own unless given')
+
+    made = word(study, "predict", "Tell what responses are expected to be where no run was made", _predict, "  plateau sweep predict data/studies/pad-properties.toml --at load=\"7 N\"")
+    several(made, "--at", "FACTOR=VALUE", 'Set a factor, such as load="7 N"; may be repeated')
+    made.add_argument("--grid", type=count, metavar="N", help="Predict at so many values of each range and at all levels")
+    made.add_argument("--points", type=Path, metavar="FILE", help="Predict at the points of a table in CSV, a column for each factor")
+    made.add_argument("--extrapolate", action="store_true", help="Predict beyond the runs of the study, too")
+    made.add_argument("--confirm", action="store_true", help="Make runs there, with all seeds of the study, and compare")
+    made.add_argument("-o", "--output", type=Path, metavar="FILE", help="Write the predictions as a table in CSV")
+    cores(made)
+    model(made)
+    common(made, force="Replace that file if it exists")
+
+    made = word(study, "optimize", "Find the settings at which responses are best", _optimize, "  plateau sweep optimize data/studies/pad-properties.toml --minimize \"worn off the pin\"")
+    for flag, example in (("maximize", "contact area=1 mm2..2 mm2"), ("minimize", "worn=0..1 mm3"), ("target", "filled=0.5..0.7..0.8")):
+        several(made, f"--{flag}", "RESPONSE", f'A goal, such as "{example}"; may be repeated')
+    several(made, "--limit", "RESPONSE<=VALUE", 'Keep a response below or above a value: "filled<=0.9"')
+    made.add_argument(
+        "--limit-on", choices=("mean", "means", "runs"), default="mean", help="What keeps the limits: the mean, its interval, that of a run"
+    )
+    several(made, "--hold", "FACTOR=VALUE", 'Hold a factor at a value, such as load="8 N"')
+    several(made, "--importance", "RESPONSE=NUMBER", "How much a goal counts; 1 unless given")
+    made.add_argument("--contour", metavar="FACTOR,FACTOR", help="Draw the desirability over two factors")
+    made.add_argument("--runs", type=count, metavar="N", help="Make so many runs on the way to the optimum, where improvement is expected")
+    made.add_argument("--confirm", action="store_true", help="Make runs at the optimum, with all seeds of the study, and compare")
+    cores(made)
+    model(made)
+    common(made, output='Folder for figures and table; "optimum" in the study\'s own unless given')
+
+    made = word(study, "sensitivity", "Tell which part of a response's variation each factor has", _sensitivity, "  plateau sweep sensitivity data/studies/pad-properties.toml")
+    confidence(made)
+    common(made, output='Folder for table and figures; "sensitivity" in the study\'s own unless given')
+
+    made = word(study, "import", "Take in responses that were measured or computed elsewhere", _import, "  plateau sweep import study.toml measured.csv")
+    made.add_argument(
+        "table", type=Path, metavar="TABLE", help="Table (CSV) with a column for each factor and for each response with imported = true"
+    )
+    common(made, force="Replace values that were imported before")
+
+    made = word(words, "fit", "Find the values of keys with which runs give what was measured", _fit, "  plateau fit data/studies/fit-captured-fraction.toml --plan")
+    made.add_argument("study", type=Path, metavar="STUDY", help="Study file (TOML) with measured values in its responses")
+    made.add_argument("--plan", action="store_true", help="Say what is fitted to what and what it will cost, without running any")
+    made.add_argument("--retry", action="store_true", help="Make runs again that failed before")
+    cores(made)
+    common(made, output='Folder for tables and figures; "fit" in the study\'s own unless given')
+
+    made = word(words, "compare", "Tell what differs between scenes, and how sure that is: runs of each with the same seeds", _compare, "  plateau compare data/scenes/quick.toml data/scenes/stops.toml --seeds 3")
+    made.add_argument("scenes", type=Path, nargs="+", metavar="SCENE", help="Scene files (TOML), two or more; the first is the reference")
+    made.add_argument("--seeds", type=count, default=5, metavar="N", help="Sets of seeds with which each scene is run [default: 5]")
+    several(made, "--set", "KEY=VALUE", "Change a key of all scenes; may be repeated")
+    several(made, "--response", "DATASET", "A response besides those of all runs")
+    cores(made)
+    confidence(made)
+    common(made, output='Folder for runs, tables, figures and the page; "comparison" unless given')
+
+
+# Answers ---------------------------------------------------------------------------------------------------------------------------
+
+
+def _told(given: argparse.Namespace, found: Any, folder: Path, files: list[str], title: str = "") -> str:
+    """A document, or a text with the files, under a heading where the text does not end with one."""
+    if given.json:
+        return json_of({**found.document(), "files": files})
+    figures = sum(file.endswith(".png") for file in files)
+    lines = [file for file in files if not file.endswith((".png", ".svg", ".pdf"))]
+    lines += [f"{figures} figure{'s' if figures > 1 else ''} as PNG, SVG and PDF in {folder}"] if figures else []
+    heading = [f"\n{title}"] if title else []
+    return "\n".join([found.text().rstrip("\n"), *heading, *(f"  written  {line}" for line in lines), ""])
+
+
+def csv_of(table: "pandas.DataFrame") -> bytes:
+    """A table in CSV with all digits, empty where there is no number, and nothing in it that a spreadsheet would compute."""
+    from plateau.study.text_tables import written_table
+
+    def cell(value: Any) -> str:
+        if isinstance(value, list | tuple):
+            return "; ".join(map(str, value))
+        value = plain(value)
+        return "" if value is None else str(value).lower() if isinstance(value, bool) else str(value)
+
+    return written_table(
+        [list(map(str, table.columns)), *([cell(value) for value in row] for row in table.itertuples(index=False, name=None))]
+    )
+
+
+def _opened(given: argparse.Namespace, name: str, of: str | None = None) -> tuple["Study", Path, str | None]:
+    """The study, the folder of the answer, and what its files are of; refuses a folder that is taken before any work is done."""
+    from plateau.study.results import analysed
+
+    study = analysed(given.study)
+    folder = study.directory / name if given.output is None else given.output
+    said = None if of is None else f"{of} {relative(given.study, folder)}"
+    refuse_earlier(folder, said, given.force)
+    return study, folder, said
+
+
+def _inputs(study: "Study", *others: Path | None) -> tuple[Path, ...]:
+    """Files that are never replaced: the study and what it names."""
+    from plateau.study.kept_values import file_of
+
+    here = Path(study.path or ".").parent
+    tables = [study.document, *study.document.get("response", [])]
+    named = [here / table[key] for table in tables for key in ("base", "file", "measured_file") if isinstance(table.get(key), str)]
+    return tuple(path for path in (study.path, *named, file_of(study), *others) if path is not None)
+
+
+def _effects(given: argparse.Namespace) -> str:
+    from plateau.study.analysis import effects
+    from plateau.style import saved
+    from plateau.study.page import effects_page
+
+    study, folder, _ = _opened(given, "effects")
+    found = effects(study, **options(given, "model", "terms", "confidence"))
+    figures, table = found.figures(), found.table
+    drawn = saved(figures)
+    columns = [*EFFECTS.split(), *(name for name in table if name not in EFFECTS.split() and name != "factors")]
+    files = {"effects.csv": csv_of(table.reindex(columns=columns)), "residuals.csv": csv_of(found.residuals)}
+    files |= {"effects.html": effects_page(found, figures, drawn).encode(), **drawn}
+    return _told(given, found, folder, write(folder, files, force=given.force, inputs=_inputs(study)), study.title)
+
+
+def _predict(given: argparse.Namespace) -> str:
+    from plateau.study.prediction import predict
+    from plateau.study.results import analysed
+
+    study = analysed(given.study)
+    inputs = _inputs(study, given.points)
+    if given.output is not None:
+        refuse_file(given.output, given.force, inputs)
+    asked = options(given, "at", "grid", "points", "extrapolate", "confirm", "model", "terms", "confidence", "jobs", "workers")
+    found = predict(study, **asked)
+    if given.output is not None:
+        refuse_file(given.output, given.force, inputs)
+        put(given.output, csv_of(found.wide))
+    if given.json:
+        return json_of(found.document())
+    count = len(found.places)
+    return f"{study.title}\n  predicted at {count} places, written {given.output}\n" if given.output and count > 1 else found.text()
+
+
+def _optimize(given: argparse.Namespace) -> str:
+    from plateau.style import saved
+    from plateau.study.optimum import optimize
+
+    study, folder, _ = _opened(given, "optimum")
+    asked = options(given, "maximize", "minimize", "target", "limit", "limit_on", "hold", "importance", "model", "terms", "confidence")
+    found = optimize(study, **asked, runs=given.runs or 0, **options(given, "confirm", "jobs", "workers"), progress=progress(given))
+    settings = found.settings.set_index("factor")["text"].rename(str.strip)
+    files = {"optimum.csv": csv_of(found.table.assign(**settings)), **saved(found.figures(given.contour))}
+    said = _told(given, found, folder, write(folder, files, force=given.force, inputs=_inputs(study)))
+    if found.keeps_limits:
+        return said
+    show(said)
+    raise RunFailed("no settings within the ranges keep all limits")
+
+
+def _sensitivity(given: argparse.Namespace) -> str:
+    from plateau.style import saved
+    from plateau.study.variance_parts import sensitivity
+
+    study, folder, _ = _opened(given, "sensitivity")
+    found = sensitivity(study, confidence=given.confidence)
+    files = {"sensitivity.csv": csv_of(found.table), **saved(found.figures())}
+    return _told(given, found, folder, write(folder, files, force=given.force, inputs=_inputs(study)), study.title)
+
+
+def _import(given: argparse.Namespace) -> str:
+    from plateau.study.measured import import_values
+
+    found = import_values(given.study, given.table, force=given.force)
+    return json_of(found.document()) if given.json else found.text()
+
+
+def _fit(given: argparse.Namespace) -> str:
+    from plateau.study.calibration import fit, plan
+    from plateau.style import saved
+
+    if given.plan:
+        planned = plan(given.study)
+        return json_of(planned.document()) if given.json else planned.text()
+    study, folder, of = _opened(given, "fit", "fit")
+    found = fit(study, **options(given, "jobs", "workers", "retry"), progress=progress(given))
+    files = {**{name: csv_of(table) for name, table in found.tables.items()}, **saved(found.figures())}
+    return _told(given, found, folder, write(folder, files, of=of, force=given.force, inputs=_inputs(study)))
+
+
+def _compare(given: argparse.Namespace) -> str:
+    from plateau.style import saved
+    from plateau.study.page import comparison_page
+    from plateau.study.scene_comparison import compare
+
+    folder = given.output or Path("comparison")
+    of = "compare " + ", ".join(relative(scene, folder) for scene in given.scenes)
+    refuse_earlier(folder, of, given.force)
+    asked = options(given, "set", "confidence", "jobs", "workers")
+    found = compare(given.scenes, given.seeds, responses=given.response, output=folder, **asked, progress=progress(given))
+    figures = found.figures()
+    drawn = saved(figures)
+    files = {"comparison.html": comparison_page(found, figures, drawn).encode(), "comparison.csv": csv_of(found.table)}
+    files |= {"means.csv": csv_of(found.means), "runs.csv": csv_of(found.runs), "curves.csv": csv_of(found.curves), **drawn}
+    return _told(given, found, folder, write(folder, files, of=of, force=given.force, inputs=tuple(given.scenes)))

@@ -1,0 +1,109 @@
+"""What all figures have in common: their look (``plateau.mplstyle``), colours, sizes and files."""
+
+import functools
+import io
+import re
+import textwrap
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+from typing import Any, ParamSpec, TypeVar
+
+from plateau.errors import MissingPackageError
+
+P = ParamSpec("P")
+R = TypeVar("R")
+
+# Figures by the names of their files; the label of a figure is its caption.
+Figures = dict[str, Any]
+MM = 1 / 25.4
+# Widths of one and of two columns of a journal, mm.
+NARROW, WIDE = 88.0, 180.0
+# Formats, and what is left out of their files so that equal figures give equal files.
+FORMATS: dict[str, dict[str, Any]] = {"png": {}, "svg": {"Date": None, "Creator": None}, "pdf": {"CreationDate": None, "ModDate": None}}
+# Places without a cell; cells outside the range of a map, such as cells without contact; statuses in their order.
+GROUND, APART = "#ffffff", "#e4e4e4"
+STATUS_COLOURS = [APART, "#005a9c", "#e69f00", GROUND]
+# Lines, most of them after M. Okabe and K. Ito (those of the style file); what is less important; a place that was chosen.
+LINES = [STATUS_COLOURS[1], "#e69f00", "#009e73", "#cc79a7", "#56b4e9", "#000000", "#d55e00", "#8c6d1f"]
+QUIET, CHOSEN = "#6b6b6b", "#d55e00"
+DASHES: list[Any] = ["-", "--", "-.", ":", (0, (4, 1, 1, 1, 1, 1)), (0, (1, 1)), (0, (6, 2)), (0, (3, 1, 1, 1))]
+# Letters of a label on one line.
+LETTERS = 24
+
+
+def in_style(draws: Callable[P, R]) -> Callable[P, R]:
+    """Draws in the look of the package, whatever the settings of matplotlib are."""
+
+    @functools.wraps(draws)
+    def drawn(*arguments: P.args, **options: P.kwargs) -> R:
+        try:
+            import matplotlib
+        except ImportError as error:
+            raise MissingPackageError("figures need matplotlib: pip install 'plateau-brake[all]', or pip install matplotlib") from error
+        with matplotlib.rc_context(matplotlib.rcParamsDefault | _look()):
+            return draws(*arguments, **options)
+
+    return drawn
+
+
+@functools.cache
+def _look() -> Any:
+    import matplotlib
+
+    return matplotlib.rc_params_from_file(Path(__file__).with_name("plateau.mplstyle"), use_default_template=False)
+
+
+def saved(figures: Mapping[str, Any], formats: Sequence[str] | None = None, dpi: int | None = None) -> dict[str, bytes]:
+    """Files of figures; equal figures give equal files.
+
+    Parameters
+    ----------
+    figures : mapping
+        Name and figure.
+    formats : sequence of str, optional
+        Of png, svg and pdf; all unless given.
+    dpi : int, optional
+        Pixels per inch, also of maps within svg and pdf.
+
+    Returns
+    -------
+    dict
+        Name with ending, and content.
+    """
+    import matplotlib
+
+    files = {}
+    with matplotlib.rc_context(_look()):
+        for name, figure in figures.items():
+            for form in formats or FORMATS:
+                with io.BytesIO() as file:
+                    figure.savefig(file, format=form, metadata=FORMATS[form], dpi=dpi or matplotlib.rcParams["savefig.dpi"])
+                    files[f"{name}.{form}"] = file.getvalue()
+                # The places of all that is drawn are the same in each.
+                figure.set_layout_engine("none")
+    return files
+
+
+def new(width: float, height: float, caption: str, rows: int = 1, columns: int = 1, note: str = "", **options: Any) -> tuple[Any, Any]:
+    """Makes a figure of this size, mm, and its axes, an array of two dimensions; a note stands below them."""
+    from matplotlib.figure import Figure
+
+    figure = Figure(figsize=(width * MM, height * MM), layout="constrained", label=caption)
+    if note:
+        figure.supxlabel(wrapped(note, round(0.68 * width)), fontsize=7, color=QUIET, x=0.01, ha="left")
+    return figure, figure.subplots(rows, columns, squeeze=False, **options)
+
+
+def wrapped(text: str, letters: int = LETTERS) -> str:
+    """Breaks a text into lines of so many letters."""
+    return "\n".join(textwrap.wrap(plain(text), max(letters, 1)))
+
+
+def plain(text: str) -> str:
+    """A text in which matplotlib finds no formula, which would be between two $."""
+    return re.sub(r"(?<!\\)\$", r"\\$", text)
+
+
+def labelled(name: str, unit: str) -> str:
+    """The label of an axis: what it is, and the unit behind a comma if there is one."""
+    return wrapped(", ".join(filter(None, [name, unit])), 36)

@@ -1,0 +1,276 @@
+"""Units in which people read and write quantities, and numbers with as many digits as their errors leave."""
+
+import json
+import math
+import re
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Any
+
+import numpy as np
+
+from plateau.errors import InputError
+
+# By SI unit, from the smallest on: symbol, how many of it are one SI unit, and the size, SI, below which it is taken.
+LADDERS: dict[str, list[tuple[str, float, float]]] = {
+    "m": [("nm", 1e9, 0.9e-6), ("µm", 1e6, 0.9e-3), ("mm", 1e3, 0.9), ("m", 1.0, math.inf)],
+    "m2": [("µm²", 1e12, 1e-9), ("mm²", 1e6, math.inf)],
+    "m3": [("µm³", 1e18, 1e-13), ("mm³", 1e9, math.inf)],
+    "m2 s": [("mm² s", 1e6, math.inf)],
+    "Pa": [("Pa", 1.0, 1e3), ("kPa", 1e-3, 1e5), ("MPa", 1e-6, math.inf)],
+    "s": [("ms", 1e3, 0.1), ("s", 1.0, 2e4), ("h", 1 / 3600, math.inf)],
+    "1": [("", 1.0, math.inf)],
+    "K": [("°C", 1.0, math.inf)],
+    "J": [("J", 1.0, 0.9e3), ("kJ", 1e-3, 0.9e6), ("MJ", 1e-6, math.inf)],
+    "kg": [("ng", 1e12, 0.9e-9), ("µg", 1e9, 0.9e-6), ("mg", 1e6, 0.9e-3), ("g", 1e3, math.inf)],
+    "kg s-1": [("ng/s", 1e12, 0.9e-9), ("µg/s", 1e9, 0.9e-6), ("mg/s", 1e6, math.inf)],
+    "kg m-1": [("µg/km", 1e12, 0.09e-9), ("mg/km", 1e9, math.inf)],
+    "s-1": [("s⁻¹", 1.0, math.inf)],
+    "m-1": [("km⁻¹", 1e3, math.inf)],
+}
+NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
+# 0 °C.
+ICE = 273.15
+
+
+@dataclass(frozen=True)
+class Unit:
+    """A unit: its symbol, how many of it are one SI unit, and what 0 of the SI unit is in it."""
+
+    symbol: str
+    per_si: float
+    offset: float = 0.0
+
+    @property
+    def of_differences(self) -> str:
+        """The symbol of differences: those of temperatures are in K."""
+        return "K" if self.offset else self.symbol
+
+    def value(self, value: Any) -> Any:
+        """A value, SI, in this unit."""
+        return value * self.per_si + self.offset
+
+    def text(self, value: float, error: float = math.nan, *, is_difference: bool = False) -> str:
+        """A value, SI, with its unit, and with as many digits as its error leaves: ``"2.08 ± 0.10 mm²"``."""
+        if not math.isfinite(value):
+            return "–"
+        number = value * self.per_si + (0.0 if is_difference else self.offset)
+        return f"{with_error(number, error * self.per_si)} {self.of_differences if is_difference else self.symbol}".strip()
+
+
+def unit_for(si: str, size: float) -> Unit:
+    """The unit in which a quantity of this SI unit and size is a number of few digits."""
+    symbol, per_si, _ = next((one for one in LADDERS.get(si, []) if size < one[2]), LADDERS.get(si, [(si, 1.0, math.inf)])[-1])
+    return Unit(symbol, per_si, -ICE if si == "K" else 0.0)
+
+
+def unit_of(si: str, values: Any) -> Unit:
+    """The unit for the largest of values, SI."""
+    return unit_for(si, float(np.nanmax(np.abs(np.asarray(values, float)), initial=0.0)))
+
+
+def parsed(si: str, text: str) -> float:
+    """A value that is written with or without a unit, such as ``"1.5 mm3"``, in SI units."""
+    found = re.fullmatch(rf"({NUMBER})\s*(.*)", text.strip().replace("\N{MINUS SIGN}", "-"))
+    if found is None:
+        raise InputError(f'"{text}" is not a number with a unit')
+    try:
+        return in_si(found[1], found[2] or si, si)
+    except InputError:
+        units = ["none", "%"] if si == "1" else [plain(symbol) for symbol, *_ in LADDERS.get(si, [(si,)])]
+        raise InputError(f'"{text}": expected a unit of {", ".join(units)}') from None
+
+
+def plain(unit: str) -> str:
+    """A unit as it is typed: mm², mm^2 and mm2 are the same."""
+    return unit.strip().translate(str.maketrans("²³¹⁻−µμ", "231--uu", "^"))
+
+
+def shown_unit(unit: str) -> str:
+    """A unit as it is shown, however it is typed: um, mm^2 and degC are µm, mm² and °C."""
+
+    def shown(found: re.Match[str]) -> str:
+        name, power = plain(found[1]), found[2] or ""
+        if name not in UNITS:
+            return found[0]
+        return (f"µ{name[1:]}" if name[0] == "u" else name) + power.translate(str.maketrans("-123456789", "⁻¹²³⁴⁵⁶⁷⁸⁹"))
+
+    return "°C" if unit.strip() == "degC" else re.sub(r"([A-Za-zµμ]+)\^?(-?[1-9])?", shown, unit.strip())
+
+
+def with_minus(text: str) -> str:
+    """A text with a minus before its numbers and in their powers of ten, as it is shown."""
+    return re.sub(r"(?<![\w.)-])-(?=\.?\d)|(?<=\de)-(?=\d)", "\N{MINUS SIGN}", text)
+
+
+def with_hyphen(text: str) -> str:
+    """A text with a hyphen before its numbers, as programs read them."""
+    return re.sub("\N{MINUS SIGN}(?=\\.?\\d)", "-", text)
+
+
+def with_error(number: float, error: float = math.nan) -> str:
+    """A number with its error, to two digits of the error; without an error to five digits."""
+    if not math.isfinite(error):
+        return with_minus(f"{number:.5g}")
+    places = min(max(1 - math.floor(math.log10(float(f"{error:.1e}"))), 0), 9) if error > 0 else 4
+    return with_minus(f"{number:.{places}f} ± {error:.{places}f}")
+
+
+def with_digits(value: float, width: float = math.nan) -> str:
+    """A number with as many digits as half the width of its interval leaves; four without."""
+    if not np.isfinite(value):
+        return ""
+    if not np.isfinite(width) or width <= 0:
+        return with_minus(f"{value:.4g}")
+    places, largest = 1 - int(np.floor(np.log10(width))), max(abs(value), width)
+    if not 1e-3 <= largest < 1e6:
+        return with_minus(f"{value:.{max(int(np.floor(np.log10(largest))) + places, 0)}e}")
+    return with_minus(f"{round(value, places):.{max(places, 0)}f}")
+
+
+def with_unit(name: str, unit: str) -> str:
+    """The head of a column: the name, and the unit in brackets if there is one."""
+    return name if unit in ("", "1") else f"{name} [{unit}]"
+
+
+# What people write --------------------------------------------------------------------------------------------------------------------
+
+# Powers of m, kg, s, rad and K, and how many SI units it is; these take a prefix.
+PREFIXED: dict[str, tuple[tuple[int, ...], int | Fraction]] = {
+    "m": ((1, 0, 0, 0, 0), 1),
+    "s": ((0, 0, 1, 0, 0), 1),
+    "N": ((1, 1, -2, 0, 0), 1),
+    "Pa": ((-1, 1, -2, 0, 0), 1),
+    "g": ((0, 1, 0, 0, 0), Fraction(1, 1000)),
+    "Hz": ((0, 0, -1, 0, 0), 1),
+    "J": ((2, 1, -2, 0, 0), 1),
+    "W": ((2, 1, -3, 0, 0), 1),
+    "K": ((0, 0, 0, 0, 1), 1),
+}
+TURN = Fraction(math.tau)
+ALONE: dict[str, tuple[tuple[int, ...], int | Fraction]] = {
+    "1": ((0, 0, 0, 0, 0), 1),
+    "%": ((0, 0, 0, 0, 0), Fraction(1, 100)),
+    "min": ((0, 0, 1, 0, 0), 60),
+    "h": ((0, 0, 1, 0, 0), 3600),
+    "d": ((0, 0, 1, 0, 0), 86400),
+    "bar": ((-1, 1, -2, 0, 0), 100000),
+    "rad": ((0, 0, 0, 1, 0), 1),
+    "deg": ((0, 0, 0, 1, 0), TURN / 360),
+    "rev": ((0, 0, 0, 1, 0), TURN),
+    "rpm": ((0, 0, -1, 1, 0), TURN / 60),
+    "RPM": ((0, 0, -1, 1, 0), TURN / 60),
+    "Nm": ((2, 1, -2, 0, 0), 1),
+}
+PREFIXES = {"p": -12, "n": -9, "u": -6, "m": -3, "c": -2, "k": 3, "M": 6, "G": 9, "T": 12}
+UNITS: dict[str, tuple[tuple[int, ...], int | Fraction]] = {
+    **{
+        prefix + name: (powers, one * Fraction(f"1e{tens}"))
+        for prefix, tens in PREFIXES.items()
+        for name, (powers, one) in PREFIXED.items()
+    },
+    **PREFIXED,
+    **ALONE,
+}
+TOKEN = re.compile(r"\s*(?:([()/*·⋅])|([A-Za-z]+|[1%])(-?[1-9])?)\s*")
+
+
+def scale_of(unit: str) -> tuple[tuple[int, ...], Fraction]:
+    """Powers of m, kg, s, rad and K of a unit, and how many SI units it is.
+
+    Parameters
+    ----------
+    unit : str
+        Such as ``"mm^3/(N m)"``.
+
+    Returns
+    -------
+    tuple
+    """
+    text, at, powers, factor = plain(unit), 0, [0] * 5, Fraction(1)
+    # Only products and quotients: each symbol has the sign of all groups that it is in.
+    groups, sign = [1], 1
+    while at < len(text):
+        found = TOKEN.match(text, at)
+        if found is None or found[2] and found[2] not in UNITS or found[1] == ")" and len(groups) < 2:
+            raise InputError(f'unknown unit "{unit}"')
+        at = found.end()
+        if found[1] == "(":
+            groups.append(groups[-1] * sign)
+        elif found[1] == ")":
+            groups.pop()
+        elif found[2]:
+            of, one = UNITS[found[2]]
+            power = groups[-1] * sign * int(found[3] or 1)
+            powers, factor = [own + power * each for own, each in zip(powers, of, strict=True)], factor * Fraction(one) ** power
+        sign = -1 if found[1] == "/" else 1
+    if len(groups) > 1:
+        raise InputError(f'"{unit}": a parenthesis is not closed')
+    return tuple(powers), factor
+
+
+def in_si(number: str | float, unit: str, si: str, *, is_difference: bool = False) -> float:
+    """A number with a unit in the SI unit of the same kind, correctly rounded.
+
+    Parameters
+    ----------
+    number : str or float
+        A finite number.
+    unit, si : str
+    is_difference : bool
+        Whether it is a difference, of which 5 °C are 5 K.
+
+    Returns
+    -------
+    float
+
+    Raises
+    ------
+    InputError
+        If the unit measures something else, or the number is too large.
+    """
+    # Exactly 1e-999999999 would be a number of as many digits.
+    if not math.isfinite(float(number)):
+        raise InputError(f"{number} {unit} is too large a number")
+    exact = Fraction(str(number)) if float(number) else Fraction(0)
+    try:
+        if unit in ("°C", "degC"):
+            powers, value = scale_of("K")[0], exact + (0 if is_difference else Fraction(str(ICE)))
+        else:
+            powers, one = scale_of(unit)
+            value = exact * one
+        if powers != scale_of(si)[0]:
+            raise InputError(f'"{unit}" measures something else than {"a plain number" if si == "1" else si}')
+        return float(value)
+    except OverflowError:
+        raise InputError(f"{number} {unit} is too large a number") from None
+
+
+def quantity(said: object, si: str, *, is_difference: bool = False) -> float:
+    """A number in SI units, or text with a unit, as study files have them.
+
+    Parameters
+    ----------
+    said : int, float or str
+    si : str
+    is_difference : bool
+
+    Returns
+    -------
+    float
+
+    Raises
+    ------
+    InputError
+        If it is neither.
+    """
+    expected = "expected a number, or one with %" if si == "1" else f"expected a number in {si}, or one with a unit"
+    if isinstance(said, int | float) and not isinstance(said, bool) and math.isfinite(said):
+        return float(said)
+    found = re.fullmatch(rf"({NUMBER})\s*(\D.*)", str(said).strip().replace("\N{MINUS SIGN}", "-")) if isinstance(said, str) else None
+    if found is None or not math.isfinite(float(found[1])) or si == "1" and found[2].strip() != "%":
+        raise InputError(f"{json.dumps(said, default=str, ensure_ascii=False)}, {expected}")
+    try:
+        return in_si(found[1], found[2].strip(), si, is_difference=is_difference)
+    except InputError as error:
+        raise InputError(f'"{said}": {error}, {expected}') from None

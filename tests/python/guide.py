@@ -1,0 +1,71 @@
+"""What the tests of the user guide have in common: commands and Python of its pages work as they stand."""
+
+import os
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
+PROGRAM = os.environ.get("PLATEAU_PROGRAM", str(ROOT / "plateau"))
+QUICK = str(ROOT / "data" / "scenes" / "quick.toml")
+
+
+class Guide(unittest.TestCase):
+    """A folder in which commands and Python of the guide run."""
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+    def plateau(self, *arguments):
+        done = subprocess.run([PROGRAM, *arguments], cwd=self.folder, capture_output=True, text=True, timeout=300)
+        self.assertEqual(done.returncode, 0, done.stderr)
+
+    def run_blocks(self, document):
+        """Runs the Python of a document, block by block, as with the package installed."""
+        text = (ROOT / "docs" / document).read_text()
+        blocks = re.findall(r"^```python\n(.*?)^```$", text, re.MULTILINE | re.DOTALL)
+        self.assertGreater(len(blocks), 2)
+        environment = {**os.environ, "MPLBACKEND": "agg", "PYTHONPATH": str(ROOT / "python"), "PLATEAU_PROGRAM": PROGRAM}
+        for block in blocks:
+            command = [sys.executable, "-c", block]
+            done = subprocess.run(command, cwd=self.folder, env=environment, capture_output=True, text=True, timeout=600)
+            self.assertEqual((done.returncode, done.stderr), (0, ""), block)
+
+    def walk(self, document, warns=False):
+        """Runs the shell blocks of a document, one after the other, in a folder that looks like the repository, or where the one before has
+        gone; gives what they said."""
+        text = (ROOT / "docs" / document).read_text()
+        for name, target in (("data", ROOT / "data"), ("plateau", pathlib.Path(PROGRAM).resolve())):
+            if not (self.folder / name).exists():
+                (self.folder / name).symlink_to(target)
+        environment = {**os.environ, "PATH": f"{ROOT / 'python/bin'}:{os.environ['PATH']}"}
+        place, said = self.folder, ""
+        for block in re.findall(r"^```sh\n(.*?)^```$", text, re.MULTILINE | re.DOTALL):
+            command = ["sh", "-e", "-c", f"{block}\npwd > '{self.folder / '.left'}'"]
+            done = subprocess.run(command, cwd=place, env=environment, capture_output=True, text=True, timeout=300)
+            self.assertEqual(done.returncode, 0, f"{document}:\n{block}\n{done.stderr}")
+            if not warns:
+                self.assertNotIn("warning", done.stderr, f"{document}:\n{block}")
+            said, place = said + done.stdout + done.stderr, pathlib.Path((self.folder / ".left").read_text().strip())
+        self.assertTrue(said, f"{document} has no commands, or they say nothing")
+        return said
+
+    def expect_tutorial(self, document, *names, warns=False):
+        """Its commands make these files in the folder ``own``, leave all else as it is, and say every line that it shows as what one sees; a
+        line that ends with "…" is the beginning of one."""
+        lines = self.walk(document, warns).splitlines()
+        for shown in re.findall(r"^```console\n(.*?)^```$", (ROOT / "docs" / document).read_text(), re.MULTILINE | re.DOTALL):
+            for line in shown.splitlines():
+                begin, is_beginning = line.removesuffix(" …"), line.endswith(" …")
+                self.assertTrue(any(found.startswith(begin) if is_beginning else found == line for found in lines), f"{document}: {line}")
+        for name in names:
+            self.assertTrue((self.folder / "own" / name).exists(), f"{document}: {name}")
+        # Git ignores that folder.
+        self.assertIn("/own/", (ROOT / ".gitignore").read_text().splitlines())
+        self.assertEqual(sorted(path.name for path in self.folder.iterdir()), [".left", "data", "own", "plateau"])
