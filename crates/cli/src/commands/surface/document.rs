@@ -1,10 +1,10 @@
 //! Surfaces as JSON.
 
-use plateau_core::surface::describe::{Description, PARAMETERS, Parameter, Unit};
 use serde::Serialize;
 use serde::ser::{SerializeMap as _, Serializer};
 
 use super::comparison::{Comparison, Row};
+use super::describe::{Units, parameters, scale};
 use super::subject::Subject;
 use crate::failure::Failure;
 
@@ -16,23 +16,6 @@ pub fn document(subjects: &[Subject]) -> Result<String, Failure> {
         several => serde_json::to_string_pretty(several),
     };
     text.map(|text| text + "\n").map_err(Failure::run)
-}
-
-/// What a parameter is given in, and by how much its SI value is multiplied.
-pub fn scale(parameter: &Parameter) -> (&'static str, f64) {
-    match parameter.unit {
-        Unit::Height | Unit::Length => ("um", 1e6),
-        Unit::Number => ("1", 1.0),
-        Unit::Percent => ("%", 100.0),
-        Unit::Angle => ("deg", 180.0 / std::f64::consts::PI),
-    }
-}
-
-/// The parameters of a surface by their symbols, each in its unit.
-pub fn parameters(description: &Description) -> impl Iterator<Item = (&'static str, f64)> + '_ {
-    PARAMETERS
-        .iter()
-        .filter_map(|parameter| Some((parameter.symbol, (parameter.value)(description)? * scale(parameter).1)))
 }
 
 /// A surface: what it is, its parameters by their symbols, and their units.
@@ -103,17 +86,5 @@ impl Serialize for Values<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         serializer
             .collect_map(self.rows.iter().map(|row| (row.parameter.symbol, (self.of)(row) * scale(row.parameter).1)))
-    }
-}
-
-/// The unit of every number of a [`Document`] that has one.
-pub struct Units;
-
-impl Serialize for Units {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let lengths = ["pitch", "size"].map(|name| (name, "um"));
-        let numbers = ["coverage", "Str_below"].map(|name| (name, "1"));
-        let parameters = PARAMETERS.iter().map(|parameter| (parameter.symbol, scale(parameter).0));
-        serializer.collect_map(lengths.into_iter().chain(numbers).chain(parameters))
     }
 }

@@ -11,7 +11,7 @@ use plateau_core::surface::micrograph::{FibreMap, PinPlane};
 use plateau_io::surface::npy::write_array;
 use serde_json::{Map, Value, json};
 
-use super::document::{Units, parameters};
+use super::describe::{Units, parameters};
 use crate::failure::Failure;
 
 /// Points along the longer side of the picture of the pin's base: more than a figure shows.

@@ -4,7 +4,7 @@ use plateau_core::surface::Length;
 use plateau_core::surface::describe::{PARAMETERS, Parameter};
 
 use super::comparison::{Cells, Comparison, Row};
-use super::document::scale;
+use super::describe::scale;
 use super::subject::Subject;
 use crate::number;
 
