@@ -24,8 +24,8 @@ from plateau.output_folder import plain
 # Words, and the modules that add them to a parser.
 OF_STUDIES, OF_RUNS, OF_PROGRAM = "plateau.study.words", "plateau.run_words", "plateau.figure_words"
 WORDS = {"sweep": OF_STUDIES, "fit": OF_STUDIES, "compare": OF_STUDIES, "plot": OF_RUNS, "report": OF_RUNS, "export": OF_RUNS}
-# The program asks for figures by a word of its own.
-WORDS["figure"] = OF_PROGRAM
+# By a word of its own the program asks for figures.
+WORDS |= {"figure": OF_PROGRAM}
 
 
 class Parser(argparse.ArgumentParser):

@@ -6,7 +6,7 @@ from pathlib import Path
 from plateau.command_line import Words, of_all
 from plateau.figures.accuracy import plot_accuracy
 from plateau.figures.surfaces import fibre_map, surfaces
-from plateau.output_folder import put, refuse_file
+from plateau.output_folder import all_or_none
 from plateau.style import FORMATS, saved
 
 
@@ -17,7 +17,6 @@ def add(words: Words) -> None:
     made.add_argument("kind", choices=("surfaces", "fibre-map", "accuracy"), metavar="KIND", help="surfaces, fibre-map or accuracy")
     made.add_argument("data", type=Path, metavar="DATA", help="Folder of data, or accuracy.json")
     made.add_argument("-o", "--output", type=Path, default=Path(), metavar="DIR", help="Folder of the figures [default: this one]")
-    made.add_argument("--name", metavar="NAME", help="Name of the files without ending, instead of that of the figure")
     made.add_argument("--format", action="append", choices=[*FORMATS], help="Format, may be repeated; all unless given")
     made.add_argument("--relief", action="store_true", help="Draw surfaces in perspective")
     of_all(made, "Replace files")
@@ -28,11 +27,8 @@ def _figure(given: argparse.Namespace) -> str:
         figures = {"accuracy": plot_accuracy(given.data).figure}
     else:
         figures = fibre_map(given.data) if given.kind == "fibre-map" else surfaces(given.data, "relief" if given.relief else "charts")
-    if given.name is not None:
-        figures = {given.name + name.removeprefix(given.kind): figure for name, figure in figures.items()}
-    files = {given.output / name: content for name, content in saved(figures, given.format).items()}
-    for file in files:
-        refuse_file(file, given.force, ())
-    for file, content in files.items():
-        put(file, content)
-    return "".join(f"{file}\n" for file in files)
+    files = saved(figures, given.format)
+    with all_or_none(given.output, files, given.force) as places:
+        for place, content in zip(places, files.values(), strict=True):
+            place.write_bytes(content)
+    return "".join(f"{given.output / name}\n" for name in files)

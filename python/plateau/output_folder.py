@@ -158,9 +158,7 @@ def put(path: Path, content: bytes) -> None:
             try:
                 file.write(content)
                 file.flush()
-                os.fsync(file.fileno())
-                os.chmod(file.name, 0o666 & ~_umask())
-                os.replace(file.name, path)
+                _put_in_place(Path(file.name), path)
             except BaseException:
                 os.unlink(file.name)
                 raise
@@ -195,11 +193,19 @@ def all_or_none(folder: Path, names: Iterable[str], force: bool, inputs: tuple[P
         with tempfile.TemporaryDirectory(dir=folder, prefix=".plateau-") as place:
             yield [Path(place, name) for name in names]
             for name in names:
-                os.replace(Path(place, name), folder / name)
+                _put_in_place(Path(place, name), folder / name)
     except OSError as error:
         if folder.exists() and not folder.is_dir():
             raise InputError(f"{folder} is a file, expected a folder; name another one with -o") from error
         raise RunFailed(f"cannot write into {folder}: {error.strerror or error}; name another place with -o") from error
+
+
+def _put_in_place(complete: Path, path: Path) -> None:
+    """Gives a complete file its name when it is on the disk, with the permissions of the file that it replaces, if there is one."""
+    with complete.open("rb") as file:
+        os.fsync(file.fileno())
+    complete.chmod(path.stat().st_mode & 0o777 if path.is_file() else 0o666 & ~_umask())
+    complete.replace(path)
 
 
 def _lines(*lines: str) -> bytes:

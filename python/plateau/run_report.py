@@ -1,5 +1,6 @@
 """One page about runs for the browser and for print: the answer first, then figures, then tables; docs/report.md describes it."""
 
+import functools
 import math
 import os
 import re
@@ -206,7 +207,7 @@ class Told:
         words = {"running": "running, or killed", "interrupted": "interrupted by its user", "failed": f"failed: {error}"}
         return words.get(state, state) if error or state != "failed" else state
 
-    @property
+    @functools.cached_property
     def measures(self) -> list[Measure]:
         """The numbers of the run, the same ones in the same order for every run."""
         def shown(name: str, value: float, before: str = "") -> Measure:

@@ -3,10 +3,11 @@
 import re
 
 from plateau.errors import InputError, InputTypeError
+from plateau.units import NUMBER
 
 # In s; the units that the program reads.
 UNITS = {"us": 1e-6, "µs": 1e-6, "ms": 1e-3, "s": 1.0, "min": 60.0, "h": 3600.0, "d": 86400.0}
-NUMBER_AND_UNIT = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(\S*)\s*")
+NUMBER_AND_UNIT = re.compile(rf"\s*({NUMBER})\s*(\S*)\s*")
 
 
 def seconds(time: float | str) -> float:

@@ -296,13 +296,13 @@ class Accuracy(InFolder):
 
     def test_the_program_has_files_written(self):
         pathlib.Path("of-word.json").write_text(json.dumps(self.document()))
-        call = ["figure", "accuracy", "of-word.json", "--name", "mine", "--format", "svg", "--format", "png"]
+        call = ["figure", "accuracy", "of-word.json", "--format", "svg", "--format", "png"]
         with contextlib.redirect_stdout(io.StringIO()) as said, contextlib.redirect_stderr(io.StringIO()) as failed:
             self.assertEqual([command_line.main(call), command_line.main(call), command_line.main([*call, "--force"])], [0, 2, 0])
-        self.assertEqual(said.getvalue(), "mine.svg\nmine.png\n" * 2)
-        self.assertIn("mine.svg exists; give --force", failed.getvalue())
+        self.assertEqual(said.getvalue(), "accuracy.svg\naccuracy.png\n" * 2)
+        self.assertIn("accuracy.svg exists; give --force", failed.getvalue())
         # Letters stay letters.
-        self.assertIn(">run time, s<", pathlib.Path("mine.svg").read_text())
+        self.assertIn(">run time, s<", pathlib.Path("accuracy.svg").read_text())
 
 
 if __name__ == "__main__":

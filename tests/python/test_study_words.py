@@ -22,7 +22,7 @@ sys.path.insert(0, str(ROOT / "python"))
 from plateau.errors import InputError, RunFailed, in_python  # noqa: E402
 from plateau import command_line, output_folder, style  # noqa: E402
 from plateau.command_line import main, shown  # noqa: E402
-from plateau.output_folder import HEAD, LIST, write  # noqa: E402
+from plateau.output_folder import HEAD, LIST, all_or_none, put, write  # noqa: E402
 from plateau.study import words  # noqa: E402
 
 PROGRAM = os.environ.setdefault("PLATEAU_PROGRAM", str(ROOT / "plateau"))
@@ -400,6 +400,16 @@ class Folders(unittest.TestCase):
             self.write(folder, ["a.png", "b.png", "c.png"], force=True)
         self.assertEqual(self.names(folder), ["a.png", LIST])
         self.assertEqual((folder / LIST).read_text().splitlines()[1:], ["a.png"])
+
+    def test_files_that_are_replaced_keep_their_permissions(self):
+        for name in ("put", "together"):
+            (self.folder / name).write_text("before")
+            (self.folder / name).chmod(0o640)
+        put(self.folder / "put", b"after")
+        with all_or_none(self.folder, ["together"], True) as [place]:
+            place.write_text("after")
+        for name in ("put", "together"):
+            self.assertEqual(((self.folder / name).stat().st_mode & 0o777, (self.folder / name).read_text()), (0o640, "after"), name)
 
     def test_a_link_to_nothing_is_said(self):
         (self.folder / "link").symlink_to("nowhere")

@@ -39,12 +39,11 @@ pub fn draw(kind: &str, data: &Path, formats: &[&str], options: &[&str]) -> Resu
         let reason = said.lines().last().map_or("no figure was drawn", |line| line.trim_start_matches("plateau: "));
         return Err(Failure::run(reason));
     }
-    // A line for each file.
-    let names = String::from_utf8_lossy(&done.stdout).lines().map(str::to_owned).collect::<Vec<_>>();
-    let read = |name: String| fs::read(folder.path().join(&name)).map(|content| (name, content));
-    names
-        .into_iter()
-        .map(read)
-        .collect::<Result<_, _>>()
-        .map_err(|error| Failure::run(format_args!("a figure: {error}")))
+    // A line for each file: its path.
+    let said = String::from_utf8_lossy(&done.stdout);
+    let read = |path: &str| {
+        let name = Path::new(path).file_name().unwrap_or_default().to_string_lossy().into_owned();
+        fs::read(folder.path().join(&name)).map(|content| (name, content))
+    };
+    said.lines().map(read).collect::<Result<_, _>>().map_err(|error| Failure::run(format_args!("a figure: {error}")))
 }

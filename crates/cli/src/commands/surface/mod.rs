@@ -55,7 +55,8 @@ pub fn surface(arguments: &SurfaceArguments) -> Result<(), Failure> {
             convert(path, one, to, arguments.force)?;
         }
         for heights in found {
-            subjects.push(Subject::of_heights(heights, level, figures.as_mut())?);
+            let figures = figures.as_mut().filter(|_| draws_surfaces(arguments));
+            subjects.push(Subject::of_heights(heights, level, figures)?);
         }
     }
     let mut read = Vec::new();
@@ -80,6 +81,11 @@ fn several(path: &Path, found: &[NamedHeights]) -> Failure {
 
 fn draws(arguments: &SurfaceArguments) -> bool {
     arguments.plot.is_some() || arguments.preview.is_some()
+}
+
+/// Whether heights are drawn, and not the fibre map alone.
+fn draws_surfaces(arguments: &SurfaceArguments) -> bool {
+    arguments.plot.is_some() || arguments.figure_data.is_some()
 }
 
 /// Refuses what cannot be done, before anything is read.
@@ -169,6 +175,7 @@ fn prepared(
         let micrograph = surface::micrograph(&scene).map_err(Failure::input)?;
         figures.fibre_map(mesh, &surfaces.pin_base, micrograph.as_ref().map(|(map, pixel)| (map, *pixel)))?;
     }
+    let figures = figures.filter(|_| draws_surfaces(arguments));
     let (mut disc, mut pin) = (patches.disc, patches.pin);
     let comparison = |body: Body, name: &str, figures: Option<&mut FigureData>| {
         let patch = if body == Body::Disc { disc.take() } else { pin.take() };
