@@ -16,4 +16,4 @@ if ! with_lock .venv-paraview.lock fill_venv "$venv" tests/extra/paraview-requir
 fi
 prepare_toolchain
 sh scripts/build.sh || exit 1
-PLATEAU_PROGRAM=$program "$venv/bin/python" -B tests/extra/paraview.py
+PATH=$root/python/bin:$PATH PLATEAU_PROGRAM=$program "$venv/bin/python" -B tests/extra/paraview.py

@@ -22,4 +22,4 @@ fi
 
 . scripts/paths.sh
 sh scripts/build.sh || exit 1
-PLATEAU_PROGRAM=$program python3 -B -m unittest discover -s tests/browser -p 'test_*.py'
+PATH=$root/python/bin:$PATH PLATEAU_PROGRAM=$program python3 -B -m unittest discover -s tests/browser -p 'test_*.py'
