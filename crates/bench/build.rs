@@ -18,7 +18,6 @@ fn main() {
     println!("cargo::rustc-env=BENCH_REVISION={revision}");
     println!("cargo::rustc-env=BENCH_COMPILER={}", first_line(&variable("RUSTC"), &["-V"]).unwrap_or_else(unknown));
     println!("cargo::rustc-env=BENCH_PROFILE={}", variable("PROFILE"));
-    println!("cargo::rustc-env=BENCH_OPTIMIZATION={}", variable("OPT_LEVEL"));
     println!("cargo::rustc-env=BENCH_TARGET={}", variable("TARGET"));
     println!("cargo::rustc-env=BENCH_FLAGS={}", variable("CARGO_ENCODED_RUSTFLAGS").replace('\u{1f}', " "));
     for folder in ["src", "../core/src", "../io/src", "../../Cargo.toml", "../../Cargo.lock"] {

@@ -13,7 +13,7 @@ from plateau.program import call, file_name, listen
 from plateau.run_file import open_run
 from plateau.study.data import Study
 from plateau.study.results import open_study
-from plateau.times import seconds
+from plateau.units import quantity
 
 # A path, as usual in Python.
 Path = str | os.PathLike[str]
@@ -75,7 +75,7 @@ def run(
     if output is not None:
         arguments += ["--output", file_name(output, "a run file")]
     if extend_to is not None:
-        arguments += ["--extend-to", extend_to if isinstance(extend_to, str) else f"{seconds(extend_to)!r} s"]
+        arguments += ["--extend-to", extend_to if isinstance(extend_to, str) else f"{quantity(extend_to, 's')!r} s"]
     arguments += [flag for flag, given in (("--force", force), ("--resume", resume)) if given]
     summary = call(arguments, progress)
     if summary is None:

@@ -6,7 +6,11 @@ import numpy as np
 import xarray
 
 from plateau.errors import InputError, UnknownNameError
-from plateau.times import seconds
+from plateau.figures import maps
+from plateau.figures.drawing import moment
+from plateau.quantities import MAPS, Map
+from plateau.style import STATUS_COLOURS, WIDE, in_style
+from plateau.units import quantity, unit_of
 
 ANGLES = ("disc_angle", "pin_angle")
 # Status of a cell outside the outline of a round pin.
@@ -160,11 +164,9 @@ class MapAccessor:
             raise InputError("no map has been recorded yet: open the run again when it has gone on")
         if time is None:
             return self._cells.isel(map_time=-1)
-        wanted = seconds(time)
-        if np.isnan(wanted):
-            raise InputError(f"time = {time!r}: expected a time in s, or text with a unit such as \"1 min\"")
-        return self._cells.sel(map_time=wanted, method="nearest")
+        return self._cells.sel(map_time=quantity(time, "s"), method="nearest")
 
+    @in_style
     def plot(self, time: float | str | None = None, *, polar: bool = False, ax: Any = None, **options: Any) -> Any:
         """Draws the map, unrolled or as a ring, with the colours of the program's figures; needs matplotlib.
 
@@ -196,7 +198,23 @@ class MapAccessor:
         cells = self.at_time(time)
         if set(cells.dims) != {self._angle, "radius"}:
             raise InputError(f"dimensions {cells.dims}: expected a map at one moment, with an angle and the radius")
-        # As figures need matplotlib, which is not loaded before something is drawn.
-        from plateau.figures.maps import draw_one
+        names, body = self.status_names, self._angle.removesuffix("_angle")
+        long_name, unit = str(cells.attrs.get("long_name", cells.name)), str(cells.attrs.get("units", "1"))
+        path = f"{body}/{'thickness' if 'thickness' in long_name else cells.name}"
+        other = Map(path, long_name, str(cells.name or ""), unit_of(unit, cells.values), "statuses" if names else "span")
+        shown = MAPS.get(path, other)
+        picture = maps.picture_of(maps.in_unit(cells.transpose("radius", self._angle), shown), polar)
+        # What is asked for holds.
+        scale = maps.scale_of(shown, [picture], options.pop("cmap") if isinstance(options.get("cmap"), str) else "viridis")
+        norm = scale.colours["norm"]
+        norm.vmin, norm.vmax = options.pop("vmin", norm.vmin), options.pop("vmax", norm.vmax)
+        title = shown.title + (f", {moment(float(cells['map_time']))}" if "map_time" in cells.coords else "")
+        tile = maps.Tile(picture, title, scale._replace(colours=scale.colours | options))
+        legend = [(STATUS_COLOURS[value], name) for value, name in names.items() if value != ABSENT]
+        if ax is not None:
+            maps.in_axes(ax, tile, legend)
+            return ax
+        import matplotlib.pyplot as plt
 
-        return draw_one(cells, self.status_names, polar, ax, options)
+        [figure] = maps.pages([[tile]], WIDE, title, legend, plt.figure)
+        return figure.axes[-1 if legend else -2]

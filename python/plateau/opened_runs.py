@@ -52,10 +52,15 @@ def opened(runs: Run | Sequence[Run]) -> list[xarray.DataTree]:
     return trees
 
 
-def title(run: xarray.DataTree) -> str:
-    """The title of a run's scene on one line, no longer than 200 letters."""
-    text = " ".join(str(run.attrs.get("title", "")).split())
-    return text if len(text) <= 200 else text[:199] + "…"
+def labels_of(runs: Sequence[xarray.DataTree]) -> list[str]:
+    """The title of every run's scene; where titles are equal with the name of the file behind it, where these are, too, with its path."""
+    paths = [os.path.splitext(str(run.encoding.get("source") or ""))[0] for run in runs]
+    titles = [" ".join(str(run.attrs.get("title", "")).split()) for run in runs]
+    labels = titles = [title if len(title) <= 200 else f"{title[:199]}…" for title in titles]
+    for files in (map(os.path.basename, paths), paths):
+        named = zip(labels, titles, files, strict=True)
+        labels = [label if label and labels.count(label) == 1 else f"{known} ({file})" if known else file for label, known, file in named]
+    return labels
 
 
 def counted(number: int, what: str) -> str:

@@ -32,13 +32,28 @@ def refuse_earlier(folder: Path, of: str | None, force: bool) -> None:
     force : bool
         Whether they are replaced.
     """
-    if folder.is_symlink() and not folder.exists():
-        raise InputError(f"{folder} is a link to {os.readlink(folder)}, which is not there; make that folder, or name another one with -o")
+    followed(folder)
     earlier = _list(folder)
     if earlier is None or force or (of is not None and earlier[0] == of):
         return
     words = f"another call{'' if earlier[0] is None else ', of ' + earlier[0]}" if of is not None else "an earlier call"
     raise InputError(f"{folder} has the files of {words}; give --force to replace them, or name another folder with -o")
+
+
+def followed(path: Path) -> Path:
+    """What a path names, which is replaced: where it is a link, what that points to.
+
+    Parameters
+    ----------
+    path : Path
+
+    Returns
+    -------
+    Path
+    """
+    if path.is_symlink() and not path.exists():
+        raise InputError(f"{path} is a link to {os.readlink(path)}, which is not there; make that, or name another place with -o")
+    return path.resolve() if path.is_symlink() else path
 
 
 def write(

@@ -84,7 +84,7 @@ def series_of(name: str, si: str = "1", values: Any = ()) -> Series:
 class Map:
     """A map as it is shown."""
 
-    # Its path in run files, without the group "disc" or "pin" its name; what it is, with body and sign; what its values are.
+    # Its path in run files, but that of the thickness of the debris, which is computed; what it is, with body and sign; what its values are.
     path: str
     title: str
     what: str
@@ -113,6 +113,7 @@ MAPS = {
     for one in (
         Map("disc/height", "Disc: height, positive toward the pin", "height", MICROMETRE),
         Map("disc/substrate", "Disc: height below the debris", "height", MICROMETRE),
+        Map("disc/thickness", "Disc: build-up", "thickness", MICROMETRE, "from zero"),
         Map("disc/status", "Disc: status", "status", NUMBER, "statuses"),
         Map("pin/height", "Pin: height, positive toward the disc", "height toward the disc", MICROMETRE, "span", True, -1.0),
         Map(
@@ -124,6 +125,7 @@ MAPS = {
             True,
             -1.0,
         ),
+        Map("pin/thickness", "Pin: build-up", "thickness", MICROMETRE, "from zero"),
         Map("pin/status", "Pin: status", "status", NUMBER, "statuses"),
         Map("pin/pressure", "Pin: contact pressure", "pressure", MEGAPASCAL, "from zero"),
         Map("pin/temperature", "Pin: contact temperature", "temperature", CELSIUS),

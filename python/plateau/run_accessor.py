@@ -11,11 +11,13 @@ import xarray
 
 from plateau.errors import InputError, UnknownNameError
 from plateau.figures import FIGURES, plot
-from plateau.figures.series import draw_series
+from plateau.figures.drawing import subjects_of
 from plateau.map_accessor import MapAccessor
 from plateau.means import Array, Mean, last_tenth, mean_between
+from plateau.quantities import series_of
 from plateau.run_file import array
-from plateau.times import seconds
+from plateau.style import NARROW, in_style, labelled, new
+from plateau.units import quantity
 
 # Series that are totals since the start of a run (docs/run-file.md).
 TOTALS = frozenset(
@@ -33,6 +35,7 @@ class RunPlot:
     def __init__(self, run: xarray.DataTree) -> None:
         self._run = run
 
+    @in_style
     def __call__(self, *series: str, ax: Any = None) -> Any:
         """Draws series against time.
 
@@ -47,7 +50,22 @@ class RunPlot:
         -------
         matplotlib.axes.Axes
         """
-        return draw_series(self._run, series, ax)
+        [subject] = subjects_of([self._run])
+        known = {name: array(self._run, f"series/{name}") for name in series or ("contact_area", "contact_area_mean")}
+        if len({str(values.attrs.get("units", "1")) for values in known.values()}) > 1:
+            raise InputError(f"{', '.join(known)} have different units: draw them one by one")
+        first, *others = known
+        unit = series_of(first, str(known[first].attrs.get("units", "1")), known[first].values).unit
+        ax = new(NARROW, 60, f"{first} of {subject.label}")[1][0, 0] if ax is None else ax
+        for name, values in known.items():
+            shown, label = unit.value(subject.values(name)), values.attrs.get("long_name", name)
+            look = {} if series or name != first else {"color": "0.7", "marker": ".", "markersize": 2, "linestyle": ""}
+            ax.plot(subject.time, subject.while_rubbing(shown) if name.endswith("_mean") or not series else shown, label=label, **look)
+        title = first.replace("_", " ") if len(series) < 2 else ""
+        ax.set(xlabel="time, s", ylabel=labelled(title, unit.symbol), title=subject.label)
+        if others:
+            ax.legend()
+        return ax
 
     def __getattr__(self, name: str) -> Callable[..., Any]:
         if name not in dir(self):
@@ -194,7 +212,7 @@ class RunAccessor:
     ) -> Mean:
         revolutions = self._revolutions()
         first, last = last_tenth(time, revolutions)
-        begin, stop = (seconds(default if given is None else given) for given, default in ((start, first), (end, last)))
+        begin, stop = (quantity(default if given is None else given, "s") for given, default in ((start, first), (end, last)))
         return mean_between(time, integral, revolutions, begin, stop, known_time)
 
     def _unit(self, series: str) -> str:

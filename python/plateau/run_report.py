@@ -1,4 +1,4 @@
-"""One page about runs for the browser and for print: the answer first, then figures, then tables; docs/report.md describes it."""
+"""One page about runs for the browser and for print: the answer first, then figures, then tables; docs/figures.md describes it."""
 
 import functools
 import math
@@ -6,43 +6,41 @@ import os
 import re
 import tomllib
 import warnings
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from html import escape
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+import pandas
 import xarray
 
 from plateau import figures, program
 from plateau.errors import InputError, PlateauError, PlateauWarning
-from plateau.figures.drawing import labels_of
 from plateau.html_page import listed, page, pictures, table
 from plateau.means import LEAST_REVOLUTIONS, Mean
-from plateau.opened_runs import Run, counted, inputs_of, named_like, opened, read_files
-from plateau.output_folder import put, refuse_file
-from plateau.quantities import CELSIUS, MM2, MM3, NUMBER, RPM, SERIES
+from plateau.opened_runs import Run, counted, inputs_of, labels_of, named_like, opened, read_files
+from plateau.output_folder import followed, put, refuse_file
+from plateau.quantities import CELSIUS, METRE, MM2, MM3, NEWTON, NUMBER, RPM, SERIES
 from plateau.run_file import array, source
 from plateau.style import NARROW, saved
 from plateau.units import NUMBER as QUANTITY
-from plateau.units import Unit, unit_for, unit_of
+from plateau.units import Unit, unit_for, unit_of, with_minus
 
-UNKNOWN, NOTHING = "–", Mean(math.nan, math.nan, math.nan, math.nan, math.nan)
+UNKNOWN, METRES_PER_SECOND, NOTHING = "–", Unit("m/s", 1.0), Mean(math.nan, math.nan, math.nan, math.nan, math.nan)
 # Columns of runs, or of quantities of events, that fit a printed page.
 MOST_COLUMNS, MOST_QUANTITIES = 3, 8
 # Endings of what other words make, or a browser.
 NO_PAGES = (".pdf", ".png", ".svg", ".csv")
 # The figures of the first page, of runs with friction, heat or emission, and of others.
 FIRST_FIGURES = (("friction", "temperature", "emission", "contact-area"), ("contact-area", "filled", "status", "heights"))
-# Series of which the mean is told, for they pulse with the contact area; those as they are at the end.
-MEANS = "contact_ratio mean_pressure max_pressure friction_coefficient pin_secondary pin_primary pin_none".split()
-AT_END = (
-    "filled_fraction disc_secondary "
-    "worn_whole_pin lost_pin worn_pin worn_resin worn_disc emitted deposited_pin deposited_disc pool"
-).split()
-DISSIPATION = "friction_work heat_lost emitted_mass pm10_mass pm25_mass particle_number".split()
+# Series of which the largest value is told, the last one, and the mean, for they pulse with the contact area; the first two of runs with
+# friction, heat or emission.
 LARGEST = "disc_temperature contact_temperature contact_temperature_max pin_temperature heat_residual".split()
+DISSIPATION = ("disc_temperature pin_temperature friction_work heat_lost emitted_mass pm10_mass pm25_mass particle_number").split()
+MEANS = "contact_ratio mean_pressure max_pressure friction_coefficient pin_secondary pin_primary pin_none".split()
+AT_END = ("filled_fraction disc_secondary worn_whole_pin lost_pin worn_pin worn_resin worn_disc emitted deposited_pin deposited_disc pool").split()
 # Numbers of several runs on the first page, by their names in the table of all numbers, and what they are called there.
 ANSWERS = {
     "Coefficient of friction, mean": "coefficient of friction",
@@ -52,8 +50,12 @@ ANSWERS = {
     "Disc filled": "disc filled",
     "Pin covered by secondary plateaus, mean": "secondary plateaus of the pin",
 }
-FOR_EACH_KM = {"pm10_mass": Unit("mg/km", 1e9), "pm25_mass": Unit("mg/km", 1e9), "particle_number": Unit("km⁻¹", 1e3)}
-FOR_EACH = {"pm10_mass": "PM10", "pm25_mass": "PM2.5", "particle_number": "particles"}
+# What is told for each kilometre of road, and in which unit.
+FOR_EACH_KM = {
+    "pm10_mass": ("PM10", Unit("mg/km", 1e9)),
+    "pm25_mass": ("PM2.5", Unit("mg/km", 1e9)),
+    "particle_number": ("particles", Unit("km⁻¹", 1e3)),
+}
 ORIGIN = "program source_revision host instruction_set start_time end_time seeds surfaces conventions references".split()
 
 
@@ -79,10 +81,10 @@ class Measure:
             return f"{self.text} (same)"
         said = self.unit.text(difference, error, is_difference=True)
         if not math.isfinite(error):
-            said = f"{self.unit.per_si * difference:.3g} {self.unit.of_differences}".strip().replace("-", "−")
+            said = with_minus(f"{self.unit.per_si * difference:.3g} {self.unit.of_differences}".strip())
         # Percent of percent confuse; of what is 0, or has its 0 anywhere, there are none.
         is_ratio = self.unit.symbol != "%" and not self.unit.offset and first.value
-        share = f", {100 * difference / abs(first.value):+.1f} %".replace("-", "−") if is_ratio else ""
+        share = with_minus(f", {100 * difference / abs(first.value):+.1f} %") if is_ratio else ""
         return f"{self.text} ({'+' if difference > 0 else ''}{said.replace('%', 'points')}{share})"
 
 
@@ -90,15 +92,14 @@ class Told:
     """What there is to tell of a run."""
 
     def __init__(self, run: xarray.DataTree, label: str) -> None:
-        self.run, self.label = run, label
-        self.series = {str(name): np.asarray(values.values, float) for name, values in run["series"].data_vars.items()}
-        self.time = np.asarray(array(run, "time"))
+        self.run, self.label, self.series = run, label, run.plateau.series
+        self.state = str(run.attrs.get("state", UNKNOWN))
         try:
             self.scene: dict[str, Any] = tomllib.loads(str(run.attrs.get("scene", "")))
         except ValueError:
             self.scene = {}
         self.dissipates = any(name in self.series for name in ("friction_work", "disc_temperature", "pm10_mass"))
-        self.has_cycle = "normal_force" in self.series or "rotational_speed" in self.series
+        self.has_cycle = "normal_force" in self.series
         # What only the program computes.
         self.summary, self.without = dict[str, Any](), ""
         try:
@@ -106,161 +107,176 @@ class Told:
                 self.summary = program.call(["summary", program.file_name(source(run), "a run file")], progress=False) or {}
         except PlateauError as error:
             self.without = f"Running in and time acceleration are left out, the program did not tell: {str(error).splitlines()[0]}."
-        self.window = run.plateau.mean("contact_area") if self.time.size and "contact_area" in self.series else NOTHING
+        self.window = run.plateau.mean("contact_area") if len(self.series) and "contact_area" in self.series else NOTHING
         self.area = Measure("Contact area, mean ± standard error", MM2, self.window.value, self.window.error)
+
+    def of(self, name: str) -> "pandas.Series[float]":
+        """A series, without values if there is none."""
+        return self.series.get(name, pandas.Series(dtype=float))
 
     def last(self, name: str) -> float:
         """The last value of a series, NaN if there is none."""
-        return float(self.series[name][-1]) if self.time.size and name in self.series else math.nan
+        return float(self.of(name).iloc[-1:].sum(min_count=1))
 
     def largest(self, name: str) -> float:
-        values = np.abs(self.series.get(name, np.array([])))
-        return float(np.nanmax(values)) if np.isfinite(values).any() else math.nan
+        return float(self.of(name).abs().max())
 
     def setting(self, table: str, key: str) -> str:
         found = self.scene.get(table, {})
         return str(found.get(key, UNKNOWN)) if isinstance(found, dict) else UNKNOWN
 
     @property
+    def time(self) -> float:
+        """The time of the last sample, s."""
+        return float(array(self.run, "time")[-1:].sum())
+
+    @property
     def pin_area(self) -> float:
         """The area of the pin, m²; NaN if there was no contact."""
-        areas, ratios = self.series.get("contact_area", np.array([])), self.series.get("contact_ratio", np.array([]))
-        there = np.flatnonzero(ratios[: len(areas)] > 0)
-        return float(areas[there[-1]] / ratios[there[-1]]) if there.size else math.nan
+        found = (self.of("contact_area") / self.of("contact_ratio").where(lambda ratio: ratio > 0)).dropna()
+        return float(found.iloc[-1]) if len(found) else math.nan
 
     @property
-    def five(self) -> list[str]:
-        """The numbers of the scene that matter: force, pressure, speed, time, area of the pin."""
-        force, area, radius = self.largest("normal_force"), self.pin_area, float(np.mean(array(self.run, "radius")))
-        pressure = force / area if self.has_cycle else self.last("mean_pressure") * self.last("contact_ratio")
-        pressed = self.series.get("normal_force", np.ones(1)) > 0
-        speed = float(np.max(self.series.get("rotational_speed", np.zeros(1)) * pressed)) * radius if self.has_cycle else self.last("sliding_distance") / self.time[-1:].sum()
-        most = "at most " if self.has_cycle else ""
-        return [
-            f"{most}{force:.4g} N" if self.has_cycle else self.setting("operation", "normal_force"),
-            f"{most}{_short(unit_for('Pa', pressure), pressure)}",
-            f"{most}{speed:.4g} m/s",
-            f"{unit_of('s', self.time[-1:]).text(float(self.time[-1:].sum()))}, {self.last('sliding_distance'):.4g} m",
-            _short(MM2, area),
-        ]
+    def five(self) -> dict[str, str]:
+        """The numbers of the scene that matter."""
+        area, radius, way = self.pin_area, float(array(self.run, "radius").mean()), self.last("sliding_distance")
+        if self.has_cycle:
+            most, force = "at most ", _short(NEWTON, self.largest("normal_force"), 4)
+            pressure = self.largest("normal_force") / area
+            speed = radius * float((self.of("rotational_speed") * (self.of("normal_force") > 0)).max())
+        else:
+            most, force = "", self.setting("operation", "normal_force")
+            pressure, speed = self.last("mean_pressure") * self.last("contact_ratio"), way / (self.time or math.nan)
+        return {
+            "normal force": f"{most}{force}",
+            "nominal pressure": f"{most}{_short(unit_for('Pa', pressure), pressure)}",
+            "sliding speed": f"{most}{_short(METRES_PER_SECOND, speed, 4)}",
+            "simulated time, way": f"{unit_for('s', self.time or 1.0).text(self.time)}, {_short(METRE, way, 4)}",
+            "area of the pin": _short(MM2, area),
+        }
 
-    @property
-    def answer(self) -> str:
-        said = []
-        if self.dissipates:
-            if "friction_coefficient" in self.series and self.time.size:
-                mean = self.run.plateau.mean("friction_coefficient", 0.0 if self.has_cycle else None)
-                over = "over all events" if self.has_cycle else f"of {self.over}"
-                most, values = self.setting("friction", "maximum"), self.series["friction_coefficient"]
-                there = np.isfinite(values) & (values > 0)
-                at = np.isclose(values[there], float(most)).mean() if there.any() and re.fullmatch(QUANTITY, most) else 0.0
-                bound = f"; in {100 * at:.0f} % of the samples it is the maximum of the scene, {most}" if at > 0.005 else ""
-                said.append(f"The coefficient of friction is {NUMBER.text(mean.value, mean.error)}, mean {over}{bound}")
-            for name in ("disc_temperature", "contact_temperature"):
-                if math.isfinite(value := self.largest(name)):
-                    said.append(f"The largest {SERIES[name].title} is {_short(CELSIUS, value)}")
-            road = self.last("road_distance")
-            for name, what in (("pm10_mass", "PM10"), ("pm25_mass", "PM2.5")):
-                if math.isfinite(mass := self.last(name)):
-                    each = f", {_short(FOR_EACH_KM[name], mass / road)} of road" if road > 0 else ""
-                    said.append(f"Airborne as {what} are {_short(unit_for('kg', mass), mass)} from the simulated pin{each}")
+    def answer(self) -> Iterator[str]:
+        """What came out, in sentences."""
+        if self.dissipates and "friction_coefficient" in self.series and self.time:
+            mean = self.run.plateau.mean("friction_coefficient", 0.0 if self.has_cycle else None)
+            over = "over all events" if self.has_cycle else f"of {self.over}"
+            most, values = self.setting("friction", "maximum"), self.of("friction_coefficient")
+            at = float(np.isclose(values[values > 0], float(most)).mean()) if re.fullmatch(QUANTITY, most) else 0.0
+            bound = f"; in {100 * at:.0f} % of the samples it is the maximum of the scene, {most}" if at > 0.005 else ""
+            yield f"The coefficient of friction is {NUMBER.text(mean.value, mean.error)}, mean {over}{bound}"
+        for name in ("disc_temperature", "contact_temperature"):
+            if math.isfinite(value := self.largest(name)):
+                yield f"The largest {SERIES[name].title} is {_short(CELSIUS, value)}"
+        for name in ("pm10_mass", "pm25_mass"):
+            what, unit = FOR_EACH_KM[name]
+            if math.isfinite(mass := self.last(name)):
+                each = f", {_short(unit, mass / self.last('road_distance'))} of road" if self.last("road_distance") > 0 else ""
+                yield f"Airborne as {what} are {_short(unit_for('kg', mass), mass)} from the simulated pin{each}"
         if math.isfinite(self.area.value):
             share = self.area.value / self.pin_area
             part = f", {100 * share:.3g} % of the pin" if math.isfinite(share) else ""
-            said.append(f"The contact area is {self.area.text}{part}, mean of {self.over}")
-        worn, filled = self.last("worn_whole_pin"), self.last("filled_fraction")
-        said += [f"Worn off the simulated pin are {_short(unit_for('m3', worn), worn)}"] if math.isfinite(worn) else []
-        said += [f"Debris fills {100 * filled:.3g} % of the disc's volume below its highest point"] if math.isfinite(filled) else []
-        said += [f"Running in: {self.summary['running_in']}"] if self.summary.get("running_in") else []
-        return ". ".join(said or ["There are no samples yet"]) + "."
+            yield f"The contact area is {self.area.text}{part}, mean of {self.over}"
+        if math.isfinite(worn := self.last("worn_whole_pin")):
+            yield f"Worn off the simulated pin are {_short(unit_for('m3', worn), worn)}"
+        if math.isfinite(filled := self.last("filled_fraction")):
+            yield f"Debris fills {100 * filled:.3g} % of the disc's volume below its highest point"
+        if not self.time:
+            yield "There are no samples yet"
+        if self.summary.get("running_in"):
+            yield f"Running in: {self.summary['running_in']}"
 
     @property
     def over(self) -> str:
+        """The time of the mean contact area."""
         contact = (self.summary.get("contact_area_last_tenth") or {}).get("contact_time")
         of = f", of which {contact:.4g} s in contact" if contact else ""
-        said = f"{self.window.start:.6g} to {self.window.end:.6g} s{of}"
-        return said if math.isfinite(self.window.value) else UNKNOWN
+        return f"{self.window.start:.6g} to {self.window.end:.6g} s{of}" if math.isfinite(self.window.value) else UNKNOWN
 
-    @property
-    def warnings(self) -> list[str]:
-        said, state = [], str(self.run.attrs.get("state", UNKNOWN))
-        if state != "finished":
-            said.append(f"The run is not finished: {self.state}. It has {counted(len(self.time), 'sample')}.")
-        if self.time.size:
-            if not math.isfinite(self.area.error):
-                said.append("The contact area has no standard error: too few samples or revolutions.")
-            elif self.window.revolutions < LEAST_REVOLUTIONS * (1 - 1e-9):
-                said.append("The contact area is the mean of fewer than ten simulated revolutions.")
+    def notices(self) -> Iterator[str]:
+        """What deserves attention."""
+        if self.state != "finished":
+            yield f"The run is not finished: {self.told_state}. It has {counted(len(self.series), 'sample')}."
+        if self.time and not math.isfinite(self.area.error):
+            yield "The contact area has no standard error: too few samples or revolutions."
+        elif self.window.revolutions < LEAST_REVOLUTIONS * (1 - 1e-9):
+            yield "The contact area is the mean of fewer than ten simulated revolutions."
         tolerance, residual = self.setting("contact", "load_tolerance"), self.largest("load_residual")
         if re.fullmatch(QUANTITY, tolerance) and residual > float(tolerance):
-            said.append(f"The load balance has a residual of {residual:.2g}, above the tolerance {tolerance}.")
+            yield f"The load balance has a residual of {residual:.2g}, above the tolerance {tolerance}."
         if "contact_temperature_max" in self.series:
-            said.append(
+            yield (
                 "Temperatures of cells count pressures as frozen during a pass and have no conduction along the surface: "
                 "on rough discs the hottest may be half of their rise too low."
             )
-        return said + ([self.without] if self.without else [])
+        if self.without:
+            yield self.without
 
     @property
-    def state(self) -> str:
-        state, error = str(self.run.attrs.get("state", UNKNOWN)), self.run.attrs.get("error")
-        words = {"running": "running, or killed", "interrupted": "interrupted by its user", "failed": f"failed: {error}"}
-        return words.get(state, state) if error or state != "failed" else state
+    def told_state(self) -> str:
+        """The state in words."""
+        error = f"failed: {self.run.attrs['error']}" if "error" in self.run.attrs else "failed"
+        return {"running": "running, or killed", "interrupted": "interrupted by its user", "failed": error}.get(self.state, self.state)
 
     @functools.cached_property
-    def measures(self) -> list[Measure]:
-        """The numbers of the run, the same ones in the same order for every run."""
-        def shown(name: str, value: float, before: str = "") -> Measure:
-            title = before + SERIES[name].title if name in SERIES else before + name.replace("_", " ")
-            return Measure(title[0].upper() + title[1:], SERIES[name].unit if name in SERIES else NUMBER, value)
+    def measures(self) -> dict[str, Measure]:
+        """The numbers of the run by their names, the same ones in the same order for every run."""
 
-        way = self.last("road_distance")
-        own = [shown(name, self.largest(name), "largest ") for name in LARGEST]
-        own += [shown(name, self.last(name)) for name in ("disc_temperature", "pin_temperature")]
-        for name in DISSIPATION:
-            own.append(shown(name, self.last(name)))
-            if name in FOR_EACH_KM and way > 0:
-                called = f"– for each kilometre of road: {FOR_EACH[name]}"
-                own.append(Measure(called, FOR_EACH_KM[name], self.last(name) / way))
-        total = sum(self.last(name) for name in ("worn_pin", "worn_resin", "worn_disc"))
-        found = [*(own if self.dissipates else []), self.area]
-        for name in MEANS if self.time.size else ():
+        def measure(name: str, value: float, before: str = "", after: str = "", error: float = math.nan) -> Measure:
+            title = f"{before}{SERIES[name].title}{after}"
+            return Measure(title[0].upper() + title[1:], SERIES[name].unit, value, error)
+
+        found, way = [], self.last("road_distance")
+        if self.dissipates:
+            found += [measure(name, self.largest(name), "largest ") for name in LARGEST]
+            for name in DISSIPATION:
+                found.append(measure(name, self.last(name)))
+                if name in FOR_EACH_KM and way > 0:
+                    what, unit = FOR_EACH_KM[name]
+                    found.append(Measure(f"– for each kilometre of road: {what}", unit, self.last(name) / way))
+        found.append(self.area)
+        for name in MEANS if self.time else ():
             if name in self.series:
                 mean = self.run.plateau.mean(name)
-                found.append(Measure(f"{shown(name, 0.0).name}, mean", SERIES[name].unit, mean.value, mean.error))
-        found += [shown("sliding_distance", self.last("sliding_distance")), shown("road_distance", way)]
+                found.append(measure(name, mean.value, "", ", mean", mean.error))
+        found += [measure("sliding_distance", self.last("sliding_distance")), measure("road_distance", way)]
+        total = sum(self.last(name) for name in ("worn_pin", "worn_resin", "worn_disc"))
         found += [Measure("Worn volume of the simulated pin and the disc", MM3, total)]
-        found += [shown(name, self.last(name)) for name in AT_END]
-        balances = (("load_residual", "load"), ("balance_residual", "debris"))
-        return found + [Measure(f"Largest residual of the {of} balance", NUMBER, self.largest(name)) for name, of in balances]
+        found += [measure(name, self.last(name)) for name in AT_END]
+        for name, of in (("load_residual", "load"), ("balance_residual", "debris")):
+            found.append(Measure(f"Largest residual of the {of} balance", NUMBER, self.largest(name)))
+            found.append(Measure(f"Last residual of the {of} balance", NUMBER, abs(self.last(name))))
+        return {one.name: one for one in found}
 
     @property
     def facts(self) -> dict[str, str]:
+        """What the run is."""
         sizes, wall = self.run.sizes, float(self.run.attrs.get("wall_time", math.nan))
         duration = self.setting("operation", "duration")
-        time = f"{float(self.time[-1:].sum()):.5g} s"
+        of = "" if self.state == "finished" or duration == UNKNOWN else f" of {duration}"
         path = Path(source(self.run))
         size = f" ({path.stat().st_size / 1e6:.3g} MB)" if path.is_file() else ""
-        keys = ("running_in", "running_in_time", "time_acceleration")
-        own = {key.capitalize().replace("_", " "): str(self.summary[key]) for key in keys if self.summary.get(key)}
+        keys = [key for key in ("running_in", "running_in_time", "time_acceleration") if self.summary.get(key)]
         return {
             "Run file": f"{path}{size}",
-            "State": self.state,
-            "Simulated time": time if self.run.attrs.get("state") == "finished" or duration == UNKNOWN else f"{time} of {duration}",
-            "Samples and times of maps": f"{len(self.time)} and {sizes.get('map_time', 0)}",
+            "State": self.told_state,
+            "Simulated time": f"{self.time:.5g} s{of}",
+            "Samples and times of maps": f"{len(self.series)} and {sizes.get('map_time', 0)}",
             "Mesh": f"{sizes['radius']} rows, {sizes['disc_angle']} columns of the disc, {sizes['pin_angle']} of the pin",
             "Wall time": unit_for("s", wall).text(wall),
             "Workers": f"{self.run.attrs.get('workers', UNKNOWN)}, {self.run.attrs.get('instruction_set', UNKNOWN)}",
             "Program": str(self.run.attrs.get("program", UNKNOWN)),
+            "Tolerance of the load balance": self.setting("contact", "load_tolerance"),
             "Mean contact area is taken over": self.over,
-            **own,
+            **{key.capitalize().replace("_", " "): str(self.summary[key]) for key in keys},
         }
 
 
-def _short(unit: Unit, value: float) -> str:
-    shown = float(f"{unit.value(value):.3g}") if math.isfinite(value) else math.nan
-    number = f"{shown:.0f}" if 1e3 <= abs(shown) < 1e6 else f"{shown:.3g}"
-    return f"{number} {unit.symbol}".replace("-", "−") if math.isfinite(shown) else UNKNOWN
+def _short(unit: Unit, value: float, digits: int = 3) -> str:
+    """A value, SI, with so many digits."""
+    if not math.isfinite(value):
+        return UNKNOWN
+    shown = float(f"{unit.value(value):.{digits}g}")
+    return with_minus(f"{shown:.0f} {unit.symbol}" if 1e3 <= abs(shown) < 1e6 else f"{shown:.{digits}g} {unit.symbol}")
 
 
 def report(runs: Run | Sequence[Run], output: str | os.PathLike[str] | None = None, *, force: bool = False) -> str:
@@ -285,6 +301,7 @@ def report(runs: Run | Sequence[Run], output: str | os.PathLike[str] | None = No
     if path.suffix.lower() in NO_PAGES:
         name = path.with_suffix(".html")
         raise InputError(f"-o {path}: a report is a page in HTML, expected a name such as {name}; a browser prints it as PDF")
+    path = followed(path)
     refuse_file(path, force, inputs_of(trees), "name another one with -o")
     put(path, report_page(trees).encode())
     return str(path)
@@ -298,29 +315,17 @@ def report_page(runs: Sequence[xarray.DataTree]) -> str:
     wanted = FIRST_FIGURES[0 if any(one.dissipates for one in told) else 1]
     # High ones of several panels have less room there.
     first = sorted((name for name in wanted if name in drawn), key=lambda name: drawn[name].get_figheight() * 25.4 > 90)[:2]
-    several = len(told) > 1
     # Two of one column of a journal beside each other.
     kind = "pair" if all(drawn[name].get_figwidth() * 25.4 < 1.2 * NARROW for name in first) else "stack"
-    heads = ["normal force", "nominal pressure", "sliding speed", "simulated time, way", "area of the pin"]
-    rows = [[one.label, *one.five] for one in told]
-    by_names = [{measure.name: measure.text for measure in one.measures} for one in told]
-    keys = [name for name in ANSWERS if any(own.get(name, UNKNOWN) != UNKNOWN for own in by_names)]
-    first_rows = [[one.label, *(own.get(name, UNKNOWN) for name in keys)] for one, own in zip(told, by_names, strict=True)]
     of: dict[str, list[str]] = {}
     for one in told:
-        for said in one.warnings:
+        for said in one.notices():
             of.setdefault(said, []).append(one.label)
     notices = [said if len(labels) == len(told) else f"{', '.join(labels)}: {said}" for said, labels in of.items()]
-    running = [f" Running in: {one.summary['running_in']}." if one.summary.get("running_in") else "" for one in told]
-    answers = [
-        f"{one.label}: contact area {one.area.compared(told[0].area)}.{own}" if several else one.answer
-        for one, own in zip(told, running, strict=True)
-    ]
+    several = len(told) > 1
     parts = [
         '<section class="first">',
-        table(["run", *heads], rows) if several else table(heads, [rows[0][1:]]),
-        table(["run", *(ANSWERS[name] for name in keys)], first_rows) if several else "",
-        *(f'<p class="answer">{escape(said)}</p>' for said in answers),
+        *(_compared(told) if several else _single(told[0])),
         f'<div class="{kind}">{pictures({name: drawn[name] for name in first}, files)}</div>',
         f'<div class="notice">{listed(notices)}</div>' if notices else "",
         "</section>",
@@ -329,90 +334,81 @@ def report_page(runs: Sequence[xarray.DataTree]) -> str:
         "<h2>Numbers</h2>" + _numbers(told),
         _differences(told) if several else "",
         *(_events(one, several) for one in told),
-        "<h2>Residuals</h2>" + _residuals(told),
         "<h2>Scenes and provenance</h2>",
         *map(_provenance, told),
     ]
     return page(f"{len(told)} runs, compared with {told[0].label}" if several else told[0].label, *parts)
 
 
-def _in_columns(told: Sequence[Told]) -> list[list[Told]]:
-    """Runs in groups whose columns fit a page, each with the first."""
-    others = told[1:]
-    return [[told[0], *others[start : start + MOST_COLUMNS]] for start in range(0, max(len(others), 1), MOST_COLUMNS)]
+def _single(told: Told) -> list[str]:
+    """The begin of the page about one run."""
+    return [table(list(told.five), [list(told.five.values())]), f'<p class="answer">{escape(". ".join(told.answer()))}.</p>']
+
+
+def _compared(told: Sequence[Told]) -> list[str]:
+    """The begin of the page about several runs."""
+    texts = {name: [one.measures[name].text if name in one.measures else UNKNOWN for one in told] for name in ANSWERS}
+    texts = {ANSWERS[name]: own for name, own in texts.items() if {*own} != {UNKNOWN}}
+    answers = []
+    for one in told:
+        running = f" Running in: {one.summary['running_in']}." if one.summary.get("running_in") else ""
+        answers.append(f'<p class="answer">{escape(f"{one.label}: contact area {one.area.compared(told[0].area)}.{running}")}</p>')
+    return [
+        table(["run", *told[0].five], [[one.label, *one.five.values()] for one in told]),
+        table(["run", *texts], [[one.label, *row] for one, row in zip(told, zip(*texts.values()), strict=True)]),
+        *answers,
+    ]
+
+
+def _by_run(told: Sequence[Told], rows: dict[str, list[str]], head: str, kind: str = "words") -> str:
+    """Tables with a column for each run; with as many as fit a page, each with the first run."""
+    parts = []
+    for start in range(1, max(len(told), 2), MOST_COLUMNS):
+        group = [0, *range(start, min(start + MOST_COLUMNS, len(told)))]
+        heads = [told[number].label for number in group] if len(told) > 1 else ["value"]
+        shown = {name: [texts[number] for number in group] for name, texts in rows.items()}
+        parts.append(table([head, *heads], [[name, *texts] for name, texts in shown.items() if {*texts} != {UNKNOWN}], kind))
+    return "\n".join(parts)
 
 
 def _numbers(told: Sequence[Told]) -> str:
     """Numbers, of which differences are from the first run, and facts."""
-    of = "Volumes, work, masses and particles are of the simulated pin, not of a brake."
-    numbers, facts = [], []
-    for group in _in_columns(told):
-        first, *others = [{measure.name: measure for measure in one.measures} for one in group]
-        every = dict.fromkeys(name for own in (first, *others) for name, one in own.items() if math.isfinite(one.value))
-        nothing = {name: Measure(name, NUMBER) for name in every}
-        rows = [
-            [name, (first.get(name) or nothing[name]).text]
-            + [(own.get(name) or nothing[name]).compared(first.get(name) or nothing[name]) for own in others]
-            for name in every
-        ]
-        heads = ["", *(one.label for one in group)] if len(told) > 1 else ["", "value"]
-        numbers.append(table(heads, rows, "words values"))
-        every = dict.fromkeys(name for one in group for name in one.facts)
-        facts.append(table(heads, [[name, *(one.facts.get(name, UNKNOWN) for one in group)] for name in every], "words"))
-    return "\n".join([f'<p class="quiet">Means are over the time of the mean contact area, all else is at the end of the run. {of}</p>', *numbers, *facts])
-
-
-def _keys(scene: dict[str, Any], path: str = "") -> dict[str, Any]:
-    """Keys of a scene with dots, and their values."""
-    found: dict[str, Any] = {}
-    for key, value in scene.items():
-        found |= _keys(value, f"{path}{key}.") if isinstance(value, dict) else {f"{path}{key}": value}
-    return found
+    numbers = {}
+    for name in dict.fromkeys(name for one in told for name, measure in one.measures.items() if math.isfinite(measure.value)):
+        first, *others = (one.measures.get(name, Measure(name, NUMBER)) for one in told)
+        numbers[name] = [first.text, *(other.compared(first) for other in others)]
+    facts = {name: [one.facts.get(name, UNKNOWN) for one in told] for name in dict.fromkeys(name for one in told for name in one.facts)}
+    note = "Means are over the time of the mean contact area, all else is at the end of the run. "
+    note += "Volumes, work, masses and particles are of the simulated pin, not of a brake."
+    return f'<p class="quiet">{note}</p>{_by_run(told, numbers, "", "words values")}{_by_run(told, facts, "")}'
 
 
 def _differences(told: Sequence[Told]) -> str:
-    scenes = {id(one): _keys(one.scene) for one in told}
-    keys = sorted({key for scene in scenes.values() for key in scene})
-    differ = [key for key in keys if len({repr(scene.get(key)) for scene in scenes.values()}) > 1]
-    if not differ:
-        return "<h2>Scenes</h2><p>Their scenes are the same.</p>"
-    parts = ["<h2>Keys of the scenes that differ</h2>"]
-    for group in _in_columns(told):
-        rows = [[key, *(str(scenes[id(one)].get(key, UNKNOWN)) for one in group)] for key in differ]
-        parts.append(table(["key", *(one.label for one in group)], rows, "words"))
-    return "\n".join(parts)
+    """Keys of scenes that differ."""
+    scenes = [pandas.json_normalize(one.scene).iloc[0].to_dict() for one in told]
+    rows = {key: [str(scene.get(key, UNKNOWN)) for scene in scenes] for key in sorted({key for scene in scenes for key in scene})}
+    rows = {key: texts for key, texts in rows.items() if len({*texts}) > 1}
+    return f"<h2>Keys of the scenes that differ</h2>{_by_run(told, rows, 'key')}" if rows else "<h2>Scenes</h2><p>Their scenes are the same.</p>"
 
 
 def _events(told: Told, several: bool) -> str:
-    events = told.run.plateau.events
-    if events.empty:
-        return ""
-    columns = {}
+    """Tables of events, with as many quantities as fit a page."""
+    events, columns = told.run.plateau.events, {}
     for name in events:
         si = str(told.run[f"event/{name}"].attrs.get("units", "1"))
         unit = RPM if si == "rad s-1" else unit_of(si, events[name])
         head = ", ".join(filter(None, [str(name).replace("_", " ").replace("pm10", "PM10"), unit.symbol]))
-        columns[head] = [f"{number:.4g}".replace("-", "−") if np.isfinite(number) else UNKNOWN for number in unit.value(events[name].to_numpy())]
-    heads = list(columns)
-    parts = [f"<h2>Events{': ' + escape(told.label) if several else ''}</h2>"]
-    for start in range(0, len(heads), MOST_QUANTITIES):
-        some = heads[start : start + MOST_QUANTITIES]
-        rows = [[str(row + 1), *(columns[head][row] for head in some)] for row in range(len(events))]
-        parts.append(table(["event", *some], rows))
+        columns[head] = [with_minus(f"{number:.4g}") if math.isfinite(number) else UNKNOWN for number in unit.value(events[name])]
+    parts = [f"<h2>Events{': ' + escape(told.label) if several else ''}</h2>"] if len(events) else []
+    for start in range(0, len(columns) if len(events) else 0, MOST_QUANTITIES):
+        heads = [*columns][start : start + MOST_QUANTITIES]
+        rows = zip(map(str, range(1, len(events) + 1)), *(columns[head] for head in heads), strict=True)
+        parts.append(table(["event", *heads], [*rows]))
     return "\n".join(parts)
 
 
-def _residuals(told: Sequence[Told]) -> str:
-    heads = ["run", "load: largest", "load: last", "load: tolerance", "debris: largest", "debris: last"]
-    rows = []
-    for one in told:
-        numbers = [(one.largest(name), abs(one.last(name))) for name in ("load_residual", "balance_residual")]
-        (load, last_load), (debris, last_debris) = [[f"{number:.3g}".replace("-", "−") for number in pair] for pair in numbers]
-        rows.append([one.label, load, last_load, one.setting("contact", "load_tolerance"), debris, last_debris])
-    return table(heads, rows)
-
-
 def _provenance(told: Told) -> str:
+    """The origin of a run."""
     terms = [(name.replace("_", " "), str(told.run.attrs[name])) for name in ORIGIN if name in told.run.attrs]
     files = [[one["path"], one["sha256"]] for one in read_files(told.run)]
     scene = escape(str(told.run.attrs.get("scene", "")))

@@ -13,12 +13,11 @@ from plateau.opened_runs import inputs_of, named_like, opened, warn, warn_of_tim
 from plateau.output_folder import all_or_none, refuse_file
 from plateau.run_report import report
 from plateau.style import saved
-from plateau.times import seconds
-from plateau.units import parsed
+from plateau.units import quantity
 
 COLOURS = "viridis cividis inferno magma plasma greys".split()
-# Widths that figures can have, mm: less has no room for a map and its colour bar.
-LEAST_WIDTH, MOST_WIDTH = 60.0, 1000.0
+# Widths that figures can have, m: less has no room for a map and its colour bar.
+LEAST_WIDTH, MOST_WIDTH = 0.06, 1.0
 RUNS = "Run files, also of runs that go on or were stopped; at most 8"
 
 
@@ -65,31 +64,21 @@ def _output(made: argparse.ArgumentParser, what: str, about: str) -> None:
 
 def _time(text: str) -> float:
     """A time of a run, s."""
-    if text.strip()[-1:].isdigit():
-        raise argparse.ArgumentTypeError(f'{text} has no unit, expected a time such as "100 s"')
-    try:
-        found = seconds(text)
-    except InputError as error:
-        raise argparse.ArgumentTypeError(str(error)) from None
-    if not 0 <= found < math.inf:
-        raise argparse.ArgumentTypeError(f"{text}: expected a time of at least 0 s")
-    return found
+    return _quantity(text, "s", 0.0, math.inf, 'a time of at least 0 s, such as "100 s"')
 
 
 def _width(text: str) -> float:
     """A width, mm."""
+    return 1e3 * _quantity(text, "m", LEAST_WIDTH, MOST_WIDTH, f'a width from {1e3 * LEAST_WIDTH:g} mm to {1e3 * MOST_WIDTH:g} mm, such as "88 mm"')
+
+
+def _quantity(text: str, si: str, least: float, most: float, expected: str) -> float:
     try:
-        float(text)
-    except ValueError:
-        pass
-    else:
-        raise argparse.ArgumentTypeError(f'{text} has no unit, expected a width such as "88 mm"')
-    try:
-        found = 1e3 * parsed("m", text)
-    except InputError as error:
-        raise argparse.ArgumentTypeError(str(error)) from None
-    if not LEAST_WIDTH <= found <= MOST_WIDTH:
-        raise argparse.ArgumentTypeError(f"{text} is not a width from {LEAST_WIDTH:g} mm to {MOST_WIDTH:g} mm")
+        found = quantity(text, si)
+    except InputError:
+        found = math.nan
+    if not least <= found <= most:
+        raise argparse.ArgumentTypeError(f"{text}: expected {expected}")
     return found
 
 
@@ -102,8 +91,6 @@ def _plot(given: argparse.Namespace) -> str:
     for name in given.figure or FIGURES:
         refuse_file(folder / f"{name}.{given.format}", given.force, inputs, "-o DIR names another folder")
     drawn = figures.drawn(runs, given.figure, given.at, width=given.width, cmap=given.cmap, polar=given.polar)
-    if given.figure and not drawn:
-        raise InputError(f"no run has what {' or '.join(given.figure)} shows: plateau plot RUN draws what there is")
     files = saved(drawn, [given.format])
     with all_or_none(folder, files, given.force, inputs) as places:
         for place, content in zip(places, files.values(), strict=True):

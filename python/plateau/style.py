@@ -89,14 +89,19 @@ def new(width: float, height: float, caption: str, rows: int = 1, columns: int =
     from matplotlib.figure import Figure
 
     figure = Figure(figsize=(width * MM, height * MM), layout="constrained", label=caption)
-    if note:
-        figure.supxlabel(wrapped(note, round(0.68 * width)), fontsize=7, color=QUIET, x=0.01, ha="left")
+    noted(figure, note)
     return figure, figure.subplots(rows, columns, squeeze=False, **options)
+
+
+def noted(figure: Any, note: str) -> None:
+    """Writes a note, if there is one, below the axes of a figure."""
+    if note:
+        figure.supxlabel(wrapped(note, round(0.68 * figure.get_figwidth() / MM)), fontsize=7, color=QUIET, x=0.01, ha="left")
 
 
 def wrapped(text: str, letters: int = LETTERS) -> str:
     """Breaks a text into lines of so many letters."""
-    return "\n".join(textwrap.wrap(plain(text), max(letters, 1)))
+    return "\n".join(textwrap.wrap(plain(text), max(letters, 1), break_on_hyphens=False))
 
 
 def plain(text: str) -> str:

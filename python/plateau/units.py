@@ -5,11 +5,12 @@ import math
 import re
 from dataclasses import dataclass
 from fractions import Fraction
+from numbers import Real
 from typing import Any
 
 import numpy as np
 
-from plateau.errors import InputError
+from plateau.errors import InputError, InputTypeError
 
 # By SI unit, from the smallest on: symbol, how many of it are one SI unit, and the size, SI, below which it is taken.
 LADDERS: dict[str, list[tuple[str, float, float]]] = {
@@ -66,19 +67,8 @@ def unit_for(si: str, size: float) -> Unit:
 
 def unit_of(si: str, values: Any) -> Unit:
     """The unit for the largest of values, SI."""
-    return unit_for(si, float(np.nanmax(np.abs(np.asarray(values, float)), initial=0.0)))
-
-
-def parsed(si: str, text: str) -> float:
-    """A value that is written with or without a unit, such as ``"1.5 mm3"``, in SI units."""
-    found = re.fullmatch(rf"({NUMBER})\s*(.*)", text.strip().replace("\N{MINUS SIGN}", "-"))
-    if found is None:
-        raise InputError(f'"{text}" is not a number with a unit')
-    try:
-        return in_si(found[1], found[2] or si, si)
-    except InputError:
-        units = ["none", "%"] if si == "1" else [plain(symbol) for symbol, *_ in LADDERS.get(si, [(si,)])]
-        raise InputError(f'"{text}": expected a unit of {", ".join(units)}') from None
+    sizes = np.abs(np.asarray(values, float))
+    return unit_for(si, float(np.max(sizes, initial=0.0, where=~np.isnan(sizes))))
 
 
 def plain(unit: str) -> str:
@@ -246,14 +236,18 @@ def in_si(number: str | float, unit: str, si: str, *, is_difference: bool = Fals
         raise InputError(f"{number} {unit} is too large a number") from None
 
 
-def quantity(said: object, si: str, *, is_difference: bool = False) -> float:
-    """A number in SI units, or text with a unit, as study files have them.
+def quantity(said: object, si: str, *, is_difference: bool = False, needs_unit: bool = True) -> float:
+    """A number in SI units, or text with a unit.
 
     Parameters
     ----------
     said : int, float or str
     si : str
+        The SI unit.
     is_difference : bool
+        Whether it is a difference, of which 5 °C are 5 K.
+    needs_unit : bool
+        Whether text must have a unit; otherwise text without one is in the SI unit, too.
 
     Returns
     -------
@@ -262,15 +256,28 @@ def quantity(said: object, si: str, *, is_difference: bool = False) -> float:
     Raises
     ------
     InputError
-        If it is neither.
+        If it is neither, not finite, or measures something else; `InputTypeError` of other types.
+
+    Examples
+    --------
+    >>> quantity("1.5 min", "s"), quantity(90, "s")
+    (90.0, 90.0)
+    >>> quantity("30 sec", "s")
+    Traceback (most recent call last):
+    plateau.errors.InputError: "30 sec": unknown unit "sec", expected a number in s, or text with a unit
     """
-    expected = "expected a number, or one with %" if si == "1" else f"expected a number in {si}, or one with a unit"
-    if isinstance(said, int | float) and not isinstance(said, bool) and math.isfinite(said):
-        return float(said)
-    found = re.fullmatch(rf"({NUMBER})\s*(\D.*)", str(said).strip().replace("\N{MINUS SIGN}", "-")) if isinstance(said, str) else None
-    if found is None or not math.isfinite(float(found[1])) or si == "1" and found[2].strip() != "%":
-        raise InputError(f"{json.dumps(said, default=str, ensure_ascii=False)}, {expected}")
+    expected = "expected a number, or text with %" if si == "1" else f"expected a number in {si}, or text with a unit"
+    is_number = isinstance(said, Real) and not isinstance(said, bool)
+    if is_number and math.isfinite(said):  # type: ignore[arg-type]
+        return float(said)  # type: ignore[arg-type]
+    shown = json.dumps(said, default=str, ensure_ascii=False)
+    if not is_number and not isinstance(said, str):
+        raise InputTypeError(f"{shown}, {expected}")
+    found = re.fullmatch(rf"({NUMBER})\s*(\D.*)?", str(said).strip().replace("\N{MINUS SIGN}", "-"))
+    unit = (found and found[2] or "").strip() or ("" if needs_unit else si)
+    if found is None or not unit or not math.isfinite(float(found[1])) or si == "1" and unit not in ("%", "1" if not needs_unit else "%"):
+        raise InputError(f"{shown}, {expected}")
     try:
-        return in_si(found[1], found[2].strip(), si, is_difference=is_difference)
+        return in_si(found[1], unit, si, is_difference=is_difference)
     except InputError as error:
-        raise InputError(f'"{said}": {error}, {expected}') from None
+        raise InputError(f"{shown}: {error}, {expected}") from None

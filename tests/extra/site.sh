@@ -21,4 +21,4 @@ for file in katex.min.css katex.min.js; do
     digest=$(openssl dgst -sha384 -binary "$lab/package/dist/$file" | base64 -w 0)
     grep -q "dist/$file\" integrity=\"sha384-$digest\"" site/theme/head.hbs || { echo "the digest of $file is another one" && exit 1; }
 done
-node tests/extra/formulas.js "$lab/package/dist/katex.js" "$lab"/site/*.html
+node tests/extra/formulas.js "$lab/package/dist/katex.js" "$lab"/site/*.html "$lab"/site/evidence/*.html

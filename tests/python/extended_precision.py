@@ -2,6 +2,7 @@
 
 Written without sight of the program, in NumPy's `longdouble`: 64 bits of mantissa on x86, where one rounding is 5e-20 of the
 value, 2000 times less than in the program's float64. Functions stand in the order of a step: contact, wear, debris, advance.
+Operation is constant, under a load or a braking torque; cycles and temperature are left out.
 Arrays have the shape (columns, rows) of the files; units are SI. docs/model.md says in words what is computed.
 """
 
@@ -24,6 +25,22 @@ class Material:
     poisson_ratio: Real
     specific_wear_rate: Real = Real(0)
     wear_height: Real = Real(0)
+    # Of the pin: the rate where the disc is secondary, and the pressure that breaks a build-up on resin away.
+    wear_rate_against_secondary: Real | None = None
+    strength: Real = Real("inf")
+
+    def __post_init__(self):
+        if self.wear_rate_against_secondary is None:
+            self.wear_rate_against_secondary = self.specific_wear_rate
+
+
+@dataclass
+class Friction:
+    """Shear stress of a thin film for each status of the pin, in the order of the statuses, and a ceiling of the coefficient."""
+
+    pressure_coefficient: np.ndarray
+    shear_strength: np.ndarray
+    maximum: Real = Real("inf")
 
 
 @dataclass
@@ -35,7 +52,8 @@ class Parameters:
     rows: int
     disc_columns: int
     pin_columns: int
-    normal_force: Real
+    # None where the braking torque is given.
+    normal_force: Real | None
     angular_speed: Real
     steps: int
     foundation_height: Real
@@ -48,6 +66,9 @@ class Parameters:
     destruction: bool = True
     time_acceleration: int = 1
     integrator: str = "explicit"
+    transport_length: Real | None = None
+    braking_torque: Real | None = None
+    friction: Friction | None = None
 
     def __post_init__(self):
         self.angle = 2 * PI / self.disc_columns
@@ -56,6 +77,7 @@ class Parameters:
         self.area = self.radius * self.width * self.angle
         self.pin_area = self.pin_columns * self.area.sum()
         self.step_time = self.angle / self.angular_speed
+        self.mean_radius = (self.inner_radius + self.outer_radius) / 2
         # Sliding distance of a step in each row.
         self.sliding = self.time_acceleration * self.radius * self.angle
 
@@ -76,6 +98,9 @@ class State:
     # Since the start.
     volumes: dict[str, Real] = field(default_factory=lambda: dict.fromkeys(VOLUMES, Real(0)))
     contact_areas: list[Real] = field(default_factory=list)
+    # Load and coefficient of friction of each step.
+    loads: list[Real] = field(default_factory=list)
+    coefficients: list[Real] = field(default_factory=list)
     # Of the last step.
     displacement: Real = Real(0)
     pressure: np.ndarray | None = None
@@ -178,9 +203,13 @@ def remove(height, substrate, secondary, raw, raw_of_substrate, direction):
 def wear(state, pair, overlap, parameters):
     """Wears both surfaces; the heights that the cells of pin and disc lost."""
     pin, disc = parameters.pin, parameters.disc
-    pin_rate = by_status(pin, "specific_wear_rate", pair.pin_status)
+    def rate_of_pin(status):
+        alone, on_build_up = (by_status(pin, name, status) for name in ("specific_wear_rate", "wear_rate_against_secondary"))
+        return np.where(pair.disc_status == SECONDARY, on_build_up, alone)
+
+    pin_rate = rate_of_pin(pair.pin_status)
     disc_rate = by_status(disc, "specific_wear_rate", pair.disc_status)
-    pin_base_rate = np.where(state.base == PRIMARY, pin[PRIMARY].specific_wear_rate, Real(0))
+    pin_base_rate = np.where(state.base == PRIMARY, rate_of_pin(np.full_like(state.base, PRIMARY)), Real(0))
     pin_raw, disc_raw = raw_losses(pin_rate, disc_rate, overlap, pair.stiffness, parameters)
     pin_base, _ = raw_losses(pin_base_rate, disc_rate, overlap, pair.stiffness, parameters)
     _, disc_base = raw_losses(pin_rate, disc[PRIMARY].specific_wear_rate, overlap, pair.stiffness, parameters)
@@ -201,6 +230,15 @@ def wear(state, pair, overlap, parameters):
     return pin_lost, disc_lost
 
 
+def break_away(state, pair, parameters):
+    """Takes build-ups on resin that are pressed harder than their strength; the height that each cell loses."""
+    over = (pair.pin_status == SECONDARY) & (state.base == NONE) & (state.pressure > parameters.pin[SECONDARY].strength)
+    broken = np.where(over, state.pin_substrate - state.pin_height, 0)
+    state.pin_height = np.where(over, state.pin_substrate, state.pin_height)
+    state.volumes["returned"] += (parameters.area * broken).sum()
+    return broken
+
+
 def deposit(state, pair, on_pin, on_disc, parameters):
     """Adds debris of these heights; substrates stay."""
     state.pin_height = state.pin_height - on_pin
@@ -215,20 +253,42 @@ def clearance(state, pair, contact):
     return np.where(contact, 0, np.maximum(open_height, 0))
 
 
-def local_debris(state, pair, contact, lost, parameters):
-    """The wear of the pair ahead fills the gap behind it, on the pin and on the disc."""
+def gathered_and_spread(lost, pair, contact, parameters):
+    """Height of debris offered to each open cell where it is gathered and spread over the transport length.
+
+    Plateaus that touch in an unbroken row give to the open cell behind them, and that hands the mean to the open cells behind it.
+    """
+    cells = max(1, int(np.rint(parameters.transport_length / (parameters.mean_radius * parameters.angle))))
+    compacts = np.where(contact & (pair.pin_status != NONE), lost, 0)
+    unbroken, touching, gathered = ~contact, contact, np.zeros_like(lost)
+    for _ in range(cells):
+        touching, compacts = neighbour(touching, False), neighbour(compacts, 0)
+        unbroken = unbroken & touching
+        gathered = gathered + np.where(unbroken, compacts, 0)
+    handed, offered = parameters.captured_fraction * gathered / cells, np.zeros_like(lost)
+    for _ in range(cells):
+        offered = offered + handed
+        handed = np.where(contact, 0, neighbour(handed, 0))
+    return offered
+
+
+def local_debris(state, pair, contact, lost, broken, parameters):
+    """The wear ahead fills the gap behind it, on the pin and on the disc."""
     if parameters.formation:
-        wear_ahead = neighbour(parameters.captured_fraction * lost, 0)
+        if parameters.transport_length is None:
+            offered = neighbour(parameters.captured_fraction * lost, 0)
+        else:
+            offered = gathered_and_spread(lost, pair, contact, parameters)
         recess = state.pin_height - neighbour(state.pin_height, 0)
         room_pin = np.where(neighbour(pair.pin_status, NONE) != NONE, np.maximum(recess, 0), 0)
         room_disc = np.maximum(state.reference - state.disc_height[pair.columns], 0)
-        filled = np.minimum(np.minimum(clearance(state, pair, contact), room_pin + room_disc), wear_ahead)
+        filled = np.minimum(np.minimum(clearance(state, pair, contact), room_pin + room_disc), offered)
         on_pin = np.minimum(filled, room_pin)
         on_disc = filled - on_pin
     else:
         on_pin = on_disc = filled = np.zeros_like(lost)
     deposit(state, pair, on_pin, on_disc, parameters)
-    state.volumes["emitted"] += (parameters.area * (lost - filled)).sum()
+    state.volumes["emitted"] += (parameters.area * (lost + broken - filled)).sum()
 
 
 def of_pools(values, parameters):
@@ -248,9 +308,9 @@ def destruction(state, pair, parameters):
     return of_pools(back, parameters)
 
 
-def pooled_debris(state, pair, contact, lost, parameters):
+def pooled_debris(state, pair, contact, lost, broken, parameters):
     """Debris that is in the contact settles in equal height wherever it is open."""
-    returned = destruction(state, pair, parameters)
+    returned = of_pools(parameters.area * broken, parameters) + destruction(state, pair, parameters)
     open_area = of_pools(np.where(contact, 0, parameters.area), parameters)
     has_room = open_area > 0
     layer = np.where(has_room & parameters.formation, state.pool / np.where(has_room, open_area, 1), 0)
@@ -269,18 +329,55 @@ def pooled_debris(state, pair, contact, lost, parameters):
     state.volumes["emitted"] += (1 - parameters.captured_fraction) * worn.sum()
 
 
+def load(state, parameters):
+    """The load of a step: the one given, or what the torque needs at the coefficient of friction of the step before."""
+    if parameters.braking_torque is None:
+        return parameters.normal_force
+    coefficient = state.coefficients[-1] if state.coefficients else parameters.friction.maximum
+    if coefficient < Real("0.01"):
+        raise ValueError(f"the coefficient of friction before step {state.step + 1} is {coefficient:.3g}, less than 0.01")
+    return parameters.braking_torque / (parameters.mean_radius * coefficient)
+
+
+def coefficient_of_friction(state, pair, contact, force, parameters):
+    """Shear force of what touches over the load, with the law of each status of the pin and a ceiling for all."""
+    law = parameters.friction
+    stress = law.shear_strength[pair.pin_status] + law.pressure_coefficient[pair.pin_status] * state.pressure
+    return min((parameters.area * np.where(contact, stress, 0)).sum() / force, law.maximum)
+
+
 def advance(state, parameters):
     """One step: all cells at once, from the state at its start."""
     pair = pairs(state, parameters)
-    state.displacement = displacement(pair.gap, pair.stiffness * parameters.area, parameters.normal_force)
+    force = load(state, parameters)
+    state.displacement = displacement(pair.gap, pair.stiffness * parameters.area, force)
     overlap = np.maximum(state.displacement - pair.gap, 0)
     contact = overlap > 0
     state.pressure = pair.stiffness * overlap
     state.contact_areas.append((parameters.area * contact).sum())
+    if parameters.friction:
+        state.loads.append(force)
+        state.coefficients.append(coefficient_of_friction(state, pair, contact, force, parameters))
     pin_lost, disc_lost = wear(state, pair, overlap, parameters)
+    broken = break_away(state, pair, parameters)
     debris = local_debris if parameters.debris == "local" else pooled_debris
-    debris(state, pair, contact, pin_lost + disc_lost, parameters)
+    debris(state, pair, contact, pin_lost + disc_lost, broken, parameters)
     state.step += 1
+
+
+def friction_sample(state, parameters):
+    """What is reported of friction, and of the operation that follows from it."""
+    loads, coefficients = np.array(state.loads), np.array(state.coefficients)
+    last = slice(-parameters.disc_columns, None)
+    distance = parameters.time_acceleration * parameters.angle * parameters.mean_radius
+    reported = {
+        "friction_coefficient": coefficients[-1],
+        "friction_coefficient_mean": (coefficients[last] * loads[last]).sum() / loads[last].sum(),
+        "friction_work": (coefficients * loads).sum() * distance,
+    }
+    if parameters.braking_torque is not None:
+        reported |= {"normal_force": loads[-1], "rotational_speed": parameters.angular_speed}
+    return reported
 
 
 def sample(state, parameters):
@@ -297,7 +394,7 @@ def sample(state, parameters):
         "contact_area": contact_area,
         "contact_area_mean": np.mean(state.contact_areas[-p.disc_columns :]),
         "contact_area_integral": np.sum(state.contact_areas) * step_time,
-        "sliding_distance": state.step * p.time_acceleration * p.angle * (p.inner_radius + p.outer_radius) / 2,
+        "sliding_distance": state.step * p.time_acceleration * p.angle * p.mean_radius,
         "contact_ratio": contact_area / p.pin_area,
         "mean_pressure": (p.area * state.pressure).sum() / contact_area,
         "max_pressure": state.pressure.max(),
@@ -308,6 +405,7 @@ def sample(state, parameters):
         "pin_none": (p.area * (pin == NONE)).sum() / p.pin_area,
         "disc_secondary": (p.area * (disc == SECONDARY)).sum() / (p.disc_columns * p.area.sum()),
         "filled_fraction": 1 - open_volume / state.open_at_first if state.open_at_first > 0 else Real(0),
+        **(friction_sample(state, p) if p.friction else {}),
     }
 
 

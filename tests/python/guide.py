@@ -15,38 +15,47 @@ QUICK = str(ROOT / "data" / "scenes" / "quick.toml")
 
 
 class Guide(unittest.TestCase):
-    """A folder in which commands and Python of the guide run."""
+    """A folder that looks like a clone, and in it the folder ``own``, in which commands and Python of the guide run."""
 
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
         self.folder = pathlib.Path(folder.name)
+        (self.folder / "data").symlink_to(ROOT / "data")
+        (self.folder / "plateau").symlink_to(pathlib.Path(PROGRAM).resolve())
+        self.own = self.folder / "own"
+
+    def make_own(self):
+        """The folder that the first run makes."""
+        self.own.mkdir(exist_ok=True)
+        for name in ("data", "plateau"):
+            (self.own / name).symlink_to(f"../{name}")
 
     def plateau(self, *arguments):
-        done = subprocess.run([PROGRAM, *arguments], cwd=self.folder, capture_output=True, text=True, timeout=300)
+        done = subprocess.run([PROGRAM, *arguments], cwd=self.own, capture_output=True, text=True, timeout=300)
         self.assertEqual(done.returncode, 0, done.stderr)
 
     def run_blocks(self, document):
-        """Runs the Python of a document, block by block, as with the package installed."""
+        """Runs the Python of a document as a notebook does, all of it one after the other, with the package installed."""
         text = (ROOT / "docs" / document).read_text()
         blocks = re.findall(r"^```python\n(.*?)^```$", text, re.MULTILINE | re.DOTALL)
-        self.assertGreater(len(blocks), 2)
+        self.assertTrue(blocks, document)
         environment = {**os.environ, "MPLBACKEND": "agg", "PYTHONPATH": str(ROOT / "python"), "PLATEAU_PROGRAM": PROGRAM}
-        for block in blocks:
-            command = [sys.executable, "-c", block]
-            done = subprocess.run(command, cwd=self.folder, env=environment, capture_output=True, text=True, timeout=600)
-            self.assertEqual((done.returncode, done.stderr), (0, ""), block)
+        command = [sys.executable, "-c", "\n".join(blocks)]
+        done = subprocess.run(command, cwd=self.own, env=environment, capture_output=True, text=True, timeout=600)
+        self.assertEqual((done.returncode, done.stderr), (0, ""), document)
 
     def walk(self, document, warns=False):
-        """Runs the shell blocks of a document, one after the other, in a folder that looks like the repository, or where the one before has
-        gone; gives what they said."""
+        """Runs the shell blocks of a document, one after the other, in the folder ``own``, or in that of a clone if they make it; gives what
+        they said."""
         text = (ROOT / "docs" / document).read_text()
-        for name, target in (("data", ROOT / "data"), ("plateau", pathlib.Path(PROGRAM).resolve())):
-            if not (self.folder / name).exists():
-                (self.folder / name).symlink_to(target)
+        blocks = re.findall(r"^```sh\n(.*?)^```$", text, re.MULTILINE | re.DOTALL)
+        makes_own = any("mkdir -p own" in block for block in blocks)
+        if not makes_own:
+            self.make_own()
         environment = {**os.environ, "PATH": f"{ROOT / 'python/bin'}:{os.environ['PATH']}"}
-        place, said = self.folder, ""
-        for block in re.findall(r"^```sh\n(.*?)^```$", text, re.MULTILINE | re.DOTALL):
+        place, said = self.folder if makes_own else self.own, ""
+        for block in blocks:
             command = ["sh", "-e", "-c", f"{block}\npwd > '{self.folder / '.left'}'"]
             done = subprocess.run(command, cwd=place, env=environment, capture_output=True, text=True, timeout=300)
             self.assertEqual(done.returncode, 0, f"{document}:\n{block}\n{done.stderr}")
@@ -56,7 +65,7 @@ class Guide(unittest.TestCase):
         self.assertTrue(said, f"{document} has no commands, or they say nothing")
         return said
 
-    def expect_tutorial(self, document, *names, warns=False):
+    def expect_page(self, document, *names, warns=False):
         """Its commands make these files in the folder ``own``, leave all else as it is, and say every line that it shows as what one sees; a
         line that ends with "…" is the beginning of one."""
         lines = self.walk(document, warns).splitlines()
@@ -65,7 +74,7 @@ class Guide(unittest.TestCase):
                 begin, is_beginning = line.removesuffix(" …"), line.endswith(" …")
                 self.assertTrue(any(found.startswith(begin) if is_beginning else found == line for found in lines), f"{document}: {line}")
         for name in names:
-            self.assertTrue((self.folder / "own" / name).exists(), f"{document}: {name}")
+            self.assertTrue((self.own / name).exists(), f"{document}: {name}")
         # Git ignores that folder.
         self.assertIn("/own/", (ROOT / ".gitignore").read_text().splitlines())
         self.assertEqual(sorted(path.name for path in self.folder.iterdir()), [".left", "data", "own", "plateau"])

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import h5py
 import numpy as np
-from extended_precision import NONE, PI, PRIMARY, SECONDARY, Material, Parameters, Real, start
+from extended_precision import NONE, PI, PRIMARY, SECONDARY, Friction, Material, Parameters, Real, start
 
 # Every property of every body and status differs from every other.
 DIFFERENT = {
@@ -58,8 +58,13 @@ def write(
     fibres=0.4,
     resin_recess=1e-6,
     smooth=3,
+    friction=None,
+    torque=False,
 ):
-    """Writes a random scene and its heights into a folder; the path of the scene."""
+    """Writes a random scene and its heights into a folder; the path of the scene.
+
+    With `torque` the load comes from the torque that it has at a coefficient of friction of 0.4.
+    """
     random = np.random.default_rng(seed)
     rows, disc_columns, pin_columns = mesh
     disc = heights(random, disc_columns, rows, disc_roughness, smooth)
@@ -72,6 +77,7 @@ def write(
         file["/disc/height"], file["/pin/height"], file["/pin/base"] = disc, pin, base
     inner, outer = 0.02, 0.02 + 5e-5 * rows
     area = np.pi * (outer**2 - inner**2) * pin_columns / disc_columns
+    force = float(nominal_pressure * area)
     scene = {
         "version": 1,
         "title": f"seed {seed}",
@@ -83,7 +89,7 @@ def write(
             "pin_columns": pin_columns,
         },
         "operation": {
-            "normal_force": f"{float(nominal_pressure * area)!r} N",
+            **({"braking_torque": f"{0.4 * force * (inner + outer) / 2!r} N m"} if torque else {"normal_force": f"{force!r} N"}),
             "rotational_speed": "850 rpm",
             "steps": steps,
         },
@@ -98,6 +104,8 @@ def write(
         "numerics": {"time_acceleration": time_acceleration, "integrator": integrator},
         "output": {"file": "run.h5", "sample_every_steps": sample_every_steps},
     }
+    if friction:
+        scene["friction"] = friction
     path = Path(folder) / "scene.toml"
     path.write_text("\n".join(lines(scene)) + "\n")
     return path
@@ -106,17 +114,31 @@ def write(
 def quantity(text):
     """A quantity in SI units, or a speed in rpm; the number is the float64 that its text stands for."""
     value, unit = text.split(" ", 1)
-    if unit not in ("m", "N", "Pa", "1/Pa", "rpm"):
+    if unit not in ("m", "N", "N m", "Pa", "1/Pa", "rpm"):
         raise ValueError(f"{text}: the unit is not one that is read here")
     return Real(float(value)) * (2 * PI / 60 if unit == "rpm" else 1)
+
+
+def optional(table, key):
+    return quantity(table[key]) if key in table else None
 
 
 def material(table):
     return Material(**{key: quantity(value) if isinstance(value, str) else Real(value) for key, value in table.items()})
 
 
+def friction_law(table):
+    """The laws of resin, primary and secondary plateaus; resin and secondary are as primary where they give no key."""
+    laws = [table | table.get(name, {}) for name in ("resin", "primary", "secondary")]
+    return Friction(
+        np.array([Real(law["pressure_coefficient"]) for law in laws]),
+        np.array([quantity(law["shear_strength"]) for law in laws]),
+        Real(table.get("maximum", "inf")),
+    )
+
+
 def read(path):
-    """Parameters and initial state of a scene without optional parts, in extended precision."""
+    """Parameters and initial state of a scene of constant operation, in extended precision; of optional parts friction alone."""
     scene = tomllib.loads(Path(path).read_text())
     mesh, operation, plateaus = scene["mesh"], scene["operation"], scene["plateaus"]
     materials = {name: material(table) for name, table in scene["materials"].items()}
@@ -126,7 +148,7 @@ def read(path):
         rows=mesh["rows"],
         disc_columns=mesh["disc_columns"],
         pin_columns=mesh["pin_columns"],
-        normal_force=quantity(operation["normal_force"]),
+        normal_force=optional(operation, "normal_force"),
         angular_speed=quantity(operation["rotational_speed"]),
         steps=operation["steps"],
         foundation_height=quantity(scene["contact"]["foundation_height"]),
@@ -139,6 +161,9 @@ def read(path):
         destruction=plateaus.get("destruction", True),
         time_acceleration=scene["numerics"]["time_acceleration"],
         integrator=scene["numerics"]["integrator"],
+        transport_length=optional(plateaus, "transport_length"),
+        braking_torque=optional(operation, "braking_torque"),
+        friction=friction_law(scene["friction"]) if "friction" in scene else None,
     )
 
     def dataset(source):

@@ -1,4 +1,4 @@
-"""The contact temperature map: what the program writes, and what its two simplifications cost (docs/friction-heat.md)."""
+"""The contact temperature map: what the program writes, and what its two simplifications cost (docs/drive.md)."""
 
 import math
 import os
@@ -211,7 +211,7 @@ class Simplifications(Folder):
 
     def stated(self):
         """Heights: least and largest of each column, of the rows with a coating after 51 s."""
-        text = (ROOT / "docs" / "friction-heat.md").read_text()
+        text = (ROOT / "docs" / "drive.md").read_text()
         rows = re.findall(r"^\| coated, 51 s \| heights (?:/ )?(\S*) ?\|(.*)\|$", text, re.MULTILINE)
         number = r"([+−]?[\d.]+) to ([+−]?[\d.]+)"
         return {

@@ -5,6 +5,7 @@ import io
 import json
 import os
 import pathlib
+import shutil
 import signal
 import subprocess
 import sys
@@ -12,6 +13,7 @@ import tempfile
 import time
 import unittest
 import unittest.mock
+import warnings
 import xml.etree.ElementTree as xml
 
 import h5py
@@ -210,10 +212,68 @@ class Export(unittest.TestCase):
             with self.assertRaisesRegex(plateau.RunFailed, "No space left"):
                 plateau.export(self.made, "npz")
         with self.assertRaisesRegex(plateau.InputError, "is an input and is not replaced"):
-            plateau.export(self.made, "npz", self.made, force=True)
-        self.assertEqual(sorted(os.listdir()), ["run-events.csv", "run-pin-0001.csv"])
+            plateau.export(shutil.copy(self.made, "copy.nc"), "netcdf", force=True)
+        self.assertEqual(sorted(os.listdir()), ["copy.nc", "run-events.csv", "run-pin-0001.csv"])
         plateau.export(self.made, "csv", maps=True, force=True)
         self.assertNotEqual(pathlib.Path("run-pin-0001.csv").read_text(), "kept")
+
+    def test_endings_are_those_of_the_format(self):
+        for to, name, told in (("npz", "a.nc", r"ends in \.npz, such as a\.npz"), ("csv", "a.xlsx", r"\.csv or \.tsv or \.txt"), ("netcdf", "a.h5", r"\.nc or")):
+            with self.subTest(to), self.assertRaisesRegex(plateau.InputError, told):
+                plateau.export(self.made, to, name)
+        self.assertEqual(os.listdir(), [])
+        self.assertEqual(plateau.export(self.made, "csv", "a.TSV", separator="tab"), ["a.TSV"])
+        self.assertEqual(plateau.export(self.made, "npz", "a"), ["a"])
+        self.assertEqual(len(plateau.export(self.made, "vtk", "a-0.5")), 8)
+
+    def test_a_link_stays_and_what_it_points_to_is_replaced(self):
+        pathlib.Path("elsewhere").mkdir()
+        target, link, lost = (pathlib.Path(name) for name in ("elsewhere/real.csv", "link.csv", "lost.csv"))
+        target.write_text("before")
+        target.chmod(0o640)
+        link.symlink_to(target)
+        lost.symlink_to("nowhere.csv")
+        with self.assertRaisesRegex(plateau.InputError, "real.csv exists; give force=True"):
+            plateau.export(self.made, "csv", link)
+        with self.assertRaisesRegex(plateau.InputError, "lost.csv is a link to nowhere.csv, which is not there"):
+            plateau.export(self.made, "csv", lost, force=True)
+        plateau.export(self.made, "csv", link, force=True)
+        self.assertTrue(link.is_symlink() and target.read_text().startswith("time [s],"))
+        self.assertEqual((target.stat().st_mode & 0o777, os.listdir("elsewhere")), (0o640, ["real.csv"]))
+
+    def test_a_status_that_is_none_is_said(self):
+        shutil.copy(self.made, "damaged.h5")
+        with h5py.File("damaged.h5", "r+") as file:
+            file["pin/status"][1, 3, 4] = 9
+        for to in exports.FORMATS:
+            with self.subTest(to), warnings.catch_warnings(record=True) as said:
+                warnings.simplefilter("always")
+                plateau.export("damaged.h5", to, maps=to == "csv")
+                expected = ["damaged.h5: pin/status has 9, which is no status; plateau verify tells where the file is damaged"]
+                self.assertEqual([str(one.message) for one in said], [] if to == "xlsx" else expected)
+        with xarray.open_datatree("damaged.nc", engine="h5netcdf") as found:
+            self.assertEqual(found["pin/status"][1, 3, 4], 9)
+
+    def test_runs_with_few_samples(self):
+        changes = {"operation.duration": "2 s", "output.sample_every": "1 s"}
+        plateau.run(QUICK, "two.h5", set=changes)
+        for count in (2, 1, 0):
+            run = plateau.open_run("two.h5").isel(time=slice(count))
+            for to in exports.FORMATS:
+                plateau.export(run, to, f"{count}{exports.FORMATS[to][1]}", maps=to == "csv")
+            self.assertEqual(len(pandas.read_csv(f"{count}.csv")), count)
+            self.assertEqual(len(pandas.read_excel(f"{count}.xlsx", sheet_name="series")), count)
+            with np.load(f"{count}.npz") as arrays:
+                self.assertEqual((len(arrays["time"]), len(arrays["contact_area"])), (count, count))
+
+    def test_no_head_is_a_formula(self):
+        run = plateau.open_run(self.made).copy()
+        for name in ("=1+1", "+1", "-1", "@a", "|a"):
+            run[f"series/{name}"] = run["series/pool"]
+        plateau.export(run, "csv", "heads.csv")
+        plateau.export(run, "xlsx", "heads.xlsx")
+        for table in (pandas.read_csv("heads.csv"), pandas.read_excel("heads.xlsx")):
+            self.assertEqual([head for head in table.columns if not head[0].isalnum()], [f"'{name} [m3]" for name in ("=1+1", "+1", "-1", "@a", "|a")])
 
     def test_what_is_not_installed_is_told(self):
         with unittest.mock.patch.dict(sys.modules, {"pyevtk": None}), self.assertRaisesRegex(plateau.MissingPackageError, "brake.all"):

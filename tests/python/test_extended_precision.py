@@ -23,6 +23,21 @@ RELATIVE = 1e-9
 FRACTIONS = {"contact_ratio", "pin_primary", "pin_secondary", "pin_none", "disc_secondary", "filled_fraction"}
 # Captured fraction, share of the pin, time acceleration and share of fibres, dealt out over the scenes.
 CHOICES = [(0.3, 0.5, 20, 0.4), (1.0, 0.3, 1, 0.7), (0.05, 1.0, 100, 0.2), (0.6, 0.0, 10, 0.5), (0.1, 0.8, 50, 0.4)]
+# What materials of the pin, debris and operation take beyond the paper, each alone and all at once.
+COUNTERFACE = {
+    "pin_primary": {"wear_rate_against_secondary": "2e-13 1/Pa"},
+    "pin_secondary": {"wear_rate_against_secondary": "1e-14 1/Pa"},
+}
+STRENGTH = {"pin_secondary": {"strength": "2e6 Pa"}}
+# A little more than three columns at the mean radius of the small scenes.
+TRANSPORT = {"transport_length": "0.0067 m"}
+FRICTION = {
+    "pressure_coefficient": 0.3,
+    "shear_strength": "2e5 Pa",
+    "maximum": 0.6,
+    "secondary": {"pressure_coefficient": 0.2},
+    "resin": {"shear_strength": "1e4 Pa"},
+}
 # Seeds of scenes in which a pool that has given all decides the result.
 EMPTIED = [54, 64]
 
@@ -33,6 +48,15 @@ def plateaus(debris, captured_fraction, pad_share=0.5, formation=True, destructi
     if debris == "local":
         return {"debris": "local", **common}
     return {"debris_pool": debris, "pad_share": pad_share, "destruction": destruction, **common}
+
+
+def with_properties(materials, *additions):
+    """Materials to which each addition gives properties."""
+    names = {name: {} for name in materials}
+    for addition in additions:
+        for name, properties in addition.items():
+            names[name] |= properties
+    return {name: properties | names[name] for name, properties in materials.items()}
 
 
 class Comparison(unittest.TestCase):
@@ -81,7 +105,7 @@ class Vectors(Comparison):
                 self.assert_series(name, series[name][-1:], np.array([found]))
 
     def test_vectors(self):
-        for name in ["flat", "rough", "track", "local"]:
+        for name in ["flat", "rough", "track", "local", "pair", "reach"]:
             with self.subTest(vector=name):
                 self.compare(VECTORS / name)
 
@@ -173,6 +197,39 @@ class Program(Comparison):
                 )
                 series.append(one)
         self.assert_everything_happened(series, set(VOLUMES) - {"returned"})
+
+    def test_counterface_strength_transport_length_and_torque(self):
+        # Debris, and which of counterface, strength, transport length and torque a scene has.
+        parts = [
+            ("local", (True, False, False, False)),
+            ("local", (False, True, False, False)),
+            ("local", (False, False, True, False)),
+            ("local", (False, False, False, True)),
+            ("local", (True, True, True, True)),
+            ("contact", (True, True, False, True)),
+            ("track", (True, True, False, False)),
+        ]
+        series = []
+        options = itertools.product(["explicit", "exponential"], parts)
+        for seed, (integrator, (debris, (counterface, strength, transport, torque))) in enumerate(options, 100):
+            _, _, time_acceleration, fibres = CHOICES[seed % len(CHOICES)]
+            additions = [COUNTERFACE] * counterface + [STRENGTH] * strength
+            with self.subTest(seed=seed, integrator=integrator, debris=debris, transport=transport, torque=torque):
+                one = self.compare(
+                    seed,
+                    plateaus=plateaus(debris, 0.8) | (TRANSPORT if transport else {}),
+                    materials=with_properties(small_scenes.DIFFERENT, *additions),
+                    integrator=integrator,
+                    time_acceleration=time_acceleration,
+                    fibres=fibres,
+                    friction=FRICTION if torque else None,
+                    torque=torque,
+                    steps=150,
+                )
+                series.append(one)
+                if strength:
+                    self.assertGreater(one["returned"][-1], 0)
+        self.assert_everything_happened(series, VOLUMES)
 
 
 if __name__ == "__main__":

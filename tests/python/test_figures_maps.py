@@ -10,8 +10,8 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from package_scenes import ROUND, SHORT, InFolder
 
 import plateau
+from plateau import figures
 from plateau.figures import maps
-from plateau.figures.drawing import Drawing, subjects_of
 
 
 def panels(figure):
@@ -51,7 +51,7 @@ class Maps(InFolder):
             cls.addClassCleanup(run.close)
 
     def figure(self, name, runs=None, at=(), **options):
-        made = getattr(maps, name)(Drawing(subjects_of(runs or self.runs[:1], at), name=name, **options))
+        made = figures.drawn(runs or self.runs[:1], [name], at, **options)
         for figure in made.values():
             FigureCanvasAgg(figure).draw()
         return made
@@ -143,7 +143,7 @@ class Maps(InFolder):
             self.assertEqual(len(figure.legends[0].get_texts()), 4)
 
     def test_build_up_is_height_above_the_substrate(self):
-        [figure] = self.figure("build_up").values()
+        [figure] = self.figure("build-up").values()
         file, radius = self.files[0], self.files[0]["radius"][:]
         thickness = file["disc/height"][-1] - file["disc/substrate"][-1]
         values = np.hstack([drawn(axes)[0] for axes in panels(figure)[:-1]])
@@ -191,19 +191,25 @@ class Maps(InFolder):
         self.assertEqual([type(one).__name__ for one in far], ["Normalize", "LogNorm"])
         self.assertEqual((far[1].vmin, far[1].vmax), (9, 1000))
 
+    def test_what_is_apart_is_not_grey_among_greys(self):
+        [figure] = self.figure("pressure", cmap="greys").values()
+        artist = drawn(panels(figure)[0])[1]
+        self.assertEqual([colour(artist, value) for value in (0.0, 1e9)], ["#bfdcf2", "#ffffff"])
+        self.assertEqual(figure.axes[-1].get_ylabel(), "pressure, MPa\nblue: no contact")
+
     def test_temperatures_are_in_degrees_and_only_of_runs_that_have_them(self):
-        self.assertEqual(self.figure("contact_temperature"), {})
+        with self.assertRaisesRegex(plateau.InputError, r"needs runs of scenes with output\.contact_temperature = true"):
+            self.figure("contact-temperature")
         run = self.runs[0].copy()
         pressure = run["pin/pressure"]
         values = 300 + np.arange(pressure.size).reshape(pressure.shape) / 100
         run["pin/temperature"] = pressure.copy(data=values).assign_attrs(units="K")
-        drawing = Drawing(subjects_of([run, self.runs[1]]), name="contact-temperature")
-        [figure] = maps.contact_temperature(drawing).values()
+        with self.assertWarnsRegex(plateau.PlateauWarning, "round.h5 has no map contact_temperature: left out of contact-temperature"):
+            [figure] = self.figure("contact-temperature", [run, self.runs[1]]).values()
         last = drawn(panels(figure)[-1])[0]
         np.testing.assert_allclose(last, run["pin/temperature"].values[-1].T - 273.15)
         self.assertIn(f"at most {last.max():.3g} °C", titles(figure)[-1])
         self.assertEqual(figure.axes[-1].get_ylabel(), "temperature, °C")
-        self.assertEqual([missing for _, missing in drawing.left_out], ["no map contact_temperature"])
 
     def test_moments_are_those_with_contact_or_those_that_are_asked_for(self):
         times = [f"Pin, {time:.4g} s" for time in self.files[0]["map_time"][:]]
@@ -212,8 +218,8 @@ class Maps(InFolder):
         self.assertEqual([title.split(";")[0] for title in titles(one)], [times[1].replace("Pin", "Disc"), times[1]])
         lifted = self.runs[0].copy()
         lifted["pin/pressure"] = lifted["pin/pressure"] * 0
-        drawing = Drawing(subjects_of([lifted]), name="pressure")
-        self.assertEqual((maps.pressure(drawing), len(drawing.left_out)), ({}, 1))
+        with self.assertRaisesRegex(plateau.InputError, "flat.h5 has no map pressure with a contact after the start"):
+            self.figure("pressure", [lifted])
 
     def test_eight_runs_stand_in_columns_on_pages_with_one_scale(self):
         made = self.figure("topography", [self.runs[0], *[self.runs[1]] * 7])
@@ -231,7 +237,7 @@ class Maps(InFolder):
         self.assertEqual(sum(len(titles(figure)) for figure in made.values()), 8 * 4)
 
     def test_nothing_overlaps_and_nothing_is_cut_off(self):
-        for name, widths in {"topography": (88.0, 180.0), "status": (88.0,), "build_up": (120.0,), "pressure": (88.0, 180.0)}.items():
+        for name, widths in {"topography": (88.0, 180.0), "status": (88.0,), "build-up": (120.0,), "pressure": (88.0, 180.0)}.items():
             for width in widths:
                 for figure in self.figure(name, self.runs, width=width).values():
                     renderer, boxes = figure._get_renderer(), []

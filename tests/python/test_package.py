@@ -26,7 +26,7 @@ from package_scenes import QUICK, ROOT, SHORT, STUDY, InFolder
 
 import plateau
 from plateau import commands, program
-from plateau.times import seconds
+from plateau.units import quantity
 
 
 def stand_in(text):
@@ -199,10 +199,10 @@ class Runs(InFolder):
 
     def test_times(self):
         told = {"30 s": 30.0, "1.5min": 90.0, " 2 h ": 7200.0, "5e2 ms": 0.5, 7: 7.0, np.float64(2.5): 2.5, ".5 s": 0.5}
-        self.assertEqual([seconds(time) for time in told], list(told.values()))
+        self.assertEqual([quantity(time, "s") for time in told], list(told.values()))
         for time in ("30", "30 sec", "s", "1,5 s", "1 N", None, [1], "nan s"):
-            with self.assertRaisesRegex(plateau.InputError, 'no time: expected a number of seconds, or text such as "30 s"'):
-                seconds(time)
+            with self.assertRaisesRegex(plateau.InputError, "expected a number in s, or text with a unit"):
+                quantity(time, "s")
 
     def test_errors_can_be_sent_to_another_process(self):
         for kind in (plateau.MissingFileError, plateau.UnknownNameError, plateau.InputTypeError, plateau.RunFailed):

@@ -17,7 +17,7 @@ import numpy as np
 from package_scenes import QUICK, SHORT
 
 import plateau
-from plateau import command_line, figures
+from plateau import command_line, figures, run_report
 from plateau.quantities import CELSIUS, MM2, NUMBER, PERCENT
 from plateau.run_report import Measure, report_page
 
@@ -140,6 +140,20 @@ class Report(unittest.TestCase):
         with self.assertRaisesRegex(plateau.InputError, "9 runs: expected 1 to 8"):
             plateau.report(["quick.h5"] * 9)
         self.assertEqual(os.listdir(), ["quick.h5"])
+        pathlib.Path("page.html").write_text("before")
+        pathlib.Path("page.html").chmod(0o640)
+        pathlib.Path("link.html").symlink_to("page.html")
+        with unittest.mock.patch.object(run_report, "report_page", lambda runs: "after"):
+            plateau.report("quick.h5", "link.html", force=True)
+        self.assertTrue(os.path.islink("link.html"))
+        self.assertEqual((pathlib.Path("page.html").read_text(), os.stat("page.html").st_mode & 0o777), ("after", 0o640))
+
+    def test_a_run_without_samples(self):
+        run = plateau.open_run(self.made / "stops.h5").isel(time=slice(0))
+        self.enterContext(unittest.mock.patch.dict(figures.FIGURES, {}, clear=True))
+        page = report_page([run])
+        self.assertIn("There are no samples yet", page)
+        self.assertEqual(rows(page)[1], ["at most –", "at most –", "at most –", "0 s, –", "–"])
 
     def call(self, *arguments):
         out, err = io.StringIO(), io.StringIO()

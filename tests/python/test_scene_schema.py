@@ -244,7 +244,7 @@ class SceneSchema(unittest.TestCase):
 
     def test_every_piece_of_a_scene_in_the_documentation_is_valid(self):
         count = 0
-        for path in (ROOT / "docs").glob("*.md"):
+        for path in (ROOT / "docs").rglob("*.md"):
             for piece in re.findall(r"^```toml\n(.*?)^```", path.read_text(), re.DOTALL | re.MULTILINE):
                 # The others are of studies.
                 if not any(table in piece for table in ("[[factor]]", "[[response]]", "[fit]")):

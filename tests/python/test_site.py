@@ -35,13 +35,17 @@ class Pages(unittest.TestCase):
         kept = "[runs](python.md#open-a-run), [words](index.md#words) and `[a](../b)`"
         self.assertEqual(preprocess.page(text, ""), f"see `step.rs`, {kept}")
         self.assertEqual(preprocess.page(text, "https://h/p"), f"see [`step.rs`](https://h/p/crates/step.rs), {kept}")
+        below = "[a](../../data/a), [runs](../python.md#open-a-run), [words](../README.md#words), [first](../../README.md) and [b](other.md)"
+        kept = "[runs](../python.md#open-a-run), [words](../index.md#words)"
+        expected = f"[a](https://h/p/data/a), {kept}, [first](https://h/p/README.md) and [b](other.md)"
+        self.assertEqual(preprocess.page(below, "https://h/p", "evidence/page.md"), expected)
 
     def test_every_page_is_in_the_summary_and_no_formula_is_left(self):
-        pages = {path.name for path in (ROOT / "docs").glob("*.md")} - {"SUMMARY.md"}
+        pages = {path.relative_to(ROOT / "docs").as_posix() for path in (ROOT / "docs").rglob("*.md")} - {"SUMMARY.md"}
         summary = (ROOT / "docs" / "SUMMARY.md").read_text()
         self.assertEqual(sorted(re.findall(r"\]\((.*?)\)", summary)), sorted(pages))
         for name in pages:
-            text = preprocess.page((ROOT / "docs" / name).read_text(), "")
+            text = preprocess.page((ROOT / "docs" / name).read_text(), "", name)
             text = re.sub(r'data-tex="[^"]*"', "", text)
             text = re.sub(r"(?ms)^```.*?^```$|`[^`]*`", "", text)
             self.assertNotIn("$", text, name)

@@ -1,4 +1,4 @@
-"""What docs/studies.md does with the results of a study works, whatever its factors are called."""
+"""What docs/study.md does with the results of a study works, whatever its factors are called."""
 
 import os
 import pathlib
@@ -50,8 +50,7 @@ class Studies(unittest.TestCase):
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
         self.folder = pathlib.Path(folder.name)
-        self.results = self.folder / "data" / "studies" / "pad-properties"
-        self.results.parent.mkdir(parents=True)
+        self.results = self.folder / "first-study"
 
     def collect(self, name):
         study = self.results.with_suffix(".toml")
@@ -62,7 +61,7 @@ class Studies(unittest.TestCase):
 
     def block(self):
         """The Python of the guide."""
-        blocks = re.findall(r"^```python\n(.*?)^```$", (ROOT / "docs" / "studies.md").read_text(), re.MULTILINE | re.DOTALL)
+        blocks = re.findall(r"^```python\n(.*?)^```$", (ROOT / "docs" / "study.md").read_text(), re.MULTILINE | re.DOTALL)
         self.assertEqual(len(blocks), 1)
         return blocks[0]
 

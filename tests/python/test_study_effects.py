@@ -11,35 +11,19 @@ from pathlib import Path
 
 import numpy as np
 import pandas
-import xarray
 from scipy import stats
 
 HERE = Path(__file__).parent
 sys.path.insert(0, str(HERE / "coverage"))
 
-from effects import SEEDS_STUDY, cube, number, of_runs, simulated, study_of, word
+from effects import SEEDS_STUDY, cube, of_runs, simulated
+from made_studies import number, span, stored, study_of, word
 from plateau.errors import InputError, PlateauWarning
 from plateau.study.analysis import effects
-from plateau.study.data import Factor, Response, Study
+from plateau.study.data import Response, Study
 from plateau.study.level_differences import levels
-from plateau.study.model import fitted
+from plateau.study.model_choice import fitted
 from plateau.study.seed_counts import seeds_needed, sets_for
-
-
-def recorded(said: dict) -> Study:
-    """A study of the fixture."""
-    columns = said["runs"]
-    count = len(next(iter(columns.values())))
-    numbers = list(range(1, count + 1))
-    own = {"run": numbers, "point": numbers, "replicate": 1, "order": numbers, "same_as": columns.get("run", numbers), "state": "finished"}
-    runs = pandas.DataFrame({**own, **columns}).set_index("run")
-    factors = [Factor(**{**factor, "levels": tuple(factor["levels"])}) for factor in said["factors"]]
-    ends = {"low": -math.inf, "high": math.inf}
-    responses = [Response(**{**one, **{end: value for end, value in ends.items() if one[end] is None}}) for one in said["responses"]]
-    for response in responses:
-        runs[response.name] = runs[response.name].astype(float)
-    nothing = pandas.DataFrame(), pandas.DataFrame(), xarray.Dataset(), {}, None, HERE
-    return Study(said["title"], said["design"], factors, responses, runs, *nothing)
 
 
 def differences(old: object, new: object, path: str = ""):
@@ -73,7 +57,7 @@ class OldProgram(unittest.TestCase):
         studies = json.loads(gzip.decompress((HERE / "data" / "effects.json.gz").read_bytes()))["studies"]
         compared = 0
         for said in studies:
-            study = recorded(said)
+            study = stored(said)
             for call in said["calls"]:
                 with warnings.catch_warnings():
                     warnings.simplefilter("ignore", PlateauWarning)
@@ -201,7 +185,7 @@ class Seeds(unittest.TestCase):
     def test_centre_points_of_an_equation_are_explained(self) -> None:
         runs = pandas.concat([cube(2), pandas.DataFrame({"A": 0.0, "B": 0.0, "C": 0.0, "replicate": [1, 2]})], ignore_index=True)
         runs["y"] = np.random.default_rng(4).normal(size=len(runs))
-        text = effects(study_of([number(name, -1.0, 1.0, is_range=True) for name in "ABC"], runs)).text()
+        text = effects(study_of([span(name) for name in "ABC"], runs)).text()
         self.assertIn(" [centre points]", text)
         self.assertIn("[centre points] is 1 at the centre points", text)
 
@@ -222,7 +206,7 @@ class Model(unittest.TestCase):
         # D. C. Montgomery, Design and Analysis of Experiments, 8th ed., example 6.7: yield of a chemical process.
         corners = [(-1.0, -1.0, 39.3), (1.0, -1.0, 40.9), (-1.0, 1.0, 40.0), (1.0, 1.0, 41.5)]
         runs = pandas.DataFrame(corners + [(0.0, 0.0, y) for y in (40.3, 40.5, 40.7, 40.2, 40.6)], columns=["A", "B", "y"])
-        factors = [number("A", -1.0, 1.0, is_range=True), number("B", -1.0, 1.0, is_range=True)]
+        factors = [span("A"), span("B")]
         found = effects(study_of(factors, runs))
         table = found.table.set_index("term")
         self.assertAlmostEqual(table.loc["A", "effect"], 1.55, places=9)
@@ -263,7 +247,7 @@ class Model(unittest.TestCase):
         random = np.random.default_rng(7)
         runs = pandas.DataFrame(np.repeat(random.uniform(-1.0, 1.0, (12, 2)), 2, axis=0), columns=["A", "B"])
         runs["y"] = np.exp(runs["A"]) + runs["B"] + random.normal(size=24)
-        factors = [number("A", -1.0, 1.0, is_range=True), number("B", -1.0, 1.0, is_range=True)]
+        factors = [span("A"), span("B")]
         fit = fitted(study := study_of(factors, runs, "latin-hypercube"), study.responses[0], "quadratic")
         for point in range(12):
             own = (fit.runs["point"] == point).to_numpy()
@@ -274,7 +258,7 @@ class Model(unittest.TestCase):
     def test_forecasts_hold_what_the_model_misses(self) -> None:
         # A smooth function without noise: what is missed is all there is, and the residual alone knows little of it.
         random, held = np.random.default_rng(8), []
-        factors = [number("A", -1.0, 1.0, is_range=True), number("B", -1.0, 1.0, is_range=True)]
+        factors = [span("A"), span("B")]
         for _ in range(40):
             slope = random.uniform(0.5, 3.0, 2)
             points = pandas.DataFrame(stats.qmc.LatinHypercube(2, rng=random).random(15) * 2 - 1, columns=["A", "B"])

@@ -9,7 +9,8 @@ import numpy as np
 import pandas
 from plateau.output_folder import plain
 from plateau.study.data import Factor
-from plateau.study.figures import _axis, _number, comparison_figures, fit_figures
+from plateau.study.figure_axes import number, set_axis
+from plateau.study.figures import comparison_figures, fit_figures
 from plateau.style import in_style, new
 from plateau.units import Unit, shown_unit, with_digits, with_hyphen, with_minus
 
@@ -41,11 +42,11 @@ class Figures(unittest.TestCase):
     def test_logarithmic_axes_have_few_numbers(self):
         figure, axes = new(88.0, 60.0, "")
         axes[0, 0].plot([2, 20], [2e-14, 1e-13])
-        _axis(axes[0, 0], RECESS)
+        set_axis(axes[0, 0], RECESS)
         figure.canvas.draw()
         ticks = [at for at in axes[0, 0].get_xticks() if 2.0 <= at <= 20.0]
         self.assertEqual((axes[0, 0].get_xlabel(), axes[0, 0].get_xscale(), ticks), ("recess, µm", "log", [2.0, 5.0, 10.0, 20.0]))
-        self.assertEqual([_number(value) for value in (2.0, -0.05, 2e-14, 1e-13)], ["2", "−0.05", r"$2\times10^{-14}$", "$10^{-13}$"])
+        self.assertEqual([number(value) for value in (2.0, -0.05, 2e-14, 1e-13)], ["2", "−0.05", r"$2\times10^{-14}$", "$10^{-13}$"])
 
     def test_runs_of_a_fit_are_told_at_measured_times_alone(self):
         series = pandas.DataFrame({"response": "area", "unit": "m2", "time": [1.0, 2.0, 9.0], "measured": [1e-6, 2e-6, 3e-6]})

@@ -17,10 +17,14 @@ sys.path.insert(0, str(Path(__file__).parent / "coverage"))
 
 import fit as experiments
 from plateau.errors import InputError
-from plateau.study.calibration import calibrated, fit, plan, products, profile, told
+from plateau.study.calibration import calibrated
 from plateau.study.data import Factor, Response
+from plateau.study.fit_answer import Fit
+from plateau.study.fit_of_study import fit, plan
+from plateau.study.key_intervals import products, profile
 from plateau.study.likelihood import Components, Likelihood, Runs, Target
-from plateau.study.measured import Measurement, import_values
+from plateau.study.imports import import_values
+from plateau.study.measured import Measurement
 from plateau.study.results import analysed
 from scipy import stats
 
@@ -141,7 +145,7 @@ class OutcomeTest(unittest.TestCase):
         key = Factor("load", "operation.normal_force", "N", (1.0, 3.0), True, False, False, "N", 1.0, 0.0)
         runs = pandas.DataFrame({"point": range(8)})
         study = SimpleNamespace(title="Rig", factors=[key], seeds=1, runs=runs)
-        found = told(study, failed.likelihood.target, failed, 0.95, 9, runs)
+        found = Fit(study, failed.likelihood.target, failed, 0.95, 9, runs)
         (of_key,) = found.document()["keys"]
         self.assertEqual((of_key["most_likely"], of_key["interval"], found.document()["check"]), (None, [], "failed"))
         self.assertIn("Runs at the most likely place (load = 2.", found.text())

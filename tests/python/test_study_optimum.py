@@ -12,14 +12,16 @@ import warnings
 
 import numpy as np
 import pandas
+from made_studies import span, study_of
 from plateau.errors import InputError, RunFailed
-from plateau.study.data import Factor, Response, Study
+from plateau.study.data import Response
 from plateau.study.goals import Goal, Limit, Problem, beyond_runs, overall
 from plateau.study.improvement import expected_improvement, improved
 from plateau.study.optimum import canonical, optimize
+from plateau.study.prediction import predict
 from plateau.study.results import analysed
 from plateau.study.runs import make_runs, written
-from plateau.units import parsed, unit_for
+from plateau.units import quantity, unit_for
 from scipy import stats
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
@@ -33,20 +35,7 @@ LIMITS_MEET = {
     "cost": [2.8875415, 3.2536537, 3.0716994, 1.7554306, 3.7623278, 1.9931305, 2.9403494, 3.9839142, 4.1892893, 2.2493497],
     "risk": [1.0490076, 2.9217853, 2.0694868, 0.92275792, 1.1620449, 1.8782182, 2.076149, 2.084241, 3.0616457, 2.8808013],
 }
-
-
-def number(name, low=-1.0, high=1.0, unit="1", one=1.0, study_unit="", whole=False):
-    return Factor(name, "key", unit, (low, high), True, False, whole, study_unit, one, 0.0)
-
-
-def study(values, factors, responses, seeds=1, design="central-composite"):
-    """A study with these columns; runs of a point follow each other."""
-    count = len(next(iter(values.values())))
-    index = pandas.RangeIndex(1, count + 1, name="run")
-    own = {"point": np.arange(count) // seeds + 1, "replicate": np.arange(count) % seeds + 1, "order": index, "same_as": index, "state": "finished"}
-    runs = pandas.DataFrame({**own, **values}, index=index)
-    asked = [Response(name, unit, name, "none", -math.inf, math.inf, {}) for name, unit in responses.items()]
-    return Study("study", design, factors, asked, runs, pandas.DataFrame(), pandas.DataFrame(), None, {}, None, pathlib.Path("."))
+RESPONSES = {"gain": "m3", "cost": "1", "risk": "1"}
 
 
 class Known:
@@ -64,8 +53,8 @@ class Known:
 
 
 def problem(functions, goals, limits=(), axes=(None, None)):
-    factors = [number(name) for name in "AB"[: len(axes)]]
-    return Problem(study({"A": [0.0], "B": [0.0], "y": [0.0]}, factors, {"y": "1"}), functions, list(goals), list(limits), list(axes), 0.95)
+    factors = [span(name) for name in "AB"[: len(axes)]]
+    return Problem(study_of(factors, {"A": [0.0], "B": [0.0], "y": [0.0]}), functions, list(goals), list(limits), list(axes), 0.95)
 
 
 class Desirability(unittest.TestCase):
@@ -80,12 +69,12 @@ class Desirability(unittest.TestCase):
         self.assertEqual(float(overall(goals, [0.0, 1.0])), 0.0)
 
     def test_units_of_people(self):
-        self.assertEqual([parsed("m3", text) for text in ("1.5 mm3", "1.5 mm^3", "1.5 mm³")], [1.5e-9] * 3)
-        self.assertEqual([parsed("1", "40 %"), parsed("1", "0.4"), parsed("K", "20 °C")], [0.4, 0.4, 293.15])
+        self.assertEqual([quantity(text, "m3", needs_unit=False) for text in ("1.5 mm3", "1.5 mm^3", "1.5 mm³")], [1.5e-9] * 3)
+        self.assertEqual([quantity(text, si, needs_unit=False) for text, si in (("40 %", "1"), ("0.4", "1"), ("20 °C", "K"))], [0.4, 0.4, 293.15])
         self.assertEqual(unit_for("m2", 2e-6).text(2.0812e-6, 0.0996e-6), "2.08 ± 0.10 mm²")
         for text in ("1 mm", "one", "1 %"):
             with self.assertRaises(InputError):
-                parsed("m2", text)
+                quantity(text, "m2", needs_unit=False)
 
 
 class Search(unittest.TestCase):
@@ -112,7 +101,7 @@ class Search(unittest.TestCase):
         self.assertEqual(asked.best().to_numpy().tolist(), [[-1.0, -1.0]])
 
     def test_the_answers_of_the_program_before(self):
-        given = study(LIMITS_MEET, [number("A"), number("B")], {"gain": "m3", "cost": "1", "risk": "1"})
+        given = study_of([span("A"), span("B")], LIMITS_MEET, "central-composite", responses=RESPONSES)
         given.runs["gain"] *= 1e-9
         limits = {"limit": ["cost<=3.1", "risk<=2.2"]}
         wide = {"minimize": ["cost", "risk"], "importance": ["gain=2"]}
@@ -137,6 +126,23 @@ class Search(unittest.TestCase):
         found = optimize(given, maximize=["gain"], limit=["cost<=2", "risk>=3"], limit_on="means")
         self.assertEqual((found.keeps_limits, found.desirability), (False, 0.0))
         self.assertIn("they are missed least at", found.text())
+
+
+    def test_optimum_and_prediction_have_one_region(self):
+        # A rotatable design, with axial runs at √2: what is best lies on the circle of its runs, and there a prediction is made.
+        far = math.sqrt(2.0)
+        a, b = np.array([-1, 1, -1, 1, -far, far, 0, 0, 0]), np.array([-1, -1, 1, 1, 0, 0, -far, far, 0])
+        for response, best in ((a, [far, 0.0]), (a + b, [1.0, 1.0]), (-((a - 0.5) ** 2) - (b + 0.2) ** 2, [0.5, -0.2])):
+            given = study_of([span("A"), span("B")], {"A": a, "B": b, "y": response + 0.01 * np.cos(9 * a + b)}, "central-composite")
+            found = optimize(given, maximize=["y"])
+            np.testing.assert_allclose(found.settings["value"].to_numpy(float), best, atol=0.1)
+            self.assertLessEqual(np.hypot(*found.settings["value"]), far + 1e-9)
+            at = found.settings.set_index("factor")["value"].to_dict()
+            self.assertAlmostEqual(predict(given, at).table["value"].iloc[0], found.table["value"].iloc[0], places=12)
+            self.assertIn("A −1.414 … 1.414", found.text())
+            self.assertEqual(found.document()["region"], predict(given, at).document()["region"])
+        with self.assertRaisesRegex(InputError, "A and B are together farther from the middle than all runs"):
+            predict(given, {"A": 1.3, "B": 1.3})
 
 
 class Canonical(unittest.TestCase):
@@ -182,13 +188,13 @@ class Improvement(unittest.TestCase):
             return np.exp(-20 * (a - 0.35) ** 2) + 0.02 * random.standard_normal(len(a))
 
         a = np.repeat(places, 2)
-        given = study({"A": a, "y": values(a)}, [number("A")], {"y": "1"}, seeds=2, design="sobol")
+        given = study_of([span("A")], {"A": a, "replicate": np.tile([1, 2], len(a) // 2), "y": values(a)}, "sobol")
         made = []
 
         def make(points):
             made.append(len(points))
             a = np.repeat(points["A"].to_numpy(), 2)
-            return study({"A": a, "y": values(a)}, [number("A")], {"y": "1"}, seeds=2).runs
+            return study_of([span("A")], {"A": a, "replicate": np.tile([1, 2], len(a) // 2), "y": values(a)}).runs
 
         goal = Goal("y", "maximize", (given.runs["y"].min(), given.runs["y"].max()), is_of_runs=True)
         found, rounds = improved(Problem(given, {}, [goal], [], [None], 0.95), 13, make, 2)
@@ -202,7 +208,7 @@ class Improvement(unittest.TestCase):
 
 class Wishes(unittest.TestCase):
     def test_what_cannot_be_wanted(self):
-        given = study(LIMITS_MEET, [number("A"), number("B", unit="N", study_unit="N")], {"gain": "m3", "cost": "1", "risk": "1"})
+        given = study_of([span("A"), span("B", unit="N", study_unit="N")], LIMITS_MEET, "central-composite", responses=RESPONSES)
         for options, message in [
             ({}, "no goal"),
             ({"maximize": ["gain"], "minimize": ["gain"]}, "two goals"),
@@ -281,14 +287,14 @@ imported = true
             with self.subTest(message), self.assertRaisesRegex((InputError, RunFailed), message):
                 make_runs(given, points)
         with self.assertRaisesRegex(InputError, "without its study file"):
-            make_runs(study(LIMITS_MEET, [number("A")], {}), pandas.DataFrame({"A": [0.0]}))
+            make_runs(study_of([span("A")], LIMITS_MEET, responses={}), pandas.DataFrame({"A": [0.0]}))
 
     def test_values_are_written_with_the_digits_that_give_them(self):
-        speed = number("speed", unit="rad/s", one=2 * math.pi / 60, study_unit="rpm")
+        speed = span("speed", unit="rad/s", one=2 * math.pi / 60, study_unit="rpm")
         self.assertEqual(written(speed, 425 * (2 * math.pi / 60)), "425 rpm")
         for value in (50.0, 1 / 3, 44.50589592585541):
             self.assertEqual(float(written(speed, value).split()[0]) * (2 * math.pi / 60), value)
-        self.assertEqual([written(number("n", whole=True), 20.0), written(speed, "none")], ["20", "none"])
+        self.assertEqual([written(span("n", whole=True), 20.0), written(speed, "none")], ["20", "none"])
 
     def test_an_optimum_is_confirmed_by_its_runs(self):
         with warnings.catch_warnings():

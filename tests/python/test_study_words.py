@@ -110,26 +110,30 @@ class Words(unittest.TestCase):
         self.assertRegex(err, rf"^plateau: .*{said}")
         self.assertEqual(err.count("\n"), 1, err)
 
-    def import_all(self, text=MEASURED, table="measured.csv"):
+    def import_all(self, text=MEASURED, table="measured.csv", names=("load", "grip")):
         pathlib.Path("study.toml").write_text(text)
         subprocess.run(
             [PROGRAM, "sweep", "plan", "study.toml", "--csv", "plan.csv", "-q"], check=True, stdout=subprocess.DEVNULL, timeout=120
         )
         with open("plan.csv", newline="") as file, open(table, "w", newline="") as to:
             lines = csv.writer(to)
-            lines.writerow(["load", "dose", "leak [mm3]", "grip"])
+            lines.writerow([names[0], "dose", "leak [mm3]", names[1]])
             for at, row in enumerate(csv.DictReader(file)):
-                load, dose = float(row["load"].split()[0]), float(row["dose"])
+                load, dose = float(row[names[0]].split()[0]), float(row["dose"])
                 noise = 0.05 * (-1) ** at * (1 + at % 3)
                 lines.writerow(
-                    [row["load"], row["dose"], 1 + load - dose + 0.3 * load * dose + 0.4 * dose**2 + noise, 0.5 + 0.2 * dose + 0.2 * noise]
+                    [row[names[0]], row["dose"], 1 + load - dose + 0.3 * load * dose + 0.4 * dose**2 + noise, 0.5 + 0.2 * dose + 0.2 * noise]
                 )
         return self.call("sweep", "import", "study.toml", table)[0]
 
-    def test_factors_and_responses_are_no_columns_of_all_studies(self):
-        for name, other in (("load", "factor"), ("grip", "response")):
-            pathlib.Path("study.toml").write_text(MEASURED.replace(f'name = "{name}"', 'name = "state"'))
-            self.refused("sweep", "effects", "study.toml", said=f'study.toml: {other} "state": tables of runs have a column of this name')
+    def test_names_of_columns_of_tables_are_names_of_factors_and_responses(self):
+        text = MEASURED.replace('name = "load"', 'name = "state"').replace('name = "grip"', 'name = "order"')
+        self.import_all(text, names=("state", "order"))
+        document = self.document("sweep", "effects", "study.toml")
+        self.assertEqual([term["label"] for term in document["responses"][1]["terms"]][:2], ["state (factor)", "dose"])
+        self.assertEqual([response["name"] for response in document["responses"]], ["leak", "order (response)"])
+        [place] = self.document("sweep", "predict", "study.toml", "--at", "state=2 N", "--at", "dose=1")["places"]
+        self.assertEqual([setting["number"] for setting in place["settings"]], [2.0, 1.0])
 
     def test_what_would_take_forever_is_refused_at_once(self):
         self.import_all()
@@ -413,7 +417,7 @@ class Folders(unittest.TestCase):
 
     def test_a_link_to_nothing_is_said(self):
         (self.folder / "link").symlink_to("nowhere")
-        with self.assertRaisesRegex(InputError, "link is a link to nowhere, which is not there; make that folder"):
+        with self.assertRaisesRegex(InputError, "link is a link to nowhere, which is not there; make that, or name"):
             self.write(self.folder / "link", ["a.png"])
 
     def test_a_file_of_someone_else_and_an_input_stay(self):

@@ -1,35 +1,40 @@
-"""The line that converts instruments' files by SurfaceTopography, and text that both it and the program read."""
+"""Files of instruments that ``plateau surface convert`` converts, as the program reads them then."""
 
+import hashlib
+import json
+import math
 import os
 import pathlib
-import shlex
+import shutil
 import subprocess
-import sys
 import tempfile
 import unittest
+import warnings
 
+import h5py
 import numpy as np
-import sdfio
-import SurfaceTopography
+import netCDF4
+import xarray
+
+from plateau.errors import InputError
+from plateau.surface_conversion import _even, convert
 
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
 PROGRAM = os.environ.get("PLATEAU_PROGRAM", str(ROOT / "plateau"))
+SAMPLES = HERE / "data" / "instruments"
+# What a reader that was written on its own, in Rust, gave of each.
+EXPECTED = json.loads((SAMPLES / "heights.json").read_text(encoding="utf-8"))
 # Measured surfaces that are not part of the project.
-SHARED = ROOT.parent / "shared" / "surfaces"
-CORPUS = ROOT / "crates" / "io" / "tests" / "corpus" / "surfaces"
+NAMED = [pathlib.Path(os.environ["PLATEAU_SHARED"])] if "PLATEAU_SHARED" in os.environ else [above / "shared" for above in ROOT.parents]
+SHARED = next((folder / "surfaces" for folder in NAMED if (folder / "surfaces").is_dir()), None)
 
 
-def program(*arguments):
-    command = [PROGRAM, "surface", *map(str, arguments)]
-    return subprocess.run(command, capture_output=True, text=True, timeout=300)
-
-
-def by_surface_topography(path):
-    """Heights in m, profile by profile, NaN where there is none, and pitch along and across them."""
-    topography = SurfaceTopography.read_topography(str(path)).to_unit("m")
-    heights = np.ma.filled(topography.heights().T, np.nan)
-    return np.atleast_2d(heights), topography.pixel_size[0], topography.pixel_size[-1]
+def program(*arguments, **options):
+    command = [PROGRAM, *map(str, arguments)]
+    # Its Python companions, which a checkout keeps in one folder.
+    places = {**os.environ, "PATH": f"{ROOT / 'python' / 'bin'}:{os.environ['PATH']}"}
+    return subprocess.run(command, capture_output=True, text=True, timeout=300, **{"env": places, **options})
 
 
 class Conversion(unittest.TestCase):
@@ -38,82 +43,142 @@ class Conversion(unittest.TestCase):
         self.addCleanup(folder.cleanup)
         self.folder = pathlib.Path(folder.name)
 
-    def line(self):
-        """The command of docs/surfaces-formats.md."""
-        text = (ROOT / "docs" / "surfaces-formats.md").read_text(encoding="utf-8")
-        found = [line for line in text.splitlines() if line.startswith("python -c ") and "SurfaceTopography" in line]
-        self.assertEqual(len(found), 1)
-        return found[0]
-
     def convert(self, source):
-        target = self.folder / "out.sdf"
-        words = [{"python": sys.executable, "IN": str(source), "OUT.sdf": str(target)}.get(w, w) for w in shlex.split(self.line())]
-        done = subprocess.run(words, capture_output=True, text=True, timeout=300)
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            return pathlib.Path(convert(source, self.folder / f"{source.name}.h5"))
+
+    def read(self, path, *options):
+        """Heights, m, column by column, and pitch, as the program reads and writes them."""
+        again = self.folder / "again.h5"
+        done = program("surface", path, "--to", again, "--force", *options)
         self.assertEqual(done.returncode, 0, done.stderr)
-        return target
+        with h5py.File(again) as file:
+            return file["height"][...], file["height"].attrs["pitch"]
 
-    def test_the_program_says_the_same_line(self):
-        source = self.folder / "a.al3d"
-        source.write_bytes(b"AliconaImaging\0\r\n")
-        self.assertIn(self.line(), program(source).stderr)
-
-    def check(self, source):
-        heights, along, across = by_surface_topography(source)
-        target = self.convert(source)
-        written = sdfio.read(target)
-        np.testing.assert_array_equal(written.data, heights)
-        self.assertEqual((written.header.x_scale, written.header.y_scale), (along, across))
-        # What the program reads of it, in SDF once more.
-        again = self.folder / "again.sdf"
-        done = program(target, "--to", again, "--force")
-        self.assertEqual(done.returncode, 0, done.stderr)
-        np.testing.assert_array_equal(sdfio.read(again).data, heights)
-
-    def test_every_measured_surface(self):
-        if not SHARED.is_dir():
-            print(f"skipped: {SHARED} is not there")
-            self.skipTest(f"{SHARED} is not there")
-        # SurfaceTopography does not read SDF ISO-2.0, which the program does.
-        sources = [path for path in sorted(SHARED.iterdir()) if path.suffix in {".al3d", ".frt", ".sdf", ".txt", ".x3p"}]
-        sources = [path for path in sources if "iso2" not in path.name]
-        self.assertGreater(len(sources), 5)
-        for source in sources:
-            with self.subTest(source=source.name):
-                self.check(source)
-
-    def test_a_profile(self):
-        profile = self.folder / "profile.hfm"
-        lines = "".join(f"{8.5 + n / 1000};{np.sin(n)};1\n" for n in range(40))
-        profile.write_text("X;Y;valid\n[mm];[um];[1/0]\n" + lines, encoding="utf-8")
-        self.check(profile)
-        done = program(self.folder / "out.sdf", "--profile-lay", "along")
-        self.assertIn("40 x 1", done.stdout, done.stderr)
-
-
-class Text(unittest.TestCase):
-    def compare(self, name, *arguments, turned=False):
-        """The program and SurfaceTopography read the same of a file of the corpus."""
-        with tempfile.TemporaryDirectory() as folder:
-            target = pathlib.Path(folder) / "out.sdf"
-            done = program(CORPUS / name, "--to", target, *arguments)
-            self.assertEqual(done.returncode, 0, done.stderr)
-            found = sdfio.read(target)
-        heights, along, across = by_surface_topography(CORPUS / name)
-        if turned:
-            heights, along, across = heights.T, across, along
-        # Units are multiplied in another order: a few roundings.
-        np.testing.assert_allclose(found.data, heights, rtol=1e-14, atol=0)
-        pitches = [found.header.x_scale, found.header.y_scale]
-        np.testing.assert_allclose(pitches, [along, across] if heights.shape[0] > 1 else [along] * 2, rtol=1e-12)
-
-    def test_matrices(self):
-        for name in ["gwyddion.txt", "holographic.txt", "spip.asc"]:
+    def test_every_sample_has_the_heights_of_another_reader(self):
+        for name, expected in EXPECTED.items():
             with self.subTest(name=name):
-                self.compare(name)
+                heights, pitch = self.read(self.convert(SAMPLES / name))
+                np.testing.assert_allclose(pitch, expected["pitch"], rtol=1e-15)
+                if "heights" not in expected:
+                    found = [list(heights.shape), int(np.isnan(heights).sum()), heights[np.isfinite(heights)][0]]
+                    self.assertEqual(found, [expected["shape"], expected["missing"], expected["first"]])
+                    self.assertTrue(math.isclose(np.nansum(heights), expected["sum"], rel_tol=1e-13))
+                    continue
+                np.testing.assert_allclose(heights, np.array(expected["heights"], float), rtol=1e-15, atol=0)
 
-    def test_wyko(self):
-        # Lines of the file are columns of the surface; SurfaceTopography takes them as they stand.
-        self.compare("wyko.asc", turned=True)
+    def test_text_exports_have_the_numbers_that_they_were_made_of(self):
+        number = 1e-6 * np.arange(20.0).reshape(5, 4)
+        for name in ["keyence.csv", "wyko.asc", "zygo.xyz", "zygo.asc", "spip.asc", "holographic.txt"]:
+            with self.subTest(name=name):
+                heights, _ = self.read(self.convert(SAMPLES / name))
+                there = np.isfinite(heights)
+                self.assertEqual(np.argwhere(~there).tolist(), [] if name == "holographic.txt" else [[2, 1]])
+                np.testing.assert_allclose(heights[there], number[there], rtol=1e-15)
+
+    def test_points_of_a_profile_are_even_but_for_rounding_and_holes(self):
+        path, values = pathlib.Path("a.csv"), np.arange(20.0)
+        rounded = np.round(np.arange(20) * 0.15625, 1) * 1e-6
+        found, step = _even(path, rounded, values)
+        self.assertEqual((found.tolist(), step), (values.tolist(), rounded[-1] / 19))
+        found, step = _even(path, np.delete(np.arange(20.0), 7), np.delete(values, 7))
+        self.assertTrue(step == 1.0 and np.isnan(found[7]) and np.array_equal(np.delete(found, 7), np.delete(values, 7)))
+        for uneven in ([0.0, 1.0, 2.0, 3.31, 4.0], [0.0, 1.0, 3.0, 4.0, 7.0, 8.0], [0.0, 2.0, 1.0], [1.0]):
+            with self.assertRaises(InputError):
+                _even(path, np.array(uneven), np.zeros(len(uneven)))
+
+    def test_measured_surfaces_have_the_parameters_of_other_programs(self):
+        if SHARED is None:
+            self.skipTest("no folder shared/surfaces above the checkout (PLATEAU_SHARED names the folder shared)")
+        known = json.loads((SHARED / "values.json").read_text(encoding="utf-8"))
+        for name, letter in [("alicona_200x296.al3d", "A"), ("dhm_grooves_75x305.txt", "B"), ("lay_200x200.x3p", "C"), ("frt_missing_150x300.frt", "F")]:
+            path = self.convert(SHARED / name)
+            if letter == "C":
+                # zipfile and numpy.frombuffer(bindata/data.bin, "<f8").reshape(200, 200), column by column.
+                digest = hashlib.sha256(self.read(path)[0].astype("<f8").tobytes()).hexdigest()
+                self.assertEqual(digest, "0fb16d4f3922af9797049d957a3ea1e2667b424549baf4b507dcc8f074d00140")
+            found = json.loads(program("surface", path, "--json").stdout)
+            expected = next(one["own"] for key, one in known.items() if key.startswith(letter))
+            for parameter in ("Sa", "Sq", "Ssk", "Sku"):
+                with self.subTest(name=name, parameter=parameter):
+                    self.assertTrue(math.isclose(found[parameter], expected[parameter], rel_tol=1e-5), f"{found[parameter]}")
+
+    def test_the_file_tells_where_it_comes_from_and_other_programs_read_it(self):
+        source = SAMPLES / "wyko.asc"
+        path = self.convert(source)
+        digest = hashlib.sha256(source.read_bytes()).hexdigest()
+        with h5py.File(path) as file:
+            attributes = dict(file["height"].attrs)
+            self.assertEqual((attributes["source_file"], attributes["source_sha256"]), ("wyko.asc", digest))
+            self.assertTrue(attributes["converted_by"].startswith("SurfaceTopography "))
+        with xarray.open_dataset(path) as opened:
+            self.assertEqual((opened.height.dims, opened.x.attrs["units"]), (("x", "y"), "m"))
+        with netCDF4.Dataset(path) as opened:
+            self.assertEqual(opened["height"].shape, (5, 4))
+        told = program("surface", path, "--json")
+        self.assertIn(f"converted from wyko.asc (SHA-256 {digest}) by SurfaceTopography", told.stdout)
+
+    def test_peaks_are_positive_on_the_pin_and_the_run_file_names_the_source(self):
+        path = self.convert(SAMPLES / "wyko.asc")
+        scene = self.folder / "scene.toml"
+        scene.write_text(
+            f'extends = "{ROOT}/data/scenes/quick.toml"\n[pin.surface]\nfile = "{path}"\n'
+            '[pin.prepare]\nfill = "level"\nrepeat = true\npixel = "1 mm"\n[operation]\nduration = "1 s"\n[output]\nfile = "run.h5"\n',
+            encoding="utf-8",
+        )
+        done = program("run", scene, "-o", self.folder / "run.h5")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        with h5py.File(self.folder / "run.h5") as file:
+            told = file.attrs["surfaces"]
+        self.assertIn("converted from wyko.asc (SHA-256 ", told)
+        self.assertIn("pin.surface: negated", told)
+
+    def test_what_is_not_there_or_not_right_is_told(self):
+        text = (SAMPLES / "keyence.csv").read_bytes()
+        for name, content, expected in [
+            ("a.csv", text.replace(b'"H\xf6he"\r\n"0', b'"Laser"\r\n"0'), 'line 10: the file holds "Laser", expected heights'),
+            ("b.csv", text.replace(b'"12,0"', b'"12.0"'), "decimal points and decimal commas"),
+            ("c.csv", text.replace(b'"Vertikal","4"', b'"Vertikal","5"'), "states 5 x 5 points, but there are 4 lines of 5"),
+            ("d.csv", b'"XY Calibration","1","um"\n', "no line below its header names what it holds"),
+            ("zygo.xyz", (SAMPLES / "zygo.xyz").read_bytes().replace(b"11 6 19", b"99 6 19"), "lie outside of the 5 x 4"),
+            ("zygo.asc", (SAMPLES / "zygo.asc").read_bytes()[:-60], "states 20 phases"),
+            ("plain.txt", b"# Channel: z\n# Width: 4 um\n# Height: 2 um\n1 2 3 4\n5 6 7 8\n", "states no unit of its heights"),
+            ("picture.al3d", b"AliconaImaging\0\r\n", "no library reads it (SurfaceTopography: "),
+            ("native.sdf", b"aISO-1.0\r\n", "need not be converted"),
+        ]:
+            with self.subTest(name=name):
+                path = self.folder / name
+                path.write_bytes(content)
+                with self.assertRaises(InputError) as caught:
+                    convert(path)
+                self.assertIn(expected, str(caught.exception))
+                self.assertIn(name, str(caught.exception))
+        with self.assertRaises(FileNotFoundError):
+            convert(self.folder / "nothing.al3d")
+
+    def test_the_program_hands_over_and_new_converts(self):
+        shutil.copy(SAMPLES / "float64.x3p", self.folder / "scan.x3p")
+        told = program("surface", "scan.x3p", cwd=self.folder)
+        self.assertEqual((told.returncode, told.stdout), (2, ""))
+        self.assertIn("this is an X3P file (.x3p), which is not read as it is; convert it: plateau surface convert FILE -o FILE.h5", told.stderr)
+        done = program("surface", "convert", "scan.x3p", cwd=self.folder)
+        self.assertEqual((done.returncode, done.stdout), (0, "wrote scan.h5\n"), done.stderr)
+        again = program("surface", "convert", "scan.x3p", cwd=self.folder)
+        self.assertEqual(again.returncode, 2)
+        self.assertIn("scan.h5 exists; give --force to replace it", again.stderr)
+        (self.folder / "scan.h5").unlink()
+        made = program("new", "mine.toml", "--disc", "scan.x3p", cwd=self.folder)
+        self.assertEqual(made.returncode, 0, made.stderr)
+        self.assertIn("scan.x3p: converted to scan.h5, which the scene names", made.stdout)
+        self.assertIn('file = "scan.h5"', (self.folder / "mine.toml").read_text(encoding="utf-8"))
+        # Without the package, the same line says what to run and to install.
+        bare = {**os.environ, "PATH": "/usr/bin:/bin"}
+        told = program("new", "other.toml", "--disc", "scan.x3p", cwd=self.folder, env=bare)
+        beside = pathlib.Path(PROGRAM).resolve().parent / "plateau-surface"
+        if "PLATEAU_PROGRAM" in os.environ and not beside.exists():
+            self.assertEqual(told.returncode, 2, told.stdout)
+            self.assertIn("pip install 'plateau-brake[all]'", told.stderr)
 
 
 if __name__ == "__main__":

@@ -123,7 +123,6 @@ class Filters(unittest.TestCase):
         if folder is None:
             self.skipTest("no folder shared/surfaces above the checkout (PLATEAU_SHARED names the folder shared)")
         for name, columns, rows in [
-            ("lay_200x200.x3p", 200, 200),
             ("lay_plu_384x288_iso1_binary64.sdf", 384, 288),
             ("afm_256x256_iso2_int32.sdf", 256, 256),
             ("alicona_200x296_iso1_int32.sdf", 200, 296),

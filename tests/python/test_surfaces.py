@@ -85,12 +85,6 @@ class Written(unittest.TestCase):
         self.assertEqual(path.read_bytes()[:8], b"bISO-2.0")
         self.check(path, z, [by_sdfio, by_surfalize])
 
-    def test_x3p(self):
-        for missing in [False, True]:
-            z = heights(37, 53, missing)
-            path = self.convert(z, f"missing-{missing}.x3p")
-            self.check(path, z, [by_surfalize, by_surface_topography])
-
 
 if __name__ == "__main__":
     unittest.main()

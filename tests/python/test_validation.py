@@ -229,7 +229,7 @@ class Documents(unittest.TestCase):
 
     def test_the_first_screen_has_one_number_for_one_thing(self) -> None:
         readme = (ROOT / "README.md").read_text().split(write_docs.MARKS[0])[1].split(write_docs.MARKS[1])[0]
-        validation = (ROOT / "docs/validation.md").read_text()
+        validation = (ROOT / "docs/evidence/validation.md").read_text()
         for heights in ("1", "0.1", "0.01"):
             area = tables.last_tenth(heights, 3000.0)
             self.assertIn(area, readme)

@@ -9,7 +9,7 @@ use std::path::Path;
 use ndarray::ArrayView2;
 use plateau_core::model::accounts::{Accounts, AccountsReport, StepFacts};
 use plateau_core::model::state::{Base, InitialSurfaces};
-use plateau_core::model::step::advance;
+use plateau_core::model::step::advance_under;
 use plateau_core::model::{State, Volumes};
 use plateau_io::scene::Scene;
 use plateau_io::surface;
@@ -38,9 +38,11 @@ pub fn write(scene: &Scene, folder: &Path) -> Result<(), Box<dyn Error>> {
             accounts.begin(step, parameters.step_angle());
             wear_rate_factor = accounts.wear_rate_factor();
         }
-        let done = advance(&parameters.with_wear_rate_factor(wear_rate_factor), &mut state)?;
+        let mut operation = parameters.operation_of(step, &parameters.clock());
+        let friction = accounts.as_ref().and_then(Accounts::friction_coefficient);
+        operation.load = parameters.load_by(operation.load, friction, step)?;
+        let done = advance_under(operation.load, &parameters.with_wear_rate_factor(wear_rate_factor), &mut state)?;
         let areas = || mesh.area().iter().cycle();
-        let operation = parameters.operation_of(step, &parameters.clock());
         let mut record: Record = vec![
             ("time", operation.end),
             ("displacement", done.displacement),

@@ -290,6 +290,8 @@ fn a_check_lists_every_part_that_a_scene_can_do_without() {
         "formation of plateaus",
         "destruction of plateaus",
         "properties of their own for build-ups",
+        "strength of build-up",
+        "transport length",
         "debris pool",
         "one debris pool per track",
         "exponential wear",
@@ -322,8 +324,7 @@ fn a_check_lists_every_part_that_a_scene_can_do_without() {
     let most = [
         "materials.disc_primary.specific_wear_rate=1e-16 1/Pa",
         "materials.pin_secondary.youngs_modulus=2e9 Pa",
-        "plateaus.debris=track",
-        "plateaus.captured_fraction=0.06",
+        "materials.pin_secondary.strength=5 MPa",
         "numerics.integrator=exponential",
         "numerics.workers=2",
         "operation.cycle.points=[[\"0 s\", \"5 N\", \"850 rpm\"], [\"60 s\", \"9 N\", \"850 rpm\"]]",
@@ -338,7 +339,17 @@ fn a_check_lists_every_part_that_a_scene_can_do_without() {
     let switches: Vec<String> = on_request().map(|(name, _)| format!("output.{name}=true")).collect();
     let most = most.into_iter().chain(switches.iter().map(String::as_str));
     let most: Vec<&str> = most.flat_map(|set| ["--set", set]).collect();
-    assert_eq!((parts(&most, "needed"), parts(&most, "left_out")), (optional, vec![]));
+    // Pools have no transport length, run on one worker, and have what local debris has not.
+    let transport = ["plateaus.transport_length=200 um"];
+    let pools = ["plateaus.debris=track", "plateaus.captured_fraction=0.06"];
+    let of_pools = ["destruction of plateaus", "debris pool", "one debris pool per track"];
+    let not_of_pools = ["transport length", "several workers"];
+    for (sets, without) in [(&transport[..], &of_pools[..]), (&pools, &not_of_pools)] {
+        let most: Vec<&str> = most.iter().copied().chain(sets.iter().flat_map(|set| ["--set", set])).collect();
+        let (out, needed): (Vec<_>, Vec<_>) =
+            optional.iter().cloned().partition(|part| without.contains(&part.as_str()));
+        assert_eq!((parts(&most, "needed"), parts(&most, "left_out")), (needed, out));
+    }
 }
 
 #[test]

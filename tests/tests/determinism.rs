@@ -90,10 +90,12 @@ impl Scene {
 /// Without this, resin touches only after 16 000 steps.
 const FAST: &str = "numerics.time_acceleration=400";
 
-/// A pool of so much debris that plateaus fall in few steps.
-const POOLED: [&str; 3] = [FAST, "plateaus.debris=contact", "plateaus.captured_fraction=0.5"];
-/// One pool for each track.
-const TRACK: [&str; 3] = [FAST, "plateaus.debris=track", "plateaus.captured_fraction=0.5"];
+/// Build-up that breaks away.
+const BRITTLE: [&str; 2] = [FAST, "materials.pin_secondary.strength=2 MPa"];
+/// Debris that is gathered and spread over four cells.
+const TRANSPORT: [&str; 2] = [FAST, "plateaus.transport_length=770 um"];
+/// Wear by what plateaus slide on.
+const COUNTERFACE: &str = "materials.pin_primary.wear_rate_against_secondary=1e-14 1/Pa";
 
 /// Materials of their own for all that can touch, on a disc that wears.
 const OWN_MATERIALS: [&str; 7] = [
@@ -112,15 +114,14 @@ fn local(parameters: &mut Parameters) {
     parameters.plateaus.captured_fraction = 1.0;
 }
 
-fn plateaus_form_and_fall(end: &Sample) -> bool {
+fn plateaus_form_and_break(end: &Sample) -> bool {
     end.worn_resin > 0.0 && end.deposited_pin > 0.0 && end.deposited_disc > 0.0 && end.returned > 0.0
 }
 
 fn the_disc_wears_too(end: &Sample) -> bool {
-    plateaus_form_and_fall(end) && end.worn_disc > 0.0
+    plateaus_form_and_break(end) && end.worn_disc > 0.0
 }
 
-/// With local debris nothing falls, and there is no pool.
 fn plateaus_form_of_local_debris(end: &Sample) -> bool {
     end.worn_resin > 0.0 && end.deposited_pin > 0.0 && end.deposited_disc > 0.0 && end.emitted > 0.0
 }
@@ -131,14 +132,19 @@ fn the_quick_scene() {
 }
 
 #[test]
-fn the_quick_scene_with_a_pool() {
-    let sets = ["plateaus.debris=contact", "plateaus.captured_fraction=0.06"];
-    Scene::quick(17_000, &sets).agrees_for_all(plateaus_form_and_fall);
+fn a_strength_of_build_up() {
+    Scene::quick(1500, &BRITTLE).agrees_for_all(plateaus_form_and_break);
 }
 
 #[test]
-fn one_pool_per_track() {
-    Scene::quick(1500, &TRACK).agrees_for_all(plateaus_form_and_fall);
+fn a_transport_length() {
+    Scene::quick(1500, &TRANSPORT).agrees_for_all(plateaus_form_of_local_debris);
+}
+
+#[test]
+fn a_transport_length_with_a_strength_and_wear_by_counterface() {
+    let sets = [&TRANSPORT[..], &BRITTLE[1..], &[COUNTERFACE]].concat();
+    Scene::quick(1500, &sets).agrees_for_all(plateaus_form_and_break);
 }
 
 /// A round pin, whose rows begin and end in other columns, on the cells of the quick scene.
@@ -150,24 +156,25 @@ fn a_round_pin() {
 }
 
 #[test]
-fn a_round_pin_with_a_pool() {
-    Scene::quick(1500, &[&ROUND[..], &POOLED].concat()).agrees_for_all(plateaus_form_and_fall);
+fn a_round_pin_with_a_strength() {
+    Scene::quick(1500, &[&ROUND[..], &BRITTLE].concat()).agrees_for_all(plateaus_form_and_break);
 }
 
 #[test]
-fn a_round_pin_with_materials_of_their_own_and_one_pool_per_track() {
-    Scene::quick(1500, &[&ROUND[..], &TRACK, &OWN_MATERIALS].concat()).agrees_for_all(the_disc_wears_too);
+fn a_round_pin_with_materials_of_their_own_and_a_transport_length() {
+    let sets = [&ROUND[..], &TRANSPORT, &OWN_MATERIALS].concat();
+    Scene::quick(1500, &sets).agrees_for_all(|end| plateaus_form_of_local_debris(end) && end.worn_disc > 0.0);
 }
 
 #[test]
 fn exponential_wear_with_materials_of_their_own() {
-    let sets = [&POOLED[..], &OWN_MATERIALS, &["numerics.integrator=exponential"]].concat();
+    let sets = [&BRITTLE[..], &OWN_MATERIALS, &["numerics.integrator=exponential"]].concat();
     Scene::quick(1500, &sets).agrees_for_all(the_disc_wears_too);
 }
 
 #[test]
-fn explicit_wear_with_materials_of_their_own_and_one_pool_per_track() {
-    let sets = [&TRACK[..], &OWN_MATERIALS].concat();
+fn explicit_wear_with_materials_of_their_own_and_all_that_build_up_can_have() {
+    let sets = [&TRANSPORT[..], &BRITTLE[1..], &OWN_MATERIALS].concat();
     Scene::quick(1500, &sets).agrees_for_all(the_disc_wears_too);
 }
 
@@ -196,22 +203,19 @@ fn no_formation_on_a_disc_that_wears() {
 }
 
 #[test]
-fn no_destruction() {
-    let sets = [&POOLED[..], &["plateaus.destruction=false"]].concat();
-    Scene::quick(1500, &sets).agrees_for_all(|end| end.deposited_pin > 0.0 && end.returned == 0.0);
-}
-
-#[test]
 fn a_time_acceleration_at_which_much_changes() {
     let sets = ["numerics.time_acceleration=1000", "numerics.integrator=exponential", "plateaus.captured_fraction=0.9"];
     Scene::quick(3000, &sets).agrees_for_all(plateaus_form_of_local_debris);
-    let sets = [&sets[..], &["plateaus.debris=contact"]].concat();
-    Scene::quick(3000, &sets).agrees_for_all(|end| plateaus_form_and_fall(end) && end.filled_fraction > 0.2);
 }
 
 #[test]
 fn a_pin_as_wide_as_the_ring() {
-    Scene::random([9, 37, 37], |_| ()).agrees_for_all(plateaus_form_and_fall);
+    let over_a_length = |parameters: &mut Parameters| {
+        local(parameters);
+        parameters.plateaus.transport_length =
+            Some(3.0 * parameters.mesh.mean_radius() * parameters.mesh.column_angle());
+    };
+    Scene::random([9, 37, 37], over_a_length).agrees_for_all(plateaus_form_of_local_debris);
     Scene::random([9, 37, 37], local).agrees_for_all(plateaus_form_of_local_debris);
 }
 
@@ -221,15 +225,17 @@ fn rows_that_fill_no_strip_and_columns_that_no_number_of_workers_divides() {
         parameters.materials.disc_primary.specific_wear_rate = 1e-15;
         parameters.materials.pin_secondary.specific_wear_rate = 9e-14;
         parameters.materials.disc_secondary.youngs_modulus = 2e10;
-        parameters.plateaus.debris = DebrisRule::Track;
+        local(parameters);
+        parameters.plateaus.transport_length =
+            Some(5.0 * parameters.mesh.mean_radius() * parameters.mesh.column_angle());
         parameters.integrator = Integrator::Exponential;
     };
-    Scene::random([13, 211, 29], change).agrees_for_all(the_disc_wears_too);
+    Scene::random([13, 211, 29], change)
+        .agrees_for_all(|end| plateaus_form_of_local_debris(end) && end.worn_disc > 0.0);
 }
 
 #[test]
 fn rows_that_fill_no_strip_and_columns_that_are_prime_in_the_plainest_case() {
-    Scene::random([13, 211, 29], |_| ()).agrees_for_all(plateaus_form_and_fall);
     Scene::random([13, 211, 29], local).agrees_for_all(plateaus_form_of_local_debris);
 }
 

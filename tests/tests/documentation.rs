@@ -62,8 +62,9 @@ fn the_source_files_that_documents_name_exist() {
         "crates/io/src/scene/",
         "crates/io/src/surface/",
     ];
-    for document in ["model.md", "developing.md", "accuracy.md", "performance.md", "reliability.md", "stability.md"] {
-        let text = std::fs::read_to_string(repository.join("docs").join(document)).expect("a document");
+    let evidence = ["accuracy", "performance", "reliability", "stability"].map(|name| format!("evidence/{name}.md"));
+    for document in ["model.md", "developing.md"].map(String::from).into_iter().chain(evidence) {
+        let text = std::fs::read_to_string(repository.join("docs").join(&document)).expect("a document");
         let files: Vec<&str> = code(&text).filter(|code| code.ends_with(".rs") && !code.contains(' ')).collect();
         for file in files {
             let is_there = places.iter().any(|place| repository.join(place).join(file).is_file());
@@ -126,7 +127,6 @@ fn need(key: &Key) -> String {
             let (_, key) = choose.key.rsplit_once('.').expect("a key of a table");
             format!("required; `{default}` with `{key} = \"{}\"`", choose.value)
         }
-        Need::RequiredWithout(table) => format!("required without `[{table}]`"),
         Need::OfWay(unless) => {
             let ways = WAYS.iter().find(|ways| ways.section == key.section).expect("ways of the table");
             let set = ways.sets.into_iter().find(|set| set.contains(&key.name)).expect("a way of the key");
@@ -147,7 +147,8 @@ fn need(key: &Key) -> String {
 
 /// Tables that have the same keys, but for those that the last alone has.
 const ALIKE: &[&[&str]] = &[
-    &["materials.disc_primary", "materials.pin_primary", "materials.disc_secondary", "materials.pin_secondary"],
+    &["materials.disc_primary", "materials.disc_secondary"],
+    &["materials.pin_primary", "materials.pin_secondary"],
     &["disc.surface", "pin.surface"],
     &["disc.prepare", "pin.prepare"],
 ];
@@ -284,9 +285,10 @@ fn python_knows_the_same_totals() {
 /// Markdown files of the repository, by their path from its root.
 fn documents() -> Vec<PathBuf> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
-    let docs = std::fs::read_dir(root.join("docs")).expect("docs").map(|entry| entry.expect("an entry").path());
-    let docs = docs.filter(|path| path.extension().is_some_and(|end| end == "md"));
-    docs.chain([root.join("README.md")]).collect()
+    let folders = ["docs", "docs/evidence"].map(|folder| std::fs::read_dir(root.join(folder)).expect(folder));
+    let paths = folders.into_iter().flatten().map(|entry| entry.expect("an entry").path());
+    let documents = paths.filter(|path| path.extension().is_some_and(|end| end == "md"));
+    documents.chain([root.join("README.md")]).collect()
 }
 
 /// The name by which a link finds a heading: as GitHub makes it.

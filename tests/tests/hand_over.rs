@@ -31,9 +31,10 @@ fn words_of_others_are_answered_by_them() {
             "plateau-compare\na.toml\nb c.toml\n--seeds=3\n--quiet\n",
         ),
         (&["sweep", "effects", "s.toml", "--set", "-1"], "plateau-sweep\neffects\ns.toml\n--set\n-1\n"),
+        (&["surface", "convert", "a.al3d", "-o", "a.h5"], "plateau-surface\nconvert\na.al3d\n-o\na.h5\n"),
         (&["own-word", "-x", ""], "plateau-own-word\n-x\n\n"),
     ] {
-        let outcome = call(&["fit", "compare", "sweep", "own-word"], arguments);
+        let outcome = call(&["fit", "compare", "sweep", "surface", "own-word"], arguments);
         assert_eq!(outcome.status, Some(7), "{arguments:?}: {outcome:?}");
         let expected = format!("{answer}plateau\n");
         assert_eq!(outcome.stdout, expected, "{arguments:?}: {outcome:?}");
@@ -61,7 +62,12 @@ fn who_asks_back_is_told_and_help_is_the_programs_own() {
 
 #[test]
 fn without_who_answers_it_is_said_what_to_install() {
-    for arguments in [&["fit", "study.toml"][..], &["plot", "a.h5"], &["sweep", "effects", "s.toml"]] {
+    for arguments in [
+        &["fit", "study.toml"][..],
+        &["plot", "a.h5"],
+        &["sweep", "effects", "s.toml"],
+        &["surface", "convert", "a.al3d"],
+    ] {
         let outcome = call(&[], arguments);
         assert_eq!(outcome.status, Some(1), "{outcome:?}");
         assert!(

@@ -109,7 +109,7 @@ fn checkpoints_and_journals_take_no_more_memory_than_they_hold() {
     assert_eq!(directory.plateau(short).status, Some(0));
     let before = fs::read(directory.path("run.h5")).unwrap();
     let content = (HUGE - 16 - 8 - 32).to_le_bytes();
-    huge(&directory, "run.h5.checkpoint", &[&b"plateau state 7\n"[..], &content].concat(), HUGE);
+    huge(&directory, "run.h5.checkpoint", &[&b"plateau state 8\n"[..], &content].concat(), HUGE);
     let refused = limited(&directory, &[&short[..], &["--resume"]].concat());
     assert_refused(&refused, "larger than any of this run");
     assert!(fs::read(directory.path("run.h5")).unwrap() == before);

@@ -7,7 +7,7 @@
 use std::collections::BTreeMap;
 use std::process::Command;
 
-use plateau_io::checkpoint::{self, RunState};
+use plateau_io::run_file::checkpoint::{self, RunState};
 use plateau_tests::power_loss::{Files, Journal, after_starts};
 use plateau_tests::program::{Outcome, WorkingDirectory, run, scene};
 use plateau_tests::run_file::{Content, RunFile, differences, differences_of_start};

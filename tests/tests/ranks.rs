@@ -50,7 +50,7 @@ fn written(directory: &WorkingDirectory, outcome: &Outcome) -> (BTreeMap<String,
 fn the_number_of_ranks_does_not_show() {
     for debris in [
         &["--set=plateaus.debris=local"][..],
-        &["--set=plateaus.debris=contact", "--set=plateaus.captured_fraction=0.06"],
+        &["--set=plateaus.transport_length=770 um", "--set=materials.pin_secondary.strength=2 MPa"],
     ] {
         let on_threads = |threads| {
             let directory = WorkingDirectory::new();

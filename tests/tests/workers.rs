@@ -90,10 +90,10 @@ fn another_seed_gives_other_numbers() {
 
 #[test]
 fn neither_workers_nor_instruction_sets_show_in_a_run_file() {
-    // Resin wears and plateaus fall at this acceleration, and there are maps on the way.
+    // Resin wears and build-up breaks away at this acceleration, and there are maps on the way.
     let local = ["numerics.time_acceleration=400", "output.maps_at=[\"0 s\", \"20 s\", \"40 s\"]"];
-    let pooled = [&local[..], &["plateaus.debris=contact", "plateaus.captured_fraction=0.06"]].concat();
-    for (scene, moved) in [(&local[..], "emitted"), (&pooled, "returned")] {
+    let brittle = [&local[..], &["materials.pin_secondary.strength=2 MPa"]].concat();
+    for (scene, moved) in [(&local[..], "emitted"), (&brittle, "returned")] {
         let scene: Vec<&str> = scene.iter().flat_map(|set| ["--set", set]).collect();
         let (reference, _directory) = assert_alike(&scene);
         assert_eq!(reference.shape("/map_time"), [4]);

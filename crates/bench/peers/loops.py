@@ -7,14 +7,11 @@ MOST_EVALUATIONS = 200
 
 
 @njit
-def step(fields, rules, turned, displacement, pool):
-    """Displacement, contact area, pool, deposited volume and load evaluations of a step."""
+def step(fields, rules, turned, displacement):
+    """Displacement, contact area, deposited volume and load evaluations of a step."""
     displacement, contact_area, evaluations = balance_load(fields, rules, turned, displacement)
-    if rules.local:
-        deposited = wear_with_local_debris(fields, rules, turned, displacement)
-    else:
-        pool, deposited = wear_with_pool(fields, rules, turned, displacement, contact_area, pool)
-    return displacement, contact_area, pool, deposited, evaluations
+    deposited = wear_with_local_debris(fields, rules, turned, displacement)
+    return displacement, contact_area, deposited, evaluations
 
 
 @njit
@@ -92,39 +89,3 @@ def wear_with_local_debris(fields, rules, turned, displacement):
                     z_d[behind, i] += deposit - on_pin
                     deposited += deposit * rules.area[i]
     return deposited
-
-
-@njit
-def wear_with_pool(fields, rules, turned, displacement, contact_area, pool):
-    """What all cells lose is shared out evenly in the next step."""
-    z_p, b_p, fibre, z_d, gap, _ = fields
-    area = rules.area
-    columns, rows = z_p.shape
-    ring = z_d.shape[0]
-    open_area = rules.pin_area - contact_area
-    share = max(pool / open_area, 0.0) if open_area > 0.0 else 0.0
-    worn, returned, deposited = 0.0, 0.0, 0.0
-    # Column by column: the one ahead, j + 1, is still as it was at the start of the step
-    for j in range(columns):
-        c = (j - turned) % ring
-        for i in range(rows):
-            supported = j + 1 < columns and (fibre[j + 1, i] or z_p[j + 1, i] < b_p[j + 1, i])
-            overlap = displacement - gap[j, i]
-            if overlap > 0.0:
-                build_up = b_p[j, i] - z_p[j, i]
-                wear_per_overlap = rules.wear_rate * rules.stiffness_plateau * rules.sliding[i]
-                loss = loss_of(fibre[j, i], build_up, overlap, wear_per_overlap, rules.wear_height)
-                worn += loss * area[i]
-                z_p[j, i] = b_p[j, i] if loss == build_up else z_p[j, i] + loss
-                b_p[j, i] = max(b_p[j, i], z_p[j, i])
-            if not fibre[j, i] and z_p[j, i] < b_p[j, i] and not supported:
-                returned += (b_p[j, i] - z_p[j, i]) * area[i]
-                z_p[j, i] = b_p[j, i]
-            clearance = z_p[j, i] - z_d[c, i] - displacement
-            if overlap <= 0.0 and clearance > 0.0:
-                deposit = min(clearance, share)
-                on_pin = rules.pad_share * deposit if supported else 0.0
-                z_p[j, i] -= on_pin
-                z_d[c, i] += deposit - on_pin
-                deposited += deposit * area[i]
-    return pool + rules.captured * worn + returned - deposited, deposited

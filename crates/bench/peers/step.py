@@ -4,13 +4,12 @@
 
 reads scene.json and the surfaces from DIRECTORY, tells its versions, then answers requests, one JSON text a line:
 
-    {"do": "trace", "steps": N}     displacement, contact area, debris pool and volume deposited so far after each
-                                    of the next N steps
+    {"do": "trace", "steps": N}     displacement, contact area and volume deposited so far after each of the next N steps
     {"do": "write"}                 writes the heights to DIRECTORY
     {"do": "advance", "steps": N}   makes N steps; the seconds that they took, the load evaluations of all steps so far
 
-For scenes with local debris, or with one debris pool, formation and destruction; with explicit wear, a disc that does
-not wear, and build-ups with the properties of what they lie on. Fields are arrays (column, row); z grows from the disc
+For scenes with local debris and formation, explicit wear, a disc that does not wear, and build-ups with the properties of
+what they lie on. Fields are arrays (column, row); z grows from the disc
 to the pin.
 """
 import json
@@ -38,7 +37,6 @@ class Fields(NamedTuple):
 class Rules(NamedTuple):
     area: np.ndarray  # of the cells of every row
     sliding: np.ndarray  # distance of one step in every row
-    pin_area: float
     stiffness_plateau: float  # per area
     stiffness_resin: float
     wear_rate: float
@@ -46,9 +44,7 @@ class Rules(NamedTuple):
     force: float
     tolerance: float
     captured: float
-    local: bool  # debris: in the gap behind, or in one pool
     reference_height: float  # highest disc height before the first step
-    pad_share: float  # of the pin in a deposit out of the pool
 
 
 class Simulation:
@@ -79,7 +75,6 @@ class Simulation:
         self.rules = Rules(
             area=area,
             sliding=scene["time_acceleration"] * radius * angle,
-            pin_area=float(columns * area.sum()),
             stiffness_plateau=stiffness(scene["fibre"]),
             stiffness_resin=stiffness(scene["resin"]),
             wear_rate=scene["wear_rate"],
@@ -87,22 +82,19 @@ class Simulation:
             force=scene["normal_force"],
             tolerance=scene["load_tolerance"],
             captured=scene["captured_fraction"],
-            local=scene["debris"] == "local",
             reference_height=float(self.fields.z_d.max()),
-            pad_share=scene["pad_share"],
         )
         self.step = step
         self.turned = 0
         self.displacement = math.nan
         self.contact_area = 0.0
-        self.pool = 0.0
         self.deposited = 0.0
         self.evaluations = 0
 
     def advance(self, steps):
         for _ in range(steps):
-            self.displacement, self.contact_area, self.pool, deposited, evaluations = self.step(
-                self.fields, self.rules, self.turned, self.displacement, self.pool
+            self.displacement, self.contact_area, deposited, evaluations = self.step(
+                self.fields, self.rules, self.turned, self.displacement
             )
             self.turned += 1
             self.deposited += deposited
@@ -115,7 +107,7 @@ def answer(simulation, directory, request):
         simulation.advance(request["steps"])
         return {"seconds": time.perf_counter() - start, "evaluations": simulation.evaluations}
     if request["do"] == "trace":
-        trace = {"displacement": [], "contact_area": [], "pool": [], "deposited": []}
+        trace = {"displacement": [], "contact_area": [], "deposited": []}
         for _ in range(request["steps"]):
             simulation.advance(1)
             for name, values in trace.items():

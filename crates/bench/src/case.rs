@@ -7,9 +7,9 @@ use plateau_core::model::state::InitialSurfaces;
 use plateau_core::simulation::checkpoint::Checkpoint;
 use plateau_core::simulation::{Execution, Simulation};
 use plateau_io::{scene, surface};
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
-use crate::error::BenchError;
+use crate::Outcome;
 
 /// Scenes are measured as the paper's model has it; `--set` may ask for something else.
 const MODEL: &str = "numerics.time_acceleration=1";
@@ -17,25 +17,10 @@ const MODEL: &str = "numerics.time_acceleration=1";
 /// The time acceleration with which a pin wears in before a benchmark.
 const WEARING_IN: f64 = 100.0;
 
-/// All debris of the contact in one pool, which needs a captured fraction.
-pub const ONE_POOL: &str = "plateaus.debris=contact";
-/// A pool for each track, which needs one too.
-pub const POOL_PER_TRACK: &str = "plateaus.debris=track";
-/// The captured fraction of the pooled baseline.
-pub const POOLED_FRACTION: &str = "plateaus.captured_fraction=0.06";
-/// No plateau falls for want of support, which with local debris none does anyway.
-pub const NO_DESTRUCTION: &str = "plateaus.destruction=false";
-/// A hundredth of the wear rate of the pin.
-pub const DISC_WEAR: &str = "materials.disc_primary.specific_wear_rate=\"5e-16 1/Pa\"";
-/// Half the modulus of the fibres.
-pub const SOFTER_DEBRIS: &str = "materials.pin_secondary.youngs_modulus=\"5e8 Pa\"";
-/// Twice the wear rate of the fibres.
-pub const FASTER_DEBRIS: &str = "materials.pin_secondary.specific_wear_rate=\"1e-13 1/Pa\"";
-
 /// Parameters and surfaces of a simulation.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct Case {
-    /// Everything core is told.
+    /// Parameters of the simulation.
     pub parameters: Parameters,
     /// The surfaces before the first step.
     pub surfaces: InitialSurfaces,
@@ -44,7 +29,7 @@ pub struct Case {
 }
 
 /// Counts of cells.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize)]
 pub struct MeshSize {
     /// Cells in r.
     pub rows: usize,
@@ -119,7 +104,7 @@ impl Source {
     /// Cells keep their size, the disc its speed and the pin its nominal pressure: the width of the ring grows with the
     /// rows, its mean radius with the columns round it, the load with the area of the pin and the angular velocity
     /// against the radius. So every cell has as much to do as before.
-    pub fn on(&self, size: MeshSize) -> Result<Self, BenchError> {
+    pub fn on(&self, size: MeshSize) -> Outcome<Self> {
         let parameters = self.parameters()?;
         let mesh = &parameters.mesh;
         if size == mesh_size(&parameters) {
@@ -140,13 +125,13 @@ impl Source {
         ]))
     }
 
-    /// Everything core is told, without the surfaces.
-    pub fn parameters(&self) -> Result<Parameters, BenchError> {
+    /// Parameters, without the surfaces.
+    pub fn parameters(&self) -> Outcome<Parameters> {
         Ok(scene::load(&self.path, &self.sets)?.parameters)
     }
 
     /// Parameters and surfaces.
-    pub fn case(&self) -> Result<Case, BenchError> {
+    pub fn case(&self) -> Outcome<Case> {
         let scene = scene::load(&self.path, &self.sets)?;
         let surfaces = surface::load(&scene)?.surfaces;
         let mut case = Case { parameters: scene.parameters, surfaces, start: None };
@@ -159,7 +144,7 @@ impl Source {
 
 /// The state of a case after so much time (s), which is passed with a time acceleration: what a step costs depends on how the
 /// surfaces look, not on the last digit of a height.
-fn worn_in(case: &Case, time: f64) -> Result<Checkpoint, BenchError> {
+fn worn_in(case: &Case, time: f64) -> Outcome<Checkpoint> {
     let execution = Execution { workers: 1, ..Execution::default() };
     let mut simulation = Simulation::with_execution(case.parameters.clone(), case.surfaces.clone(), execution)?;
     simulation.accelerate(WEARING_IN)?;

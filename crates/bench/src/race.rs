@@ -2,14 +2,15 @@
 
 use std::time::Duration;
 
+use serde::Serialize;
+
+use crate::Outcome;
 use crate::case::MeshSize;
-use crate::document::{Measurement, Spread};
-use crate::error::BenchError;
 
 /// Something that makes steps.
 pub trait Runner {
     /// Makes so many steps; the time that they took.
-    fn advance(&mut self, steps: u64) -> Result<Duration, BenchError>;
+    fn advance(&mut self, steps: u64) -> Outcome<Duration>;
 
     /// Mean over all steps so far, where it is known.
     fn load_evaluations_per_step(&self) -> Option<f64> {
@@ -17,50 +18,95 @@ pub trait Runner {
     }
 }
 
-/// What takes part, and under which name.
+/// Something that is timed.
 pub struct Entry {
-    /// What sets it apart from the others.
+    /// Name that sets it apart from the others.
     pub name: String,
+    /// Place of the entry that it is compared with, which may be its own.
+    pub against: usize,
     /// Its mesh.
     pub mesh: MeshSize,
     /// Threads that share the ring.
     pub workers: usize,
-    /// Instruction set of its kernels.
-    pub instructions: String,
     /// It.
     pub runner: Box<dyn Runner>,
 }
 
 /// How much is measured.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Serialize)]
 pub struct Pace {
     /// Blocks of steps of each entry.
     pub repeats: usize,
-    /// How long a block of the slowest entry on a mesh takes, about.
+    /// Time of a block of the slowest entry on a mesh, about.
     pub block: Duration,
     /// Steps before the first block; one revolution if none are given, so that the pin has met every column.
     pub warm_up: Option<u64>,
 }
 
+/// Times of one entry.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Measurement {
+    /// Name that sets it apart from the others.
+    pub name: String,
+    /// Place of the entry that it is compared with.
+    pub against: usize,
+    /// Its mesh.
+    pub mesh: MeshSize,
+    /// Threads that share the ring.
+    pub workers: usize,
+    /// Steps of a block.
+    pub steps_per_block: u64,
+    /// Mean over all steps, where it is known.
+    pub load_evaluations_per_step: Option<f64>,
+    /// Time of a step in every block, in the order of measurement.
+    pub microseconds_per_step: Vec<f64>,
+}
+
+impl Measurement {
+    /// Time of a cell of the pin over that of `other`: ratios of blocks that were measured next to each other, so that what
+    /// slowed both down cancels.
+    pub fn ratio_to(&self, other: &Self) -> Spread {
+        let cells = other.mesh.pin_cells() as f64 / self.mesh.pin_cells() as f64;
+        let pairs = self.microseconds_per_step.iter().zip(&other.microseconds_per_step);
+        Spread::of(&pairs.map(|(this, other)| cells * this / other).collect::<Vec<_>>())
+    }
+}
+
+/// Least, middle and largest of several values.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Spread {
+    /// Least.
+    pub minimum: f64,
+    /// Middle; of an even number of values the mean of the two in the middle.
+    pub median: f64,
+    /// Largest.
+    pub maximum: f64,
+}
+
+impl Spread {
+    /// Of these values; not a number if there are none.
+    pub fn of(values: &[f64]) -> Self {
+        let mut sorted = values.to_vec();
+        sorted.sort_by(f64::total_cmp);
+        let at = |index: usize| sorted.get(index).copied().unwrap_or(f64::NAN);
+        let last = sorted.len().saturating_sub(1);
+        Self { minimum: at(0), median: 0.5 * (at(last / 2) + at(last.div_ceil(2))), maximum: at(last) }
+    }
+}
+
 /// Warms up all entries, then times them in turn. Entries on equal meshes make equal numbers of steps.
-pub fn race(mut entries: Vec<Entry>, pace: Pace) -> Result<Vec<Measurement>, BenchError> {
+pub fn race(mut entries: Vec<Entry>, pace: Pace) -> Outcome<Vec<Measurement>> {
     let mut steps = Vec::with_capacity(entries.len());
-    for entry in &mut entries {
-        let Entry { name, mesh, workers, runner, .. } = entry;
+    for Entry { name, mesh, workers, runner, .. } in &mut entries {
         eprintln!("warming up: {name}, {mesh}, workers: {workers}");
         let warm_up = pace.warm_up.unwrap_or(mesh.disc_columns as u64).max(1);
         runner.advance(warm_up)?;
         let trial = (warm_up / 20).max(1);
         let step = runner.advance(trial)?.as_secs_f64() / trial as f64;
-        steps.push((pace.block.as_secs_f64() / step.max(1e-9)).max(1.0) as u64);
+        steps.push((*mesh, (pace.block.as_secs_f64() / step.max(1e-9)).max(1.0) as u64));
     }
-    let blocks: Vec<u64> = entries
-        .iter()
-        .map(|entry| {
-            let same = entries.iter().zip(&steps).filter(|(other, _)| other.mesh == entry.mesh);
-            same.map(|(_, steps)| *steps).min().unwrap_or(1)
-        })
-        .collect();
+    let of_mesh = |mesh| steps.iter().filter(|(other, _)| *other == mesh).map(|(_, steps)| *steps).min().unwrap_or(1);
+    let blocks: Vec<u64> = entries.iter().map(|entry| of_mesh(entry.mesh)).collect();
 
     let mut times = vec![Vec::with_capacity(pace.repeats); entries.len()];
     for repeat in 1..=pace.repeats {
@@ -70,20 +116,59 @@ pub fn race(mut entries: Vec<Entry>, pace: Pace) -> Result<Vec<Measurement>, Ben
         }
     }
     let results = entries.into_iter().zip(blocks).zip(times);
-    Ok(results.map(|((entry, steps), times)| measurement(&entry, steps, times)).collect())
-}
-
-fn measurement(entry: &Entry, steps_per_block: u64, times: Vec<f64>) -> Measurement {
-    let microseconds_per_step = Spread::of(&times);
-    Measurement {
-        name: entry.name.clone(),
+    let measurement = |((entry, steps_per_block), microseconds_per_step): ((Entry, u64), Vec<f64>)| Measurement {
+        load_evaluations_per_step: entry.runner.load_evaluations_per_step(),
+        name: entry.name,
+        against: entry.against,
         mesh: entry.mesh,
         workers: entry.workers,
-        instructions: entry.instructions.clone(),
         steps_per_block,
         microseconds_per_step,
-        nanoseconds_per_cell: microseconds_per_step.median * 1e3 / entry.mesh.pin_cells() as f64,
-        load_evaluations_per_step: entry.runner.load_evaluations_per_step(),
-        raw_microseconds_per_step: times,
+    };
+    Ok(results.map(measurement).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Takes 2 µs a step, and three times as long in every other block.
+    struct Clockwork(u64);
+
+    impl Runner for Clockwork {
+        fn advance(&mut self, steps: u64) -> Outcome<Duration> {
+            self.0 += 1;
+            Ok(Duration::from_micros(2 * steps * if self.0.is_multiple_of(2) { 3 } else { 1 }))
+        }
+    }
+
+    #[test]
+    fn entries_alternate_and_are_compared_block_by_block() {
+        let entry = |name: &str, mesh, start| Entry {
+            name: name.to_owned(),
+            against: 0,
+            mesh,
+            workers: 1,
+            runner: Box::new(Clockwork(start)),
+        };
+        let large = MeshSize::QUICK.times(2);
+        let entries =
+            vec![entry("one", MeshSize::QUICK, 0), entry("same", MeshSize::QUICK, 0), entry("large", large, 1)];
+        let pace = Pace { repeats: 3, block: Duration::from_micros(60), warm_up: Some(20) };
+        let made = race(entries, pace).unwrap();
+        // The trial, the second block, takes 6 µs a step, or 2: 10 or 30 steps in 60 µs.
+        assert_eq!(made.iter().map(|one| one.steps_per_block).collect::<Vec<_>>(), [10, 10, 30]);
+        assert_eq!(made[0].microseconds_per_step, [2.0, 6.0, 2.0]);
+        assert_eq!(made[2].microseconds_per_step, [6.0, 2.0, 6.0]);
+        assert_eq!(made[1].ratio_to(&made[0]), Spread { minimum: 1.0, median: 1.0, maximum: 1.0 });
+        // Ratios 3, 1/3, 3 of a step with four times as many cells.
+        assert_eq!(made[2].ratio_to(&made[0]), Spread { minimum: 0.25 / 3.0, median: 0.75, maximum: 0.75 });
+    }
+
+    #[test]
+    fn the_median_is_in_the_middle() {
+        assert_eq!(Spread::of(&[3.0, 1.0, 8.0]), Spread { minimum: 1.0, median: 3.0, maximum: 8.0 });
+        assert_eq!(Spread::of(&[3.0, 1.0, 8.0, 4.0]), Spread { minimum: 1.0, median: 3.5, maximum: 8.0 });
+        assert!(Spread::of(&[]).median.is_nan());
     }
 }

@@ -4,94 +4,122 @@ use std::time::{Duration, Instant};
 
 use plateau_core::engine::kernel::InstructionSet;
 use plateau_core::observe::Map;
+use plateau_core::simulation::{Execution, Simulation};
 
-use crate::case::{
-    Case, DISC_WEAR, FASTER_DEBRIS, MeshSize, NO_DESTRUCTION, ONE_POOL, POOL_PER_TRACK, POOLED_FRACTION, SOFTER_DEBRIS,
-};
-use crate::document::{Benchmark, STRONG, WEAK};
-use crate::error::BenchError;
-use crate::race::{Entry, Runner, race};
-use crate::session::{Options, Session, WorkerOptions};
-use crate::stepper::{Setup, Stepper};
+use crate::case::{Case, MeshSize};
+use crate::race::{Entry, Measurement, Runner, race};
+use crate::{Outcome, Session};
+
+/// Times of a benchmark, and sentences on agreement with a peer.
+pub type Found = (Vec<Measurement>, Vec<String>);
+
+/// A hundredth of the wear rate of the pin.
+const DISC_WEAR: &str = "materials.disc_primary.specific_wear_rate=\"5e-16 1/Pa\"";
+/// Half the modulus of the fibres.
+const SOFTER_DEBRIS: &str = "materials.pin_secondary.youngs_modulus=\"5e8 Pa\"";
+/// Twice the wear rate of the fibres.
+const FASTER_DEBRIS: &str = "materials.pin_secondary.specific_wear_rate=\"1e-13 1/Pa\"";
 
 /// Times a step for every instruction set and number of workers.
-pub fn kernel(options: WorkerOptions) -> Result<Session, BenchError> {
-    let mut session = options.begin(Benchmark::Kernel)?;
+pub fn kernel(session: &Session) -> Outcome<Found> {
     let case = session.source.case()?;
     let mut entries = Vec::new();
     for workers in &session.workers {
         for instructions in InstructionSet::available() {
-            entries.push(entry(instructions.name(), session.mesh, &case, Setup { workers: *workers, instructions })?);
+            let execution = Execution { workers: *workers, instructions, ..Execution::default() };
+            entries.push(entry(instructions.name(), 0, session.mesh, *workers, simulation(&case, execution)?));
         }
     }
-    session.document.measurements = race(entries, session.pace)?;
-    Ok(session)
+    Ok((race(entries, session.pace)?, Vec::new()))
 }
 
 /// Times a step for every number of workers on meshes of several sizes.
 ///
-/// Strong scaling: every number of workers on every mesh. Weak scaling: W workers on a mesh whose pin and ring have W
-/// times the columns, so that every worker has as many cells as one has on the first mesh.
-pub fn scaling(options: WorkerOptions) -> Result<Session, BenchError> {
-    let mut session = options.begin(Benchmark::Scaling)?;
+/// Strong scaling: every number of workers on every mesh, compared with one worker; one worker on larger meshes, compared with the
+/// first. Weak scaling: W workers on a mesh whose pin and ring have W times the columns, so that every worker has as many cells as
+/// one has on the first mesh.
+pub fn scaling(session: &Session) -> Outcome<Found> {
+    let grown = [1, 2, 4].map(|factor| session.mesh.times(factor));
+    let meshes = if session.quick { grown[..2].to_vec() } else { [&grown[..], &[MeshSize::FULL_PAD]].concat() };
     let mut entries = Vec::new();
-    for mesh in session.meshes() {
-        let case = session.source.on(mesh)?.case()?;
+    for mesh in meshes {
+        let (case, alone) = (session.source.on(mesh)?.case()?, entries.len());
         for workers in &session.workers {
-            entries.push(entry(STRONG, mesh, &case, Setup::of(*workers))?);
+            let against = if *workers == session.workers[0] { 0 } else { alone };
+            entries.push(entry("strong", against, mesh, *workers, simulation(&case, execution(*workers))?));
         }
     }
     for workers in session.workers.iter().filter(|workers| **workers > 1) {
         let mesh = session.mesh.longer(*workers);
-        entries.push(entry(WEAK, mesh, &session.source.on(mesh)?.case()?, Setup::of(*workers))?);
+        let case = session.source.on(mesh)?.case()?;
+        entries.push(entry("weak", 0, mesh, *workers, simulation(&case, execution(*workers))?));
     }
-    session.document.measurements = race(entries, session.pace)?;
-    Ok(session)
+    Ok((race(entries, session.pace)?, Vec::new()))
 }
 
-/// A simulation that takes part in a race.
-pub fn entry(name: &str, mesh: MeshSize, case: &Case, setup: Setup) -> Result<Entry, BenchError> {
-    Ok(Entry {
-        name: name.to_owned(),
-        mesh,
-        workers: setup.workers,
-        instructions: setup.instructions.name().to_owned(),
-        runner: Box::new(Stepper::new(case, setup)?),
-    })
+fn entry(name: &str, against: usize, mesh: MeshSize, workers: usize, simulation: Simulation) -> Entry {
+    Entry { name: name.to_owned(), against, mesh, workers, runner: Box::new(simulation) }
 }
 
-/// Changes of a scene that switch one part on or off.
-struct Variant {
-    name: &'static str,
-    sets: &'static [&'static str],
+/// So many workers with the widest instruction set.
+fn execution(workers: usize) -> Execution {
+    Execution { workers, instructions: InstructionSet::best(), ..Execution::default() }
 }
 
+/// A case at its start.
+fn simulation(case: &Case, execution: Execution) -> Outcome<Simulation> {
+    let mut simulation = Simulation::with_execution(case.parameters.clone(), case.surfaces.clone(), execution)?;
+    if let Some(start) = &case.start {
+        simulation.restore(start)?;
+    }
+    Ok(simulation)
+}
+
+/// The same with one worker.
+pub fn alone(case: &Case) -> Outcome<Simulation> {
+    simulation(case, execution(1))
+}
+
+impl Runner for Simulation {
+    fn advance(&mut self, steps: u64) -> Outcome<Duration> {
+        let end = self.steps_done() + steps;
+        let start = Instant::now();
+        self.pass_to(end)?;
+        Ok(start.elapsed())
+    }
+
+    fn load_evaluations_per_step(&self) -> Option<f64> {
+        let course = self.course();
+        (course.steps > 0).then(|| 1.0 + course.extra_readings as f64 / course.steps as f64)
+    }
+}
+
+/// Changes of the scene that switch one part on or off, with their names.
+///
 /// The first is what the others are compared with; it takes part twice, so that the difference of a scene from itself
 /// shows what can be told apart.
-const VARIANTS: &[Variant] = &[
-    Variant { name: "the scene", sets: &[] },
-    Variant { name: "the scene once more", sets: &[] },
-    Variant { name: "no formation", sets: &["plateaus.formation=false"] },
-    Variant { name: "no resin", sets: &["pin.base.uniform=primary"] },
-    Variant { name: "wear of fibres alone", sets: &["plateaus.formation=false", "pin.base.uniform=primary"] },
-    Variant { name: "exponential wear", sets: &["numerics.integrator=exponential"] },
-    Variant { name: "one debris pool", sets: &[ONE_POOL, POOLED_FRACTION] },
-    Variant { name: "one debris pool, no destruction", sets: &[ONE_POOL, POOLED_FRACTION, NO_DESTRUCTION] },
-    Variant { name: "one debris pool per track", sets: &[POOL_PER_TRACK, POOLED_FRACTION] },
-    Variant { name: "wear of the disc", sets: &[DISC_WEAR] },
-    Variant { name: "materials of their own for build-ups", sets: &[SOFTER_DEBRIS, FASTER_DEBRIS] },
-    Variant { name: "wear of the disc and such materials", sets: &[DISC_WEAR, SOFTER_DEBRIS, FASTER_DEBRIS] },
-    Variant { name: "time acceleration 100", sets: &["numerics.time_acceleration=100"] },
+const VARIANTS: [(&str, &[&str]); 13] = [
+    ("the scene", &[]),
+    ("the scene once more", &[]),
+    ("no formation", &["plateaus.formation=false"]),
+    ("no resin", &["pin.base.uniform=primary"]),
+    ("wear of fibres alone", &["plateaus.formation=false", "pin.base.uniform=primary"]),
+    ("exponential wear", &["numerics.integrator=exponential"]),
+    ("transport length of 200 um", &["plateaus.transport_length=\"200 um\""]),
+    ("strength of build-up", &["materials.pin_secondary.strength=\"5 MPa\""]),
+    ("wear by counterface", &["materials.pin_primary.wear_rate_against_secondary=\"2e-14 1/Pa\""]),
+    ("wear of the disc", &[DISC_WEAR]),
+    ("materials of their own for build-ups", &[SOFTER_DEBRIS, FASTER_DEBRIS]),
+    ("wear of the disc and such materials", &[DISC_WEAR, SOFTER_DEBRIS, FASTER_DEBRIS]),
+    ("time acceleration 100", &["numerics.time_acceleration=100"]),
 ];
 
 /// Times a step with optional parts of the model and of the output on and off.
-pub fn parts(options: Options) -> Result<Session, BenchError> {
-    let mut session = options.begin(Benchmark::Parts)?;
-    let setup = Setup::of(1);
+pub fn parts(session: &Session) -> Outcome<Found> {
     let mut entries = Vec::new();
-    for Variant { name, sets } in VARIANTS {
+    for (name, sets) in VARIANTS {
         let source = session.source.with(sets.iter().map(|set| (*set).to_owned()));
-        entries.push(entry(name, session.mesh, &source.case()?, setup)?);
+        entries.push(entry(name, 0, session.mesh, 1, alone(&source.case()?)?));
     }
     let revolution = session.mesh.disc_columns as u64;
     let case = session.source.case()?;
@@ -100,35 +128,30 @@ pub fn parts(options: Options) -> Result<Session, BenchError> {
         ("a sample every step", 1, false),
         ("all maps every revolution", revolution, true),
     ] {
-        let stepper = Stepper::new(&case, setup)?;
-        let runner = Box::new(Observed { stepper, every, maps, steps: 0 });
-        let instructions = setup.instructions.name().to_owned();
-        entries.push(Entry { name: name.to_owned(), mesh: session.mesh, workers: 1, instructions, runner });
+        let runner = Box::new(Observed { simulation: alone(&case)?, every, maps });
+        entries.push(Entry { name: name.to_owned(), against: 0, mesh: session.mesh, workers: 1, runner });
     }
-    session.document.measurements = race(entries, session.pace)?;
-    Ok(session)
+    Ok((race(entries, session.pace)?, Vec::new()))
 }
 
 /// A simulation that is looked at now and then.
 struct Observed {
-    stepper: Stepper,
+    simulation: Simulation,
     every: u64,
     maps: bool,
-    steps: u64,
 }
 
 impl Runner for Observed {
-    fn advance(&mut self, steps: u64) -> Result<Duration, BenchError> {
-        let start = Instant::now();
-        let end = self.steps + steps;
-        while self.steps < end {
-            let next = (self.steps / self.every + 1) * self.every;
-            self.stepper.run(next.min(end) - self.steps)?;
-            self.steps = next.min(end);
-            if self.steps == next {
-                std::hint::black_box(self.stepper.sample()?);
+    fn advance(&mut self, steps: u64) -> Outcome<Duration> {
+        let (start, end) = (Instant::now(), self.simulation.steps_done() + steps);
+        while self.simulation.steps_done() < end {
+            let next = (self.simulation.steps_done() / self.every + 1) * self.every;
+            // A step after which something may be reported.
+            self.simulation.advance_to(next.min(end))?;
+            if next <= end {
+                std::hint::black_box(self.simulation.sample()?);
                 if self.maps {
-                    std::hint::black_box(self.stepper.snapshot(&Map::ALL)?);
+                    std::hint::black_box(self.simulation.snapshot(&Map::ALL)?);
                 }
             }
         }
@@ -136,6 +159,6 @@ impl Runner for Observed {
     }
 
     fn load_evaluations_per_step(&self) -> Option<f64> {
-        self.stepper.load_evaluations_per_step()
+        Runner::load_evaluations_per_step(&self.simulation)
     }
 }

@@ -1,13 +1,10 @@
 //! The command line.
 
 mod accuracy;
-mod cores;
-mod handed;
 mod new;
 mod quantity;
 mod reading;
 mod run;
-mod run_files;
 mod surface;
 mod sweep;
 
@@ -22,12 +19,13 @@ use crate::failure::Failure;
 use crate::version;
 
 pub use accuracy::AccuracyArguments;
-pub use handed::HandedArguments;
 pub use new::NewArguments;
 pub use reading::{ReadArguments, as_options};
-pub use run::{CheckArguments, RunArguments, SceneArguments};
-pub use run_files::{RepairArguments, SummaryArguments, VerifyArguments, WatchArguments};
-pub use surface::SurfaceArguments;
+pub use run::{
+    CheckArguments, HandedArguments, RepairArguments, RunArguments, SceneArguments, SummaryArguments, VerifyArguments,
+    WatchArguments,
+};
+pub use surface::{SurfaceArguments, SurfaceWord};
 pub use sweep::{CollectArguments, PlanArguments, SlurmArguments, SweepCommand, SweepRunArguments};
 
 /// How a pin of friction material and a rough, coated brake disc wear into each other.
@@ -131,7 +129,7 @@ pub enum Command {
     /// Print what lets a shell complete commands, options and files on the Tab key
     #[command(after_help = "Example:\n  plateau completions bash\n\n\
                       Once for all: plateau completions bash > ~/.local/share/bash-completion/completions/plateau\n\
-                      For zsh, fish and others see docs/recipes.md.")]
+                      For zsh, fish and others see docs/install.md.")]
     Completions(CompletionsArguments),
     /// Print a manual page, or write all of them
     #[command(after_help = "Example:\n  plateau man run\n\n\

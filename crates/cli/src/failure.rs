@@ -1,18 +1,55 @@
-//! How the program ends when it cannot do what was asked.
+//! End of the program when it cannot do what was asked: the message, with the lines of a file that are wrong, and the exit status.
 
+use std::collections::HashMap;
 use std::error::Error;
+use std::path::Path;
 use std::process::ExitCode;
-use std::{fmt, io};
+use std::{fmt, fs};
 
-use plateau_core::simulation::SimulationError;
-use plateau_io::run_file::{ReadError, RunFileError};
-use plateau_io::scene::{Problem, SceneError};
+use console::measure_text_width;
+use plateau_io::delimited::{decode, numbered};
+use plateau_io::scene::{Origin, Problem, SceneError};
 use plateau_io::study::StudyError;
-use plateau_run::{Job, Progress, RunError};
+use plateau_io::text;
+use plateau_run::sweep::SweepError;
+use plateau_run::{Job, Progress, RunError, lacks_resources};
 
-use crate::{excerpt, message};
+use crate::message;
 
-/// Why a command failed, with the exit status that tells whose fault it is.
+/// Longest line that is shown, characters: of a longer one its beginning.
+const LONGEST: usize = 160;
+
+/// Problems, as many as are read, each with its line if it has one.
+fn excerpt(problems: &[Problem]) -> String {
+    let mut files = HashMap::new();
+    text::problems(problems.iter().map(|problem| with_line(problem, &mut files)))
+}
+
+fn with_line<'a>(problem: &'a Problem, files: &mut HashMap<&'a Path, Option<String>>) -> String {
+    let Origin::Place { file, line, column } = &problem.origin else { return problem.to_string() };
+    let text = files.entry(file).or_insert_with(|| fs::read(file).ok().map(|content| decode(&content).into_owned()));
+    let shown = text.as_ref().and_then(|text| marked(text, *line, *column));
+    shown.map_or_else(|| problem.to_string(), |shown| format!("{problem}\n{shown}"))
+}
+
+/// A line with its number, and a mark below the column; both count from 1. None if there is no such place, as when the file has
+/// changed meanwhile.
+fn marked(text: &str, line: usize, column: usize) -> Option<String> {
+    let (_, found) = numbered(text).nth(line.checked_sub(1)?)?;
+    if column > found.chars().count().min(LONGEST) + 1 {
+        return None;
+    }
+    // Tabs and control characters would move the mark, or the terminal.
+    let shown: String = found.chars().take(LONGEST).map(|each| if each.is_control() { ' ' } else { each }).collect();
+    let number = line.to_string();
+    let blank = " ".repeat(number.len());
+    // Letters of some languages are two columns wide, and what turns the direction of writing is shown by its number.
+    let before: String = shown.chars().take(column - 1).collect();
+    let mark = " ".repeat(measure_text_width(&text::shown(&before)));
+    Some(format!("  {number} | {}\n  {blank} | {mark}^", shown.trim_end()))
+}
+
+/// Reason why a command failed, with the exit status that tells whose fault it is.
 #[derive(Debug)]
 pub enum Failure {
     /// The command line or an input is wrong: exit status 2.
@@ -23,7 +60,7 @@ pub enum Failure {
     Stopped {
         /// The signal.
         signal: u8,
-        /// What is left of the run; a process that wrote nothing does not know.
+        /// State of the run that is left; a process that wrote nothing does not know.
         message: Option<String>,
     },
 }
@@ -38,7 +75,7 @@ impl Failure {
 
     /// As [`input`](Self::input), with a message of its own.
     pub fn because(error: &(dyn Error + 'static), message: impl fmt::Display) -> Self {
-        if lacks(error) { Self::Run(message.to_string()) } else { Self::Input(message.to_string()) }
+        if lacks_resources(error) { Self::Run(message.to_string()) } else { Self::Input(message.to_string()) }
     }
 
     /// A failed run.
@@ -48,17 +85,17 @@ impl Failure {
 
     /// A scene that cannot be used, with the lines that are wrong.
     pub fn of_scene(error: SceneError) -> Self {
-        let message = excerpt::of(error.problems());
+        let message = excerpt(error.problems());
         Self::because(&error, message)
     }
 
     /// A study that cannot be used, with the lines that are wrong.
-    pub fn of_study(error: StudyError) -> Self {
-        let message = excerpt::of(&error.0);
+    fn of_study(error: StudyError) -> Self {
+        let message = excerpt(&error.0);
         Self::because(&error, message)
     }
 
-    /// How a run failed.
+    /// Failure of a run.
     pub fn of(error: RunError) -> Self {
         match error {
             RunError::Input(error) => Self::input(error),
@@ -67,6 +104,15 @@ impl Failure {
                 let message = (stopped.progress != Progress::Elsewhere).then(|| stopped.to_string());
                 Self::Stopped { signal: stopped.signal, message }
             }
+        }
+    }
+
+    /// Failure of the runs of a study.
+    pub fn of_sweep(error: SweepError) -> Self {
+        match error {
+            SweepError::Study(error) => Self::of_study(error),
+            SweepError::Input(message) => Self::Input(message),
+            SweepError::Failed(message) => Self::Run(message),
         }
     }
 
@@ -114,37 +160,6 @@ impl fmt::Display for Failure {
     }
 }
 
-/// Numbers of the system's errors that are not the user's fault: no thread, no memory, too many open files, in all or of this
-/// process.
-const LACKS: [i32; 4] = [11, 12, 23, 24];
-
-/// Whether an error, or what it comes from, is that the system lacks something.
-fn lacks(error: &(dyn Error + 'static)) -> bool {
-    let number = |error: &(dyn Error + 'static)| match error.downcast_ref::<ReadError>() {
-        Some(ReadError::System { number, .. }) => *number,
-        _ => error.downcast_ref::<io::Error>().and_then(io::Error::raw_os_error),
-    };
-    let of_problems = |problems: &[Problem]| {
-        problems.iter().any(|problem| problem.system.is_some_and(|number| LACKS.contains(&number)))
-    };
-    let is_lack = |error: &(dyn Error + 'static)| {
-        number(error).is_some_and(|number| LACKS.contains(&number))
-            || matches!(error.downcast_ref(), Some(ReadError::Handles { .. }))
-            || error.downcast_ref().is_some_and(|error: &SceneError| of_problems(error.problems()))
-            || error.downcast_ref().is_some_and(|error: &StudyError| of_problems(&error.0))
-            || matches!(error.downcast_ref(), Some(RunFileError::NoHandle { .. }))
-            || matches!(error.downcast_ref(), Some(SimulationError::Threads { .. }))
-    };
-    let mut next = Some(error);
-    while let Some(error) = next {
-        if is_lack(error) {
-            return true;
-        }
-        next = error.source();
-    }
-    false
-}
-
 /// Works together with the other processes of the job if there are any. From here on only the first of them gives warnings; if
 /// one fails, all end with its exit status.
 ///
@@ -176,12 +191,25 @@ pub fn in_job(work: impl FnOnce(&mut Job) -> Result<(), Failure>) -> Result<(), 
 
 #[cfg(test)]
 mod tests {
+    use std::io;
     use std::path::{Path, PathBuf};
 
-    use plateau_io::scene::Origin;
+    use plateau_core::simulation::SimulationError;
+    use plateau_io::scene::{Origin, Problem};
     use plateau_run::InputError;
 
     use super::*;
+
+    #[test]
+    fn the_mark_stands_below_the_column() {
+        let text = "version = 1\n\tname = \"a\u{7}\"\n";
+        assert_eq!(marked(text, 2, 9).as_deref(), Some("  2 |  name = \"a \"\n    |         ^"));
+        assert_eq!(marked(text, 1, 12).as_deref(), Some("  1 | version = 1\n    |            ^"));
+        assert_eq!(marked("\u{540d} = 1", 1, 5).as_deref(), Some("  1 | \u{540d} = 1\n    |      ^"));
+        assert_eq!(marked(text, 3, 1), None);
+        assert_eq!(marked(text, 1, 40), None);
+        assert_eq!(marked(&"x".repeat(1000), 1, 170), None);
+    }
 
     #[test]
     fn the_status_comes_from_the_error_and_not_from_its_words() {

@@ -15,7 +15,7 @@ const PROGRAM: &str = "PLATEAU_PROGRAM";
 /// Tells the one that answers, and what it calls, which word was handed over.
 const HANDED: &str = "PLATEAU_HANDED";
 /// Words that the Python package answers.
-const OF_PYTHON: [&str; 7] = ["sweep", "fit", "compare", "plot", "report", "export", "figure"];
+const OF_PYTHON: [&str; 8] = ["sweep", "fit", "compare", "plot", "report", "export", "figure", "surface"];
 
 /// Becomes the program that answers a word, with these arguments; comes back only where that fails.
 ///

@@ -84,7 +84,7 @@ impl Interrupt {
         signal_hook::flag::register(SIGUSR1, Arc::clone(&self.save)).map(drop)
     }
 
-    /// Whether a checkpoint was asked for since the last time.
+    /// Tells whether a checkpoint was asked for since the last time.
     pub fn save(&self) -> bool {
         self.save.swap(false, Ordering::Relaxed)
     }

@@ -1,25 +1,19 @@
 //! The program `plateau`.
 
 mod accuracy;
-mod answer;
 mod arguments;
-mod called;
 mod commands;
-mod csv_table;
-mod environment;
-mod excerpt;
 mod failure;
 mod figure;
 mod hand_over;
 mod interrupt;
-mod little_memory;
+mod invocation;
 mod message;
 mod output;
-mod panic;
-mod progress;
+mod scene;
 mod screen;
+mod startup;
 mod summary;
-mod sweep;
 mod table;
 mod terminal;
 mod version;
@@ -28,23 +22,21 @@ mod watch;
 use std::process::ExitCode;
 
 use clap::{CommandFactory as _, Parser};
-use plateau_io::number;
 use plateau_io::process::report_file_size_limit;
-use plateau_run::machine;
 
 use failure::Failure;
 
 fn main() -> ExitCode {
-    environment::fit();
+    startup::fit_environment();
     interrupt::Interrupt::pass_over_saves();
-    if let Err(failure) = little_memory::begin() {
+    if let Err(failure) = startup::refuse_little_memory() {
         return failure.report();
     }
-    panic::told(answer)
+    startup::catch_panics(perform)
 }
 
 /// Hands a first word that is none of this program's to the program of its name, if there is one.
-fn elsewhere() -> Option<ExitCode> {
+fn other_program() -> Option<ExitCode> {
     let mut arguments = std::env::args_os().skip(1);
     let word = arguments.next().filter(|word| hand_over::is_word(word))?.into_string().ok()?;
     let is_own = word == "help" || arguments::Arguments::command().find_subcommand(&word).is_some();
@@ -53,13 +45,13 @@ fn elsewhere() -> Option<ExitCode> {
 }
 
 /// Does what the command line asks for.
-fn answer() -> ExitCode {
+fn perform() -> ExitCode {
     if let Err(failure) = arguments::refuse_odd_characters(std::env::args_os()) {
         return failure.report();
     }
     let arguments = match arguments::Arguments::try_parse() {
         Ok(arguments) => arguments,
-        Err(answer) => return elsewhere().unwrap_or_else(|| answer::answered(answer)),
+        Err(answer) => return other_program().unwrap_or_else(|| invocation::answered(answer)),
     };
     // Where the system takes no handler, what writes beyond the file size limit ends by a signal; no reason not to begin.
     let _ = report_file_size_limit();

@@ -12,23 +12,23 @@ static QUIET: AtomicBool = AtomicBool::new(false);
 static VERBOSE: AtomicBool = AtomicBool::new(false);
 static COUNT: AtomicUsize = AtomicUsize::new(0);
 
-/// How much is said, as `-q` and `-v` ask for: errors alone, or also what is done to surfaces.
+/// Sets how much is said, as `-q` and `-v` ask for: errors alone, or also what is done to surfaces.
 pub fn set_level(quiet: bool, verbose: bool) {
     QUIET.store(quiet, Ordering::Relaxed);
     VERBOSE.store(verbose, Ordering::Relaxed);
 }
 
-/// How much is said, as the option that asks for it.
+/// Level of messages, as the option that asks for it.
 pub fn level_as_option() -> Option<&'static str> {
     if is_quiet() { Some("--quiet") } else { is_verbose().then_some("--verbose") }
 }
 
-/// Whether nothing but errors is said.
+/// Tells whether nothing but errors is said.
 pub fn is_quiet() -> bool {
     QUIET.load(Ordering::Relaxed)
 }
 
-/// Whether more is said than one needs.
+/// Tells whether more is said than one needs.
 pub fn is_verbose() -> bool {
     VERBOSE.load(Ordering::Relaxed)
 }

@@ -4,7 +4,7 @@ use std::fs;
 use std::io::{self, ErrorKind, Write as _};
 use std::path::{Path, PathBuf};
 
-use plateau_io::regular;
+use plateau_io::input;
 use plateau_io::temporary::Temporary;
 
 use crate::failure::Failure;
@@ -36,7 +36,7 @@ pub fn check(path: &Path, force: bool, inputs: &[PathBuf]) -> Result<(), Failure
     if there.is_dir() || real.is_ok_and(|real| !real.is_file()) {
         return Err(Failure::input(format!("{shown} is not a regular file and is not replaced; name another file")));
     }
-    if regular::is_one_of(path, inputs) {
+    if input::is_one_of(path, inputs) {
         return Err(Failure::input(format!("{shown} is an input and is not replaced; name another file")));
     }
     if force { Ok(()) } else { Err(exists(path)) }

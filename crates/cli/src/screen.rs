@@ -1,4 +1,4 @@
-//! Where a run is shown: a page of the terminal that is drawn anew, or line after line where there is no terminal.
+//! Display of a run: a page of the terminal that is drawn anew, or line after line where there is no terminal.
 
 use std::env;
 use std::io::{self, Write};
@@ -19,7 +19,7 @@ pub struct Screen {
     lines: usize,
     /// Lines and characters of the terminal when it was drawn.
     size: (u16, u16),
-    /// What was said last, where there is no terminal.
+    /// Line that was said last, where there is no terminal.
     said: String,
     warned: bool,
 }
@@ -78,7 +78,7 @@ impl Screen {
     }
 }
 
-/// Whether the locale has letters beyond ASCII, as the C library finds out.
+/// Tells whether the locale has letters beyond ASCII, as the C library finds out.
 fn is_unicode(variable: impl Fn(&str) -> Option<String>) -> bool {
     let locale = ["LC_ALL", "LC_CTYPE", "LANG"].into_iter().find_map(|name| variable(name).filter(|l| !l.is_empty()));
     locale.is_some_and(|locale| {

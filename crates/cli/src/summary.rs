@@ -1,14 +1,14 @@
-//! What a finished run tells its user.
+//! Results of a finished run.
 
 use plateau_core::acceleration::Chosen;
 use plateau_core::observe::drift::{Drift, LEAST_PULSES, RUN_IN, Trend};
 use plateau_core::observe::running_in::NotDefined;
 use plateau_core::observe::window_mean::WindowMean;
+use plateau_io::number;
 use plateau_io::run_file::NoDrift;
 use plateau_run::RunSummary;
 
 use crate::failure::Failure;
-use crate::number;
 use crate::table::{list, table};
 
 /// One JSON document.
@@ -154,7 +154,7 @@ fn contact_area(window: &WindowMean) -> String {
     format!("{mean} mm² ({over}{contact}{error})")
 }
 
-/// Whether the mean contact area still changes, in words, or why that cannot be told.
+/// Tells whether the mean contact area still changes, in words, or why that cannot be told.
 pub fn running_in(found: &Result<Drift, NoDrift>) -> String {
     let drift = match found {
         Ok(drift) => drift,
@@ -180,7 +180,7 @@ pub fn running_in(found: &Result<Drift, NoDrift>) -> String {
     format!("{found}: {sign}{percent} % from {start} … {middle} s to {middle} … {end} s")
 }
 
-/// When the contact area had come to its value at the end, in words.
+/// Time at which the contact area had come to its value at the end, in words.
 pub fn running_in_time(found: &Result<f64, NotDefined>) -> String {
     match found {
         Ok(time) => {

@@ -1,9 +1,9 @@
-//! Text on standard output, and tables in it.
+//! Text on standard output, tables in it, and tables as comma-separated values.
 
 use std::fmt::Write as _;
 use std::io::{self, Write as _};
 
-use plateau_io::text::{is_plain, shown};
+use plateau_io::text::{cell, is_plain, shown};
 
 use crate::failure::Failure;
 
@@ -15,7 +15,7 @@ pub fn print(text: &str) -> Result<(), Failure> {
     printed(io::stdout().lock().write_all(shown(text).as_bytes()))
 }
 
-/// What comes of writing to standard output.
+/// Result of writing to standard output.
 ///
 /// # Errors
 /// As [`print()`].
@@ -61,7 +61,7 @@ pub fn columns(heading: &str, names: &[&str], rows: &[Vec<String>]) -> String {
     format!("{heading}\n{}", lines().map(line).collect::<String>())
 }
 
-/// What a text lacks to a width: of more than 65 535, which formats take, too.
+/// Blanks that a text lacks to a width: of more than 65 535, which formats take, too.
 fn blanks(text: &str, width: usize) -> String {
     " ".repeat(width.saturating_sub(text.chars().count()))
 }
@@ -72,9 +72,23 @@ pub fn list(heading: &str, lines: &[String]) -> String {
     format!("{heading}\n{lines}")
 }
 
+/// Lines of cells, those that need it in quotation marks, and those that a spreadsheet would compute marked as text.
+pub fn csv_table<Line>(lines: impl IntoIterator<Item = Line>) -> String
+where
+    Line: IntoIterator,
+    Line::Item: AsRef<str>,
+{
+    let mut writer = csv::WriterBuilder::new().flexible(true).from_writer(Vec::new());
+    for line in lines {
+        // Writing to memory cannot fail.
+        let _ = writer.write_record(line.into_iter().map(|text| cell(text.as_ref()).into_owned()));
+    }
+    String::from_utf8_lossy(&writer.into_inner().unwrap_or_default()).into_owned()
+}
+
 #[cfg(test)]
 mod tests {
-    use super::{columns, table};
+    use super::*;
 
     #[test]
     fn very_long_cells_are_aligned_too() {
@@ -92,5 +106,15 @@ mod tests {
             columns("Sizes", &["name", "size", "n"], &rows),
             "Sizes\n  name  size  n\n  a     1 µm  9\n  long    20\n"
         );
+    }
+
+    #[test]
+    fn what_a_spreadsheet_would_compute_is_text() {
+        assert_eq!(csv_table([["=1+1", "-1.5", "@a"]]), "'=1+1,-1.5,'@a\n");
+    }
+
+    #[test]
+    fn cells_are_quoted_where_they_need_it() {
+        assert_eq!(csv_table([["plain", "a, \"b\""], ["", "two\nlines"]]), "plain,\"a, \"\"b\"\"\"\n,\"two\nlines\"\n");
     }
 }

@@ -11,7 +11,7 @@
 //! | z_d, b_d, z_p, b_p | m | surface and substrate height of disc and pin | [`state`](model::state) |
 //! | k = E*/h | Pa/m | stiffness per area of a pair | `engine::pair` |
 //! | δ, u, p | m, m, Pa | displacement of the pin, overlap, pressure p = k u | `engine::contact` |
-//! | M, s, η, β | m³, m, 1, 1 | debris pool, its share per open cell, captured fraction, pad share | `engine::debris`, `engine::plateau` |
+//! | M, s, η, β | m³, m, 1, 1 | debris pool, its share per open cell, captured fraction, pad share | [`step`](model::step) |
 //!
 //! # One step
 //! | model | equation | as it is read | in the engine |
@@ -19,17 +19,20 @@
 //! | 4.1 pairs | 1/E* = (1−ν_p²)/E_p + (1−ν_d²)/E_d, k = E*/h | [`pairs`](model::step::pairs) | `coefficients::Coefficients` |
 //! | 4.1 load balance | g = z_p − z_d, Σ k A (δ − g)₊ = F_N | [`balance`](model::step::balance) | `contact::Contact::balance` |
 //! | 4.2 wear | Δh = κ p ds, or u (1 − exp(−κ k ds)); resin h_m; build-up first | [`wear`](model::step::wear) | `coefficients::Coefficients`, `wear` |
-//! | 4L local debris | d = min(γ, a_p + a_d, η w/A); emitted += worn − deposited | [`deposit_locally`](model::step::deposit_locally) | `kernel::deposit` |
-//! | 4P destruction | a build-up on resin with no plateau ahead returns to the pool | [`destroy`](model::step::destroy) | `plateau` |
-//! | 4P formation | d = min(γ, s), s = M/S | [`form`](model::step::form) | `debris::Debris::prepare`, `plateau` |
-//! | 4P balance | M ← M + η worn + returned − deposited | [`pool`](model::step::pool) | `debris::Debris::settle` |
+//! | 4.2a strength | p > σ_b: build-up on resin breaks away | [`break_away`](model::step::break_away) | `kernel::worn` |
+//! | 4L local debris | d = min(γ, a_p + a_d, η w/A); emitted += worn + returned − deposited | [`deposit_locally`](model::step::deposit_locally) | `kernel::deposit` |
+//! | 4L transport length | d = min(γ, a_p + a_d, v̄), v̄ = η Σ v/L | [`deposit_over`](model::step::deposit_over) | `kernel::transport` |
+//! | 4P destruction | a build-up on resin with no plateau ahead returns to the pool | [`destroy`](model::step::destroy) | pooled debris is the plain model's |
+//! | 4P formation | d = min(γ, s), s = M/S | [`form`](model::step::form) | |
+//! | 4P balance | M ← M + η worn + returned − deposited | [`pool`](model::step::pool) | |
 //! | 4.6 advance | t += m Δt | [`advance`](model::step::advance) | `worker` |
 //! | 9 operation | the load of a step is its mean over the step's angle | [`cycle`](model::cycle) | the same |
 //! | 10 to 12 friction, heat, emission | booked after each step, from sums that the load balance has | [`accounts`](model::accounts) | the same |
 //!
 //! [`Simulation`](simulation::Simulation) takes the steps and reports (5). [`model::step`] is all of it as it is read, cell by
 //! cell. The [`engine`] takes the same steps: `worker` takes the rules in turn,
-//! those of eight cells are `kernel::worn` (4.2) and `kernel::cells` (4P), that of a cell with local debris `kernel::deposit` (4L).
+//! those of eight cells are `kernel::worn` (4.2), that of a cell that gets debris `kernel::deposit` (4L). Scenes with pooled debris
+//! (4P) run on the plain model.
 //!
 //! # How a step is carried out
 //! - One pass over the pin a step. In the next step the disc column under pin column j lies under column j + 1, so the

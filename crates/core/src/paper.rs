@@ -17,6 +17,7 @@ impl Parameters {
             mesh: Mesh::new(80, 2764, 161, 20e-3, 24e-3)
                 .unwrap_or_else(|error| unreachable!("the paper's mesh is valid: {error}")),
             normal_force: 47.0,
+            by_torque: false,
             angular_velocity: 850.0 * TAU / 60.0,
             cycle: None,
             foundation_height: 50e-6,
@@ -27,6 +28,9 @@ impl Parameters {
                 pin_secondary: pin,
                 pin_resin: Material { youngs_modulus: 1e5, specific_wear_rate: 0.0, ..pin },
                 wear_height: 5e-6,
+                pin_primary_against_secondary: None,
+                pin_secondary_against_secondary: None,
+                strength: None,
             },
             plateaus: PlateauRules::LOCAL,
             time_acceleration: 1.0,

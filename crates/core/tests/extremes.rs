@@ -1,5 +1,5 @@
-//! What the model does at its limits: each case is run and held against bounds that are stated before. docs/stability.md has the
-//! table of them.
+//! What the model does at its limits: each case is run and held against bounds that are stated before. `extremes/results.md` has the
+//! table of them, docs/evidence/stability.md the largest values.
 //!
 //! A case of very many steps takes a million of them here, or as many as `PLATEAU_EXTREME_STEPS` says. With
 //! `UPDATE_DOCS=1` the table is written anew.
@@ -25,7 +25,7 @@ use std::sync::Mutex;
 use case::Case;
 use outcome::Outcome;
 
-const DOCUMENT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/stability.md");
+const DOCUMENT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/extremes/results.md");
 const BEGIN: &str = "<!-- extremes: made by the tests -->";
 const END: &str = "<!-- end of extremes -->";
 const SCALES: &str = "<!-- scales: made by the tests -->";
@@ -62,16 +62,16 @@ fn update([begin, end]: [&str; 2], table: &str) {
         // Tests run at the same time.
         static WRITES: Mutex<()> = Mutex::new(());
         let _turn = WRITES.lock();
-        let document = fs::read_to_string(DOCUMENT).expect("docs/stability.md");
+        let document = fs::read_to_string(DOCUMENT).expect(DOCUMENT);
         let (before, rest) = document.split_once(begin).expect("the place of the table");
         let (_, after) = rest.split_once(end).expect("the end of the table");
-        fs::write(DOCUMENT, format!("{before}{begin}\n\n{table}\n{end}{after}")).expect("docs/stability.md");
+        fs::write(DOCUMENT, format!("{before}{begin}\n\n{table}\n{end}{after}")).expect(DOCUMENT);
     }
 }
 
 #[test]
 fn the_document_tells_of_every_case() {
-    let document = fs::read_to_string(DOCUMENT).expect("docs/stability.md");
+    let document = fs::read_to_string(DOCUMENT).expect(DOCUMENT);
     let is_told =
         |case: &Case| document.contains(&format!("| {} | {:.1e} |", case.name, case.parameters.stiffness_number()));
     let cases = cases::all(100_000_000);

@@ -1,5 +1,6 @@
 //! What the crate promises, from outside. One program, for every one that is linked takes time.
 
+mod build_up;
 mod closed_forms;
 mod description;
 mod extension;

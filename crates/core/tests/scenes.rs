@@ -101,6 +101,7 @@ pub fn random_scene(seed: u64, debris: DebrisRule) -> Parameters {
         pad_share: between(0.0, 1.0),
         formation: often(between(0.0, 0.9)),
         destruction: often(between(0.0, 1.2)),
+        transport_length: None,
     };
     parameters.integrator = if between(0.0, 1.0) < 0.5 { Integrator::Explicit } else { Integrator::Exponential };
     let materials = &mut parameters.materials;
@@ -128,7 +129,34 @@ pub fn random_scene(seed: u64, debris: DebrisRule) -> Parameters {
     if between(0.0, 1.0) < 0.6 {
         add_dissipation(&mut parameters, &mut between);
     }
+    add_findings(&mut parameters, &mut between);
     parameters
+}
+
+/// What experiments ask for: wear by counterface, a strength of build-up, a transport length, a braking torque.
+fn add_findings(parameters: &mut Parameters, between: &mut impl FnMut(f64, f64) -> f64) {
+    let mut sometimes = |parts: f64| between(0.0, 1.0) < parts;
+    let [by_pin, by_build_up, breaks, travels, brakes] = [0.3, 0.3, 0.3, 0.5, 0.3].map(&mut sometimes);
+    let materials = &mut parameters.materials;
+    materials.pin_primary_against_secondary = by_pin.then(|| between(1e-15, 1e-13));
+    materials.pin_secondary_against_secondary = by_build_up.then(|| between(-1e-14, 1e-13).max(0.0));
+    materials.strength = breaks.then(|| 10.0_f64.powf(between(4.0, 9.0)));
+    if parameters.plateaus.debris == DebrisRule::Local && travels {
+        let column = parameters.mesh.mean_radius() * parameters.mesh.column_angle();
+        parameters.plateaus.transport_length = Some(between(0.3, 7.0) * column);
+        parameters.plateaus.captured_resin_fraction = None;
+    }
+    if brakes && parameters.friction.is_some_and(|friction| friction.maximum.is_finite()) {
+        parameters.by_torque = true;
+        parameters.normal_force *= 0.3 * parameters.mesh.mean_radius();
+        if parameters.cycle.is_some() {
+            parameters.cycle = random_cycle(parameters, between);
+        }
+    }
+    let factor = parameters.thermal.as_ref().map_or(1.0, |_| LARGEST_FACTOR);
+    if parameters.with_wear_rate_factor(factor).stiffness_number() > 1.0 {
+        parameters.integrator = Integrator::Exponential;
+    }
 }
 
 /// Any scene of the model under a round pin: on a mesh of its own, with the other options of [`random_scene`].
@@ -138,8 +166,12 @@ pub fn random_round_scene(seed: u64, debris: DebrisRule) -> Parameters {
     let rows = 4 + (14.0 * stream.uniform()) as usize;
     let mesh = round_mesh(rows, 1.0 + stream.uniform(), 0.6 + 0.4 * stream.uniform());
     let normal_force = rectangle.normal_force * mesh.present_cells() as f64 / rectangle.mesh.present_cells() as f64;
+    let column = |mesh: &Mesh| mesh.mean_radius() * mesh.column_angle();
+    let mut plateaus = rectangle.plateaus;
+    plateaus.transport_length =
+        plateaus.transport_length.map(|length| length * column(&mesh) / column(&rectangle.mesh));
     // Steps are of another length on this mesh, so that a cycle would no longer fit.
-    Parameters { mesh, normal_force, cycle: None, ..rectangle }
+    Parameters { mesh, normal_force, plateaus, cycle: None, ..rectangle }
 }
 
 /// A short ring of so many rows of 50 µm, with columns `per_row` times as wide as rows are high, under a round pin that takes

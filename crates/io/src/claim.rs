@@ -1,4 +1,4 @@
-//! Who may write a run file and its checkpoints: one process at a time.
+//! Claims: one process at a time writes a run file and its checkpoints.
 //!
 //! Whoever begins to write `run.h5` first makes `run.h5.lock` beside it, which says who that is, and removes it in the
 //! end. The file is made complete under another name and then linked, which fails where there is one; where a file system
@@ -25,18 +25,17 @@ use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use crate::process::{Life, Process, Writer, writer_of};
-use crate::random;
-use crate::temporary::{Temporary, folder};
+use crate::temporary::{self, Temporary, folder};
 use crate::text::{is_plain, short};
 use crate::timestamp::iso_8601;
 
 /// Version of the format.
 const VERSION: u32 = 2;
-/// How every lock begins.
+/// Beginning of every lock.
 const START: &str = "{\"plateau_lock\":";
 /// More bytes than any lock has.
 const LARGEST: u64 = 4096;
-/// How often a lock that is not complete is read, and how long is waited before: without links it is first made, then filled.
+/// Number of times that a lock that is not complete is read, and how long is waited before: without links it is first made, then filled.
 const LOOKS: u32 = 20;
 const PAUSE: Duration = Duration::from_millis(50);
 /// Processes killed one after the other while each took over the lock of the one before: more is something else.
@@ -48,7 +47,7 @@ const DEPTH: usize = 6;
 pub struct Claim {
     lock: PathBuf,
     owner: Owner,
-    /// Who had the lock and left it.
+    /// Process that had the lock and left it.
     before: Option<Process>,
 }
 
@@ -59,7 +58,7 @@ pub struct Seen {
     touched: SystemTime,
 }
 
-/// What a lock says.
+/// Content of a lock.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Owner {
@@ -72,19 +71,19 @@ struct Owner {
     number: String,
 }
 
-/// What locks of every version say.
+/// Content that locks of every version have.
 #[derive(Deserialize)]
 struct Version {
     plateau_lock: u32,
 }
 
-/// Why a file is not claimed.
+/// Reason why a file is not claimed.
 #[derive(Debug, Error)]
 pub enum ClaimError {
     /// A living process of this machine has it.
     #[error("{} is being written by process {process}, since {since}; stop that first, or write elsewhere", path.display(), since = short(since))]
     Here {
-        /// What was to be claimed.
+        /// The file to be claimed.
         path: PathBuf,
         /// The process.
         process: u32,
@@ -98,7 +97,7 @@ pub enum ClaimError {
         path.display(), lock.display(), host = short(host), since = short(since)
     )]
     Elsewhere {
-        /// What was to be claimed.
+        /// The file to be claimed.
         path: PathBuf,
         /// The file that says so.
         lock: PathBuf,
@@ -115,9 +114,9 @@ pub enum ClaimError {
         lock.display(), path.display()
     )]
     Foreign {
-        /// What was to be claimed.
+        /// The file to be claimed.
         path: PathBuf,
-        /// What is in the way.
+        /// The path that is in the way.
         lock: PathBuf,
     },
     /// Another version of the program has it, or had.
@@ -126,7 +125,7 @@ pub enum ClaimError {
         lock.display(), path.display()
     )]
     OtherVersion {
-        /// What was to be claimed.
+        /// The file to be claimed.
         path: PathBuf,
         /// The file that says so.
         lock: PathBuf,
@@ -136,11 +135,11 @@ pub enum ClaimError {
     /// Nobody can tell who has it.
     #[error("cannot read {}, which says who writes {}: {error}", lock.display(), path.display())]
     Unreadable {
-        /// What was to be claimed.
+        /// The file to be claimed.
         path: PathBuf,
         /// The file that says so.
         lock: PathBuf,
-        /// What the system says.
+        /// Message of the system.
         #[source]
         error: io::Error,
     },
@@ -149,14 +148,14 @@ pub enum ClaimError {
     System {
         /// The directory.
         directory: PathBuf,
-        /// What the system says.
+        /// Message of the system.
         #[source]
         error: io::Error,
     },
 }
 
 impl ClaimError {
-    /// Whether the disk is full: nothing that another name would mend.
+    /// Tells whether the disk is full: nothing that another name would mend.
     pub fn lacks_space(&self) -> bool {
         let full = [ErrorKind::StorageFull, ErrorKind::QuotaExceeded, ErrorKind::FileTooLarge];
         matches!(self, Self::System { error, .. } if full.contains(&error.kind()))
@@ -249,7 +248,7 @@ impl Claim {
         self.before.as_ref()
     }
 
-    /// Whether a file could be claimed now, for a quick answer; touches nothing. True where there is the lock of a process that
+    /// Tells whether a file could be claimed now, for a quick answer; touches nothing. True where there is the lock of a process that
     /// has ended, so that it is known who wrote the file last.
     ///
     /// # Errors
@@ -278,14 +277,14 @@ impl Owner {
             plateau_lock: VERSION,
             writer: Process::this(),
             since: iso_8601(SystemTime::now()),
-            number: random::word(),
+            number: temporary::unique_word(),
         }
     }
 
-    /// Whether it may be what this program wrote; it is shown in messages.
+    /// Tells whether it may be what this program wrote; it is shown in messages.
     fn is_whole(&self) -> bool {
         let shown = [&self.writer.machine.host, &self.since];
-        random::is_word(&self.number) && shown.iter().all(|text| text.chars().all(is_plain))
+        temporary::is_unique_word(&self.number) && shown.iter().all(|text| text.chars().all(is_plain))
     }
 
     fn refusal(self, path: &Path, lock: &Path) -> ClaimError {
@@ -298,7 +297,7 @@ impl Owner {
     }
 }
 
-/// Where the lock of a file is.
+/// Path of the lock of a file.
 pub fn lock_of(path: &Path) -> PathBuf {
     let real = if path.is_symlink() { path.canonicalize().ok() } else { None };
     let path = real.as_deref().unwrap_or(path);
@@ -338,7 +337,7 @@ fn make(complete: &Path, lock: &Path, text: &str) -> io::Result<bool> {
     written.map(|()| true)
 }
 
-/// What a lock says, if there is one.
+/// Content of a lock, if there is one.
 fn read(path: &Path, lock: &Path) -> Result<Option<Owner>, ClaimError> {
     let unreadable = |error| ClaimError::Unreadable { path: path.to_owned(), lock: lock.to_owned(), error };
     let foreign = || ClaimError::Foreign { path: path.to_owned(), lock: lock.to_owned() };
@@ -373,7 +372,7 @@ fn remove_left(lock: &Path) {
     let own = lock.file_name().unwrap_or_default().to_string_lossy();
     let is_right = |name: &str| {
         let numbers = name.strip_prefix(&*own).and_then(|rest| rest.strip_prefix('.'));
-        numbers.is_some_and(|numbers| numbers.split('.').all(random::is_word))
+        numbers.is_some_and(|numbers| numbers.split('.').all(temporary::is_unique_word))
     };
     Temporary::remove_abandoned_of(folder(lock), |name| name == own || is_right(name));
     let Ok(entries) = fs::read_dir(folder(lock)) else { return };

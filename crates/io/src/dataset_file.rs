@@ -13,8 +13,7 @@ use hdf5::types::VarLenUnicode;
 use hdf5::{Dataset, File, H5Type, Location};
 use thiserror::Error;
 
-use crate::hdf5_file::writing::{write_number, write_text};
-use crate::run_file::dimension::{Dimensions, EMPTY_FILE};
+use crate::hdf5_file::writing::{Dimensions, EMPTY_FILE, write_number, write_text};
 use crate::run_file::layout::CONVENTIONS;
 use crate::temporary::Temporary;
 use crate::timestamp::iso_8601;
@@ -25,7 +24,7 @@ const DEFLATE: u8 = 1;
 /// A name or a short text.
 pub type Name = Cow<'static, str>;
 
-/// What a file holds.
+/// Content of a file.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Content {
     /// Attributes of the root.
@@ -54,7 +53,7 @@ pub struct Coordinate {
     pub name: &'static str,
     /// SI unit.
     pub unit: Name,
-    /// What it is, in words.
+    /// Its meaning, in words.
     pub long_name: Name,
     /// One value for each place along the dimension.
     pub values: Vec<f64>,
@@ -69,9 +68,9 @@ pub struct Variable {
     pub dimensions: Vec<&'static str>,
     /// SI unit; empty for texts.
     pub unit: Name,
-    /// What it is, in words.
+    /// Its meaning, in words.
     pub long_name: Name,
-    /// What else is said of it.
+    /// Other statements about it.
     pub attributes: Vec<(&'static str, Attribute)>,
     /// One value for each place, the last dimension the fastest.
     pub values: Values,
@@ -90,13 +89,13 @@ pub enum Values {
     Rows,
 }
 
-/// Why a file cannot be written.
+/// Reason why a file cannot be written.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error("cannot write {}: {reason}", path.display())]
 pub struct DatasetFileError {
     /// The file.
     pub path: PathBuf,
-    /// What the HDF5 library or the system said.
+    /// Message of the HDF5 library or of the system.
     pub reason: String,
 }
 

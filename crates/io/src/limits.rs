@@ -1,4 +1,4 @@
-//! How much is read of files that anybody may have made. What is larger is refused, with both numbers in the message.
+//! Limits for files that anybody may have made. What is larger is refused, with both numbers in the message.
 //!
 //! Surfaces have bounds of their own besides: points of a grid, and what deflate can make of the bytes that are there.
 

@@ -71,7 +71,7 @@ pub fn not_above(number: f64, digits: usize) -> f64 {
     cut.and_then(|text| text.parse().ok()).unwrap_or(number)
 }
 
-/// What a positive number is less than, in words: with so many significant digits, rounded up.
+/// Upper bound of a positive number, in words: with so many significant digits, rounded up.
 pub fn less_than(bound: f64, digits: usize) -> String {
     let nearest = significant(bound, digits).parse().unwrap_or(bound);
     let last = 10_f64.powi(bound.log10().floor() as i32 + 1 - digits as i32);

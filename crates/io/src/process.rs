@@ -1,34 +1,127 @@
-//! Processes: told from later ones of the same number and from those of other machines, found by the file that they write, and kept
-//! alive when a file grows beyond their limit.
+//! Machines and processes: known again, and told from others of the same name or number.
+//!
+//! A name says little: machines that are copied from one image, those that are called localhost, and containers that are started
+//! again elsewhere share it. So a machine is known again after it was started anew only by its hardware. A process is told from later ones
+//! of the same number by its start, and found by the file that it writes.
 
-use std::io::ErrorKind;
+use std::fs;
+use std::io::{self, ErrorKind};
 use std::os::unix::fs::MetadataExt;
 use std::path::Path;
-use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
-use std::{fs, io};
+use std::sync::{Arc, LazyLock};
 
 use serde::{Deserialize, Serialize};
+use sha2::{Digest, Sha256};
 
-use crate::machine::{Machine, Relation};
+/// Machine, and one start of it. What the system does not tell is empty.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Machine {
+    /// Its name.
+    pub host: String,
+    /// Identifier of that start of it.
+    pub(crate) boot: String,
+    /// One word for each of its network devices: they stay with a machine, and no two have the same.
+    pub(crate) hardware: Vec<String>,
+}
 
-/// Who a process is. What the system does not tell is empty or 0.
+/// Relation of one machine to another.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Relation {
+    /// The same, not started anew since.
+    SameStart,
+    /// The same, which was started anew since.
+    EarlierStart,
+    /// Another one, or one that cannot be known again.
+    Unknown,
+}
+
+/// More network devices say nothing more.
+const DEVICES: usize = 8;
+/// The address that virtual machines of QEMU have unless they are given another one.
+const SHARED: &str = "52:54:00:12:34:56";
+
+impl Machine {
+    /// This machine, as it was when it was first asked for: each checkpoint says where it was written.
+    pub fn this() -> Self {
+        static THIS: LazyLock<Machine> = LazyLock::new(|| Machine {
+            host: host(),
+            boot: first_line(Path::new("/proc/sys/kernel/random/boot_id")),
+            hardware: hardware(Path::new("/etc/machine-id"), Path::new("/sys/class/net")),
+        });
+        THIS.clone()
+    }
+
+    /// Its relation to `this` one.
+    fn seen_from(&self, this: &Self) -> Relation {
+        if self.host != this.host || self.boot.is_empty() || this.boot.is_empty() {
+            return Relation::Unknown;
+        }
+        if self.boot == this.boot {
+            return Relation::SameStart;
+        }
+        let is_known = self.hardware.iter().any(|device| this.hardware.contains(device));
+        if is_known { Relation::EarlierStart } else { Relation::Unknown }
+    }
+
+    /// Tells whether this machine may have been started anew since: what it had not handed to the disk may then be gone.
+    pub fn may_be_of_earlier_start(&self) -> bool {
+        let this = Self::this();
+        let are_known = !self.boot.is_empty() && !this.boot.is_empty();
+        are_known && self.host == this.host && self.boot != this.boot
+    }
+}
+
+/// Name of this machine.
+pub fn host() -> String {
+    Some(first_line(Path::new("/proc/sys/kernel/hostname")))
+        .filter(|name| !name.is_empty())
+        .or_else(|| std::env::var("HOSTNAME").ok())
+        .unwrap_or_else(|| "unknown".into())
+}
+
+/// One word for each network device, made of its address and of the number of the installed system (machine-id(5), which asks
+/// that the number itself is not given away). Devices without hardware, such as those of containers, are left out.
+fn hardware(number: &Path, devices: &Path) -> Vec<String> {
+    let number = first_line(number);
+    let Ok(entries) = fs::read_dir(devices) else { return Vec::new() };
+    let devices = entries.flatten().map(|entry| entry.path()).filter(|device| device.join("device").exists());
+    let addresses = devices.map(|device| first_line(&device.join("address")));
+    let is_own =
+        |address: &str| address != SHARED && address.bytes().any(|byte| byte != b'0' && byte.is_ascii_hexdigit());
+    let mut addresses: Vec<_> = addresses.filter(|address| is_own(address)).collect();
+    addresses.sort();
+    addresses.dedup();
+    addresses.truncate(DEVICES);
+    let word = |address| {
+        Sha256::digest(format!("plateau {number} {address}"))[..8].iter().map(|byte| format!("{byte:02x}")).collect()
+    };
+    addresses.into_iter().map(word).collect()
+}
+
+/// First line of a small file of the system; empty where it cannot be read.
+fn first_line(path: &Path) -> String {
+    let text = fs::read_to_string(path).unwrap_or_default();
+    text.lines().next().unwrap_or_default().trim().to_owned()
+}
+
+/// Identity of a process. What the system does not tell is empty or 0.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Process {
-    /// Where it runs.
+    /// The machine that it runs on.
     pub machine: Machine,
     /// Its number.
     #[serde(rename = "process")]
     pub number: u32,
-    /// When it was started, in ticks of the system's clock since the machine was.
+    /// Time at which it was started, in ticks of the system's clock since the machine was.
     started: u64,
-    /// Where its number holds: a container may have numbers of its own.
+    /// Namespace in which its number holds: a container may have numbers of its own.
     numbers: String,
     /// Number of its user.
     user: u32,
 }
 
-/// What is known of a process.
+/// State of a process.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Life {
     /// It lives.
@@ -52,7 +145,7 @@ impl Process {
         }
     }
 
-    /// Whether it lives.
+    /// Tells whether it lives.
     pub fn life(&self) -> Life {
         let this = Self::this();
         // Where numbers hold elsewhere there may be the same one twice, even on one machine.
@@ -70,7 +163,7 @@ impl Process {
     }
 }
 
-/// When this process was started; 0 where `/proc` is of other numbers than its own, as in a namespace that has none of its own:
+/// Time at which this process was started; 0 where `/proc` is of other numbers than its own, as in a namespace that has none of its own:
 /// `own` is the name that it has there.
 fn own_start(number: u32, own: Option<&Path>) -> u64 {
     let is_seen = own.is_some_and(|own| own.as_os_str() == number.to_string().as_str());
@@ -78,7 +171,7 @@ fn own_start(number: u32, own: Option<&Path>) -> u64 {
     status.and_then(|status| state_and_start(&status)).map_or(0, |(_, started)| started)
 }
 
-/// Whether a process that was started then lives, by what the system tells of the process that has its number now. `hidden`
+/// Tells whether a process that was started then lives, by what the system tells of the process that has its number now. `hidden`
 /// says that the system may not even tell that there is one.
 fn life_by(status: io::Result<String>, started: u64, hidden: bool) -> Life {
     match status {
@@ -100,7 +193,7 @@ fn life_by(status: io::Result<String>, started: u64, hidden: bool) -> Life {
     }
 }
 
-/// What the system tells of a process of this machine.
+/// Status of a process of this machine.
 fn status_of(number: u32) -> io::Result<String> {
     fs::read_to_string(format!("/proc/{number}/stat"))
 }
@@ -120,7 +213,7 @@ const ESRCH: i32 = 3;
 /// Access modes of an open file in `/proc/PID/fdinfo`, where writing is possible: O_WRONLY and O_RDWR.
 const WRITING: u32 = 3;
 
-/// Who has a file open for writing.
+/// Process that has a file open for writing.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Writer {
     /// No process of this machine that could be found.
@@ -131,7 +224,7 @@ pub enum Writer {
     Hidden,
 }
 
-/// Who has a file open for writing, as far as the system tells: only on Linux, and of this machine.
+/// Process that has a file open for writing, as far as the system tells: only on Linux, and of this machine.
 pub fn writer_of(path: &Path) -> Writer {
     let (Ok(wanted), Ok(processes)) = (fs::metadata(path), fs::read_dir("/proc")) else { return Writer::Nobody };
     let user = fs::metadata("/proc/self").map_or(0, |process| process.uid());
@@ -152,7 +245,7 @@ pub fn writer_of(path: &Path) -> Writer {
     found
 }
 
-/// Whether a process is there and belongs to a user.
+/// Tells whether a process is there and belongs to a user.
 fn belongs_to(process: u32, user: u32) -> bool {
     fs::metadata(format!("/proc/{process}")).is_ok_and(|process| process.uid() == user)
 }
@@ -191,6 +284,62 @@ mod tests {
     use std::time::{Duration, Instant};
 
     use super::*;
+
+    fn machine(host: &str, boot: &str, hardware: &[&str]) -> Machine {
+        Machine { host: host.into(), boot: boot.into(), hardware: hardware.iter().map(|&word| word.into()).collect() }
+    }
+
+    #[test]
+    fn a_machine_is_known_again_by_its_hardware_alone() {
+        let this = machine("a", "2", &["x", "y"]);
+        for (other, expected) in [
+            (machine("a", "2", &[]), Relation::SameStart),
+            (machine("a", "1", &["y", "z"]), Relation::EarlierStart),
+            // Another one of the same name, such as a copy, or a container without devices.
+            (machine("a", "1", &["z"]), Relation::Unknown),
+            (machine("a", "1", &[]), Relation::Unknown),
+            (machine("b", "1", &["x"]), Relation::Unknown),
+            (machine("a", "", &["x"]), Relation::Unknown),
+        ] {
+            assert_eq!(other.seen_from(&this), expected, "{other:?}");
+        }
+        assert_eq!(machine("a", "", &[]).seen_from(&machine("a", "", &[])), Relation::Unknown);
+        assert_eq!(machine("a", "1", &[]).seen_from(&machine("a", "2", &[])), Relation::Unknown);
+    }
+
+    #[test]
+    fn what_an_earlier_start_left_may_be_gone() {
+        let this = Machine::this();
+        assert!(!this.may_be_of_earlier_start());
+        let before = Machine { boot: "before".into(), ..this };
+        assert!(before.may_be_of_earlier_start());
+        assert!(!Machine { boot: String::new(), ..before.clone() }.may_be_of_earlier_start());
+        assert!(!Machine { host: "elsewhere".into(), ..before }.may_be_of_earlier_start());
+    }
+
+    #[test]
+    fn hardware_is_that_of_devices_and_of_the_installed_system() {
+        let folder = tempfile::tempdir().unwrap();
+        let (number, devices) = (folder.path().join("machine-id"), folder.path().join("net"));
+        assert!(hardware(&number, &devices).is_empty());
+        fs::write(&number, "0123\n").unwrap();
+        for (name, address, has_hardware) in [
+            ("eth1", "02:00:00:00:00:02", true),
+            ("eth0", "02:00:00:00:00:01", true),
+            ("veth", "02:00:00:00:00:03", false),
+            ("ib", "00:00", true),
+            ("qemu", SHARED, true),
+        ] {
+            let device = devices.join(name);
+            fs::create_dir_all(if has_hardware { device.join("device") } else { device.clone() }).unwrap();
+            fs::write(device.join("address"), format!("{address}\n")).unwrap();
+        }
+        let words = hardware(&number, &devices);
+        assert_eq!(words.len(), 2);
+        assert!(words.iter().all(|word| word.len() == 16 && !word.contains(':')), "{words:?}");
+        fs::write(&number, "4567\n").unwrap();
+        assert!(hardware(&number, &devices).iter().all(|word| !words.contains(word)));
+    }
 
     #[test]
     fn a_process_is_told_from_a_later_one_and_from_those_elsewhere() {

@@ -1,15 +1,15 @@
-//! What is wrong with a scene or a study that is not TOML, in words.
+//! Problem of a scene or a study that is not TOML, in words.
 
 use toml::de::Error;
 
 use crate::text::{short, shown_title};
 
-/// Whether a document with these keys is a study: every one has both.
+/// Tells whether a document with these keys is a study: every one has both.
 pub(crate) fn is_study(has: impl Fn(&str) -> bool) -> bool {
     has("design") && has("factor")
 }
 
-/// What the parser says of a text, and more of what is often wrong.
+/// Message of the parser on a text, and more of what is often wrong.
 pub(crate) fn problem(text: &str, error: &Error) -> String {
     let message = error.message();
     // The parser points at the second of two equal keys, and does not name it.

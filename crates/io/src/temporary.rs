@@ -1,10 +1,23 @@
-//! Files that appear under their name when they are complete.
+//! Files that appear under their name when they are complete, with names until then that nobody can guess.
 
 use std::fs::{self, File};
+use std::hash::{BuildHasher, RandomState};
 use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
 
-use crate::random;
+/// Hexadecimal digits of a word.
+const DIGITS: usize = 16;
+
+/// A new word.
+pub(crate) fn unique_word() -> String {
+    // The system seeds it.
+    format!("{:0DIGITS$x}", RandomState::new().hash_one(std::process::id()))
+}
+
+/// Tells whether a text may be one of these words.
+pub(crate) fn is_unique_word(text: &str) -> bool {
+    text.len() == DIGITS && text.bytes().all(|byte| byte.is_ascii_digit() || (b'a'..=b'f').contains(&byte))
+}
 
 /// A file beside the one that it becomes. It is removed when this is dropped, unless it has got its name.
 #[derive(Debug)]
@@ -21,7 +34,7 @@ impl Temporary {
     pub fn create(target: &Path) -> io::Result<(Self, File)> {
         loop {
             let own = target.file_name().unwrap_or_default().to_string_lossy();
-            let name = format!(".{own}.plateau-{}-{}.tmp", std::process::id(), random::word());
+            let name = format!(".{own}.plateau-{}-{}.tmp", std::process::id(), unique_word());
             let path = target.with_file_name(name);
             match File::create_new(&path) {
                 Err(error) if error.kind() == ErrorKind::AlreadyExists => {}
@@ -52,7 +65,7 @@ impl Temporary {
         }
     }
 
-    /// Where the file is until it is published.
+    /// Path of the file until it is published.
     pub fn path(&self) -> &Path {
         &self.path
     }
@@ -111,7 +124,7 @@ fn parts_of(name: &str) -> Option<(&str, &str)> {
     let (process, rest) = rest.split_once('-')?;
     let is_number = |text: &str| !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit());
     // Earlier versions had a count for the word.
-    (is_number(process) && (random::is_word(rest) || is_number(rest))).then_some((target, process))
+    (is_number(process) && (is_unique_word(rest) || is_number(rest))).then_some((target, process))
 }
 
 impl Drop for Temporary {
@@ -146,7 +159,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("run.h5");
         let dead = u32::MAX;
-        let word = random::word();
+        let word = unique_word();
         let left = format!(".run.h5.plateau-{dead}-{word}.tmp");
         let kept = [
             format!(".run.h5.plateau-{}-{word}.tmp", std::process::id()),

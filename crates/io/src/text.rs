@@ -1,13 +1,14 @@
-//! Text that others have written, made such that it changes nothing but itself where it is shown: no character of it moves the
-//! cursor, hides what follows, or turns the direction of letters.
+//! Text in messages: text of others, made such that it changes nothing but itself where it is shown (no character of it moves the
+//! cursor, hides what follows, or turns the direction of letters); lists, of which as much is told as anybody reads, twenty or what has
+//! room in 4000 letters; and names that may be meant by a mistyped one.
 
 use std::borrow::Cow;
-use std::fmt::Write as _;
+use std::fmt::{Display, Write as _};
 
 /// Letters of a name that a message shows.
 const SHOWN: usize = 60;
 
-/// Whether a character is shown as itself: no control character (Unicode category Cc), none that turns the direction of what
+/// Tells whether a character is shown as itself: no control character (Unicode category Cc), none that turns the direction of what
 /// follows (Unicode Standard Annex 9, section 2), and none that XML 1.0 has no place for.
 pub fn is_plain(letter: char) -> bool {
     let turns =
@@ -26,12 +27,12 @@ pub fn odd_character(text: &str) -> Option<String> {
 }
 
 /// Letters of a name, a title or a level, at most: so many are read, and fit a table or a figure.
-pub const LONGEST_NAME: usize = 200;
+const LONGEST_NAME: usize = 200;
 
 /// Letters of what is said of one thing that is wrong, at most: more than any such message has of its own.
 const LONGEST_PROBLEM: usize = 2000;
 
-/// Letters of a message in all, at most: lists are cut before (see [`crate::brief`]), and no path is longer.
+/// Letters of a message in all, at most: lists are cut before (see [`crate::text`]), and no path is longer.
 const LONGEST_MESSAGE: usize = 8000;
 
 /// Says that a name, a title or a level has more letters than are taken.
@@ -119,7 +120,7 @@ fn is_formula(text: &str) -> bool {
     text.starts_with(['=', '+', '-', '@', '\t', '\r']) && !is_quantity(text)
 }
 
-/// Whether a text is a number, or one with a unit behind it such as `-5 mm` or `-2 1/K`.
+/// Tells whether a text is a number, or one with a unit behind it such as `-5 mm` or `-2 1/K`.
 fn is_quantity(text: &str) -> bool {
     let (number, unit) = text.split_once(' ').unwrap_or((text, ""));
     let of_units = |letter: char| letter.is_alphanumeric() || "/^*%°- ".contains(letter);
@@ -128,6 +129,72 @@ fn is_quantity(text: &str) -> bool {
         || unit.starts_with("1/")
         || unit.starts_with(|first: char| first.is_alphabetic() || "%°".contains(first));
     number.parse().is_ok_and(f64::is_finite) && begins && unit.chars().all(of_units)
+}
+
+/// Likeness (0 to 1, strsim's normalised Damerau-Levenshtein) from which a name counts as mistyped.
+const LIKE: f64 = 0.6;
+/// Letters of a name that may be mistyped: more than any has. To compare takes time in proportion to them, for each candidate.
+const LONGEST_MISTYPED: usize = 200;
+
+/// The candidate that is most like `name`, if one is like enough.
+pub(crate) fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    if name.len() > LONGEST_MISTYPED {
+        return None;
+    }
+    let likeness = |candidate: &str| strsim::normalized_damerau_levenshtein(&name.to_lowercase(), candidate);
+    candidates
+        .into_iter()
+        .map(|candidate| (likeness(candidate), candidate))
+        .filter(|(likeness, _)| *likeness >= LIKE)
+        .max_by(|a, b| a.0.total_cmp(&b.0))
+        .map(|(_, candidate)| candidate)
+}
+
+/// Problems that are looked for in one text; nobody reads more, and in a file of another kind each word may be one.
+pub const MOST_PROBLEMS: usize = 100;
+
+/// Members of a list that are told, at most.
+const MOST: usize = 20;
+/// Letters of a list, at most, but for the separators and the number of those that are left out.
+const ROOM: usize = 4000;
+
+/// Some texts with a separator between them, such as a comma: the first of them, and how many more there are.
+pub fn list<T: Display>(texts: impl IntoIterator<Item = T>, separator: &str) -> String {
+    let (told, more) = told(texts, separator);
+    if more == 0 { told } else { format!("{told}{separator}and {more} more") }
+}
+
+/// Problem with a file, a problem a line: the first of them, and how many more were found.
+pub fn problems<T: Display>(problems: impl IntoIterator<Item = T>) -> String {
+    let mut found = 0;
+    let (told, more) = told(problems.into_iter().inspect(|_| found += 1), "\n");
+    match more {
+        0 => told,
+        // Then no others were looked for.
+        more if found >= MOST_PROBLEMS => format!("{told}\nand {more} more, at least"),
+        more => format!("{told}\nand {more} more"),
+    }
+}
+
+/// The first of some texts, one of them at least, and how many more there are.
+fn told<T: Display>(texts: impl IntoIterator<Item = T>, separator: &str) -> (String, usize) {
+    let mut texts = texts.into_iter();
+    let (mut told, mut letters, mut count) = (String::new(), 0, 0);
+    for text in texts.by_ref() {
+        let text = text.to_string();
+        let text = beginning(&text, ROOM);
+        letters += text.chars().count();
+        if count == MOST || count > 0 && letters > ROOM {
+            // This one, and those that follow.
+            return (told, 1 + texts.count());
+        }
+        if count > 0 {
+            told.push_str(separator);
+        }
+        told.push_str(&text);
+        count += 1;
+    }
+    (told, 0)
 }
 
 #[cfg(test)]
@@ -181,5 +248,23 @@ mod tests {
         for plain in ["-1.5", "+3", "-1e-300", "-20 degC", "-5 %", "-5 °C", "-5 1/K", "a=b", "", "1-2"] {
             assert_eq!(cell(plain), plain);
         }
+    }
+
+    #[test]
+    fn as_many_are_told_as_have_room() {
+        assert_eq!(list([""; 0], ", "), "");
+        assert_eq!(list(["a", "b"], ", "), "a, b");
+        assert_eq!(list(1..=20, " "), "1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 20");
+        assert_eq!(list(1..=23, ","), "1,2,3,4,5,6,7,8,9,10,11,12,13,14,15,16,17,18,19,20,and 3 more");
+        let long = "ä".repeat(1500);
+        assert_eq!(list([&long, &long, &long], "; "), format!("{long}; {long}; and 1 more"));
+        assert_eq!(list(["x".repeat(10_000_000)], ", "), format!("{}…", "x".repeat(4000)));
+    }
+
+    #[test]
+    fn problems_that_were_not_looked_for_are_not_counted() {
+        assert_eq!(problems(["one", "two"]), "one\ntwo");
+        assert!(problems(0..99).ends_with("\n19\nand 79 more"));
+        assert!(problems(0..100).ends_with("\n19\nand 80 more, at least"));
     }
 }

@@ -18,51 +18,51 @@ pub use dimension::Dimension;
 /// 0 °C, K.
 const CELSIUS: f64 = 273.15;
 
-/// Why a text is no quantity of the kind that is asked for.
+/// Reason why a text is no quantity of the kind that is asked for.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum UnitError {
     /// It does not start with a number.
     #[error("\"{text}\" does not start with a number, expected {expected}")]
     NoNumber {
-        /// What was found.
+        /// The value found.
         text: String,
-        /// What is asked for.
+        /// The value asked for.
         expected: Dimension,
     },
     /// The number is infinite, not a number, or larger than a double can hold.
     #[error("\"{text}\" is not finite, expected {expected}")]
     NotFinite {
-        /// What was found.
+        /// The value found.
         text: String,
-        /// What is asked for.
+        /// The value asked for.
         expected: Dimension,
     },
     /// A number alone.
     #[error("{text} has no unit, expected {expected}")]
     NoUnit {
-        /// What was found.
+        /// The value found.
         text: String,
-        /// What is asked for.
+        /// The value asked for.
         expected: Dimension,
     },
     /// The unit cannot be read.
     #[error("\"{text}\": {reason}, expected {expected}")]
     Unit {
-        /// What was found.
+        /// The value found.
         text: String,
-        /// What is wrong with its unit.
+        /// Problem with its unit.
         reason: String,
-        /// What is asked for.
+        /// The value asked for.
         expected: Dimension,
     },
     /// The unit measures something else.
     #[error("\"{text}\" is {found}, expected {expected}{}", advice(found, *expected))]
     WrongDimension {
-        /// What was found.
+        /// The value found.
         text: String,
-        /// What its unit measures.
+        /// Dimension of its unit.
         found: &'static str,
-        /// What is asked for.
+        /// The value asked for.
         expected: Dimension,
     },
 }
@@ -124,7 +124,7 @@ pub fn parse_as(text: &str, si_unit: &str) -> Result<f64, String> {
     finite(shift_decimal(number, scale.tens) * scale.times / scale.over, || "it is not finite".to_owned())
 }
 
-/// What 0 of a unit is in the SI unit: 273.15 K for degrees Celsius, else 0.
+/// Value of 0 of a unit in the SI unit: 273.15 K for degrees Celsius, else 0.
 pub fn zero_of(unit: &str) -> f64 {
     if is_celsius(unit) { CELSIUS } else { 0.0 }
 }

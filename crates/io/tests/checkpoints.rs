@@ -5,7 +5,7 @@ use std::path::Path;
 
 use plateau_core::observe::event::EventProgress;
 use plateau_core::simulation::Simulation;
-use plateau_io::checkpoint::{self, RunState, SimulationState};
+use plateau_io::run_file::checkpoint::{self, RunState, SimulationState};
 use plateau_io::scene::{self, Scene};
 use plateau_io::surface;
 
@@ -55,7 +55,7 @@ fn what_is_larger_than_any_state_of_a_run_is_not_read() {
         (1 << 20, None, "its digest does not hold"),
     ] {
         let size: u64 = size;
-        let head = [&b"plateau state 7\n"[..], &(size - 16 - 8 - 32).to_le_bytes()].concat();
+        let head = [&b"plateau state 8\n"[..], &(size - 16 - 8 - 32).to_le_bytes()].concat();
         fs::write(&path, head).unwrap();
         fs::File::options().write(true).open(&path).unwrap().set_len(size).unwrap();
         let refused = checkpoint::read::<RunState>(&path, most).unwrap_err().to_string();

@@ -25,9 +25,6 @@ const fn row(file: &'static str, letter: &'static str, step: f64, spatial: Optio
 const ROWS: &[Row] = &[
     row("alicona_200x296_iso1_int32.sdf", "A", 3.5558e-5, Some((12.406849, Some(0.460349)))),
     row("alicona_200x296_iso1_int16_ascii.sdf", "A", 3.2845e-5, Some((12.406893, Some(0.460352)))),
-    // Six decimals of a radian, which stands for 29 nm.
-    row("dhm_grooves_75x305.txt", "B", 2.919e-8, Some((2.104793, None))),
-    row("lay_200x200.x3p", "C", 0.0, Some((1.961156, None))),
     row("lay_plu_384x288_iso1_binary64.sdf", "D", 0.0, Some((49.100353, None))),
     row("afm_256x256_iso2_int32.sdf", "E", 3.009e-10, None),
     row("frt_missing_150x300_iso1_int32.sdf", "F", 1.414e-7, None),

@@ -14,7 +14,7 @@ use plateau_core::model::state::{Base, InitialSurfaces};
 use plateau_core::observe::Map;
 use plateau_core::observe::schedule::SampleEvery;
 use plateau_core::surface::{Crop, FibreSynthesis, Fill, Flip, HeightSynthesis, Level, Preparation, Texture, Unroll};
-use plateau_io::regular::sha256_of;
+use plateau_io::input::sha256_of;
 use plateau_io::scene::{self, memory_estimate};
 use plateau_io::scene::{BaseSource, HeightSettings, HeightSource, Scene, Workers};
 use plateau_io::surface::{Decimal, Lay, ReadOptions};

@@ -51,33 +51,3 @@ fn every_sample_has_the_heights_that_other_programs_read() {
         println!("skipped, for PLATEAU_SHARED does not tell the folder that holds surfaces/: {}", absent.join(", "));
     }
 }
-
-#[test]
-fn files_of_instruments_are_refused_with_the_line_that_converts_them() {
-    for (name, expected) in [
-        ("alicona_200x296.al3d", "this is an Alicona file (.al3d), which is not read; convert it to SDF: pip install"),
-        ("frt_missing_150x300.frt", "this is an FRT MicroProf file (.frt), which is not read; convert it to SDF: pip"),
-    ] {
-        match folders().into_iter().map(|folder| folder.join(name)).find(|path| path.exists()) {
-            None => println!("skipped, for PLATEAU_SHARED does not tell the folder that holds surfaces/: {name}"),
-            Some(path) => {
-                let found = read(&path, &ReadOptions::default()).unwrap_err().to_string();
-                assert!(found.starts_with(expected) && found.ends_with("IN OUT.sdf"), "{found}");
-            }
-        }
-    }
-}
-
-#[test]
-fn the_line_of_the_documentation_is_that_of_the_error() {
-    let docs = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/surfaces-formats.md");
-    let docs = fs::read_to_string(docs).unwrap();
-    let folder = tempfile::tempdir().unwrap();
-    for head in ["AliconaImaging", "DSCOMPRESSED"] {
-        let path = folder.path().join(head);
-        fs::write(&path, head).unwrap();
-        let found = read(&path, &ReadOptions::default()).unwrap_err().to_string();
-        let line = &found[found.find("python -c").unwrap()..];
-        assert!(docs.contains(line), "{line}");
-    }
-}

@@ -22,7 +22,6 @@ mod small_patches;
 mod surfaces;
 mod tables;
 mod writing;
-mod x3p;
 
 /// How much of a test that repeats itself is done: `few` as it goes without saying, `all` with `PLATEAU_LONG=1`.
 fn few_or_all<T: std::fmt::Debug>(few: T, all: T) -> T {

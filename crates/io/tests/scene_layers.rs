@@ -8,7 +8,7 @@ use plateau_core::model::state::Base;
 use plateau_core::observe::Map;
 use plateau_core::observe::schedule::SampleEvery;
 use plateau_core::surface::{Extension, FibreSynthesis, Fill, HeightSynthesis, Level, Preparation};
-use plateau_io::regular::sha256_of;
+use plateau_io::input::sha256_of;
 use plateau_io::scene::{self};
 use plateau_io::scene::{BaseSource, HeightSettings, HeightSource, Scene, Workers};
 use plateau_io::surface::ReadOptions;

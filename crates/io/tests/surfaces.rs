@@ -362,7 +362,7 @@ fn files_that_are_not_read_are_named() {
         let start = format!("disc.surface: {}: ", path.display());
         found.strip_prefix(&start).unwrap_or_else(|| panic!("{found}")).to_owned()
     };
-    let advice = "convert it to SDF, X3P or HDF5";
+    let advice = "SDF, HDF5, NumPy arrays, PNG, TIFF and text are read";
     for (path, expected) in [
         (folder.path().join("absent.sdf"), "cannot be read: No such file or directory".to_owned()),
         (folder.path().to_owned(), "this is a folder, expected a surface file: name one in it".to_owned()),
@@ -374,10 +374,11 @@ fn files_that_are_not_read_are_named() {
                 "this is not a surface file that is known (it starts with \"\\xff\\xd8\\xff\\xe0\\x00\\x10JF\"); {advice}"
             ),
         ),
-        (write("a.x3p", b"PK\x03\x04"), "this is a damaged zip archive: ".to_owned()),
+        (write("a.npz", b"PK\x03\x04"), "this is a damaged zip archive: ".to_owned()),
         (
             write("a.al3d", b"AliconaImaging\0\r\n"),
-            "this is an Alicona file (.al3d), which is not read; convert".to_owned(),
+            "this is an Alicona file (.al3d), which is not read as it is; convert it: plateau surface convert"
+                .to_owned(),
         ),
         (write("b.csv", b"1,2\n3,4\n"), "line 1: commas of \"1,2\" may be decimal or may part numbers".to_owned()),
         (write("a.csv", b"1.5,2\n3,4\n"), "the file does not say the unit of its heights: unit = ".to_owned()),

@@ -56,11 +56,9 @@ fn what_was_written_is_read_bit_for_bit() {
             assert_eq!(read(&path, &ReadOptions::default()).unwrap().format, Format::Sdf(kind));
             check_equal(&read_patch(&path), &patch);
         }
-        for name in ["out.X3P", "out.h5"] {
-            let path = folder.path().join(name);
-            write(&path, &patch, &WriteOptions { replace: true, sdf: None }).unwrap();
-            check_equal(&read_patch(&path), &patch);
-        }
+        let path = folder.path().join("out.H5");
+        write(&path, &patch, &WriteOptions { replace: true, sdf: None }).unwrap();
+        check_equal(&read_patch(&path), &patch);
         // An array has no pitch.
         let path = folder.path().join("out.npy");
         write(&path, &patch, &WriteOptions { replace: true, sdf: None }).unwrap();
@@ -119,7 +117,7 @@ fn heights_that_would_be_read_as_missing_are_refused() {
 #[test]
 fn an_existing_file_is_replaced_only_when_that_is_asked_for_and_never_damaged() {
     let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("out.x3p");
+    let path = folder.path().join("out.h5");
     fs::write(&path, "precious").unwrap();
     let error = write(&path, &patch(4, 5), &WriteOptions::default()).unwrap_err();
     assert!(matches!(error, WriteError::Exists { .. }));
@@ -127,11 +125,11 @@ fn an_existing_file_is_replaced_only_when_that_is_asked_for_and_never_damaged() 
     wrong.heights[7] = f64::INFINITY;
     let replace = WriteOptions { replace: true, ..WriteOptions::default() };
     let found = write(&path, &wrong, &replace).unwrap_err().to_string();
-    assert!(found.ends_with("out.x3p: the height at (column 1, row 2) is infinite"), "{found}");
+    assert!(found.ends_with("out.h5: the height at (column 1, row 2) is infinite"), "{found}");
     assert_eq!(fs::read(&path).unwrap(), b"precious");
     write(&path, &patch(4, 5), &replace).unwrap();
     check_equal(&read_patch(&path), &patch(4, 5));
-    assert_eq!(names(folder.path()), ["out.x3p"]);
+    assert_eq!(names(folder.path()), ["out.h5"]);
 }
 
 #[cfg(unix)]
@@ -163,11 +161,11 @@ fn what_cannot_be_written_is_named() {
     let short = Patch { rows: 5, ..good.clone() };
     let empty = Patch { rows: 0, heights: Vec::new(), ..good.clone() };
     for (name, patch, expected) in [
-        ("a.csv", &good, "FOLDER/a.csv: ending .csv, expected the ending .sdf, .x3p, .npy or .h5"),
-        ("a", &good, "FOLDER/a: no ending, expected the ending .sdf, .x3p, .npy or .h5"),
+        ("a.csv", &good, "FOLDER/a.csv: ending .csv, expected the ending .sdf, .npy or .h5"),
+        ("a", &good, "FOLDER/a: no ending, expected the ending .sdf, .npy or .h5"),
         ("a.sdf", &flat, "FOLDER/a.sdf: the pitch is 0 m, expected a positive, finite number"),
         ("a.sdf", &short, "FOLDER/a.sdf: 12 heights are not 3 x 5 points"),
-        ("a.x3p", &empty, "FOLDER/a.x3p: 0 heights are not 3 x 0 points"),
+        ("a.h5", &empty, "FOLDER/a.h5: 0 heights are not 3 x 0 points"),
         ("no/a.sdf", &good, "writing FOLDER/no/a.sdf failed: No such file or directory (os error 2)"),
     ] {
         assert_eq!(message(name, patch), expected);

@@ -1,4 +1,4 @@
-//! What is simulated, put together: the simulation of a scene, the scout that goes before it, and when what is reported.
+//! A scene put together: the simulation of a scene, the scout that goes before it, and when what is reported.
 
 use std::sync::Arc;
 
@@ -10,7 +10,7 @@ use plateau_core::model::state::InitialSurfaces;
 use plateau_core::observe::event::{EventLog, EventRecord};
 use plateau_core::observe::schedule::Schedule;
 use plateau_core::simulation::{Execution, Simulation, SimulationError};
-use plateau_io::checkpoint::SimulationState;
+use plateau_io::run_file::checkpoint::SimulationState;
 use plateau_io::scene::{OutputSettings, Scene};
 
 use crate::error::{InputError, RunError};
@@ -21,17 +21,17 @@ use crate::job::Job;
 pub struct Assembly {
     /// The simulation.
     pub simulation: Simulation,
-    /// What goes before it, where the run chooses its acceleration.
+    /// Scout that runs ahead, where the run chooses its acceleration.
     pub(crate) scout: Option<Scout>,
-    /// Why there is no scout although the scene asks for one.
+    /// Reason why there is no scout although the scene asks for one.
     idle: Option<Idle>,
-    /// What the scene asks for, where the run chooses its acceleration.
+    /// Tolerance that the scene asks for, where the run chooses its acceleration.
     tolerance: Option<f64>,
-    /// When samples and maps are due, as far as is known now; may be another one before the first step.
+    /// Time at which samples and maps are due, as far as is known now; may be another one before the first step.
     pub(crate) schedule: Schedule,
     pub(crate) output: OutputSettings,
     pub(crate) cycle: Option<Arc<Cycle>>,
-    /// What happened in the events of the cycle.
+    /// Records of the events of the cycle.
     pub(crate) events: EventLog,
     /// Physical time until which all that was due is reported, s: of a cycle it may lie in a pause, beyond the last step or
     /// before its end.
@@ -91,23 +91,23 @@ impl Assembly {
         })
     }
 
-    /// Whether the run chooses its acceleration, and so has a series of it.
+    /// Tells whether the run chooses its acceleration, and so has a series of it.
     pub(crate) fn chooses_acceleration(&self) -> bool {
         self.scout.is_some()
     }
 
-    /// What the acceleration was like so far, if the scene has the run choose it.
+    /// Acceleration so far, if the scene has the run choose it.
     pub(crate) fn chosen_acceleration(&self) -> Option<Chosen> {
         let of_scout = |scout: &Scout| scout.choice().chosen(self.simulation.time());
         self.tolerance.map(|tolerance| self.scout.as_ref().map_or(Chosen::never(tolerance), of_scout))
     }
 
-    /// Why the run is not accelerated (any more), if its scene has it choose.
+    /// Reason why the run is not accelerated (any more), if its scene has it choose.
     pub(crate) fn idle(&self) -> Option<Idle> {
         self.idle.or_else(|| self.scout.as_ref().and_then(Scout::idle))
     }
 
-    /// What is reported of the events of the cycle that have ended.
+    /// Records of the events of the cycle that have ended.
     pub fn events(&self) -> &[EventRecord] {
         &self.events.progress().records
     }

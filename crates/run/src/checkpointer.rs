@@ -7,18 +7,18 @@ use std::time::{Duration, Instant};
 
 use plateau_core::observe::Sample;
 use plateau_core::simulation::{Engine, SimulationError};
-use plateau_io::checkpoint::{self, RunState};
 use plateau_io::run_file::Synced;
+use plateau_io::run_file::checkpoint::{self, RunState};
 
 use crate::assembly::Assembly;
-use crate::observer::Observer;
+use crate::options::Observer;
 
-/// What tells a run from others: only a run of which this is the same goes on from a checkpoint.
+/// Identity of a run: only a run of which this is the same goes on from a checkpoint.
 #[derive(Debug, Clone)]
 pub struct RunIdentity {
     /// Name, version and revision of the program.
     pub program: String,
-    /// What takes its steps.
+    /// Engine that takes its steps.
     pub engine: Engine,
     /// The whole resolved scene.
     pub scene: String,
@@ -32,14 +32,14 @@ pub struct Checkpointer {
     run_file: PathBuf,
     identity: RunIdentity,
     every: Duration,
-    /// When the last one was begun.
+    /// Time at which the last one was begun.
     last: Instant,
     start: Instant,
     /// Wall time of the run before this process.
     earlier: f64,
     /// The last sample of the run, in this process or before.
     pub last_sample: Option<Sample>,
-    /// What is sent to the run file.
+    /// Samples and maps that were sent to the run file.
     sent: [usize; 2],
     writing: Option<JoinHandle<io::Result<()>>>,
 }
@@ -72,7 +72,7 @@ impl Checkpointer {
         self.sent[1] += 1;
     }
 
-    /// Whether it is time for a checkpoint, and the one before is on the disk: no step waits for a slow one.
+    /// Tells whether it is time for a checkpoint, and the one before is on the disk: no step waits for a slow one.
     pub fn is_due(&self) -> bool {
         self.last.elapsed() >= self.every && self.writing.as_ref().is_none_or(JoinHandle::is_finished)
     }

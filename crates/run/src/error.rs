@@ -1,18 +1,21 @@
-//! Why a run did not come to its end, and whose fault that is.
+//! Reason why a run did not come to its end, and whose fault that is.
 
+use std::error::Error as StdError;
 use std::io;
 use std::path::PathBuf;
 
 use plateau_core::engine::comm::CommError;
 use plateau_core::simulation::SimulationError;
-use plateau_io::checkpoint::CheckpointError;
 use plateau_io::claim::ClaimError;
 use plateau_io::number;
+use plateau_io::run_file::checkpoint::CheckpointError;
 use plateau_io::run_file::{KeepError, ReadError, RunFileError};
+use plateau_io::scene::{Problem, SceneError};
+use plateau_io::study::StudyError;
 use plateau_io::surface::SurfaceError;
 use thiserror::Error;
 
-/// Why a run did not come to its end.
+/// Reason why a run did not come to its end.
 #[derive(Debug, Error)]
 pub enum RunError {
     /// The scene, a file or what was asked for is wrong: nothing was simulated, and what was there is untouched.
@@ -26,7 +29,7 @@ pub enum RunError {
     Stopped(#[from] Stopped),
 }
 
-/// What is wrong with what a run was given.
+/// Problem with the input of a run.
 #[derive(Debug, Error)]
 pub enum InputError {
     /// The surfaces cannot be read or made.
@@ -62,7 +65,7 @@ pub enum InputError {
     ReplacesInput {
         /// Which file it is.
         what: &'static str,
-        /// Where it is.
+        /// Its path.
         path: PathBuf,
     },
     /// Another program has the run file open for writing.
@@ -78,7 +81,7 @@ pub enum InputError {
     SetAside {
         /// The run file.
         path: PathBuf,
-        /// What the system says.
+        /// Message of the system.
         #[source]
         error: io::Error,
     },
@@ -89,7 +92,7 @@ pub enum InputError {
     KeptAside {
         /// The run file.
         path: PathBuf,
-        /// What the system says.
+        /// Message of the system.
         #[source]
         error: io::Error,
     },
@@ -106,10 +109,10 @@ pub enum InputError {
     NotResumable {
         /// The run file.
         path: PathBuf,
-        /// What is wrong with it.
+        /// Its problem.
         what: String,
     },
-    /// What is there cannot be kept.
+    /// The file that is there cannot be kept.
     #[error(transparent)]
     Keep(#[from] KeepError),
     /// The run file that is to be gone on with cannot be read.
@@ -140,7 +143,7 @@ pub enum InputError {
     },
 }
 
-/// What failed in a run.
+/// Failure of a run.
 #[derive(Debug, Error)]
 pub enum RunFailure {
     /// A step, or what was to be reported of one.
@@ -167,9 +170,9 @@ pub enum RunFailure {
 #[derive(Debug, Clone, PartialEq, Error)]
 #[error("stopped by {}{progress}", signal_in_words(*signal))]
 pub struct Stopped {
-    /// What [`Observer::asked_to_stop`](crate::Observer::asked_to_stop) gave.
+    /// Number that [`Observer::asked_to_stop`](crate::Observer::asked_to_stop) gave.
     pub signal: u8,
-    /// How far the run had come; none in a process that has no file to close.
+    /// Extent to which the run had come; none in a process that has no file to close.
     pub progress: Progress,
 }
 
@@ -181,7 +184,7 @@ pub fn signal_in_words(signal: u8) -> String {
     }
 }
 
-/// How far a run had come when it was stopped.
+/// Progress of a run when it was stopped.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Progress {
     /// Before the first step.
@@ -260,4 +263,35 @@ impl From<RunFileError> for RunError {
             _ => InputError::RunFile(error).into(),
         }
     }
+}
+
+/// Numbers of the system's errors that are not the user's fault: no thread, no memory, too many open files, in all or of this
+/// process.
+const LACKS: [i32; 4] = [11, 12, 23, 24];
+
+/// True of an error that is, or comes from, a lack of the system: no thread, no memory, no file handle. Then the input is not wrong.
+pub fn lacks_resources(error: &(dyn StdError + 'static)) -> bool {
+    let number = |error: &(dyn StdError + 'static)| match error.downcast_ref::<ReadError>() {
+        Some(ReadError::System { number, .. }) => *number,
+        _ => error.downcast_ref::<io::Error>().and_then(io::Error::raw_os_error),
+    };
+    let of_problems = |problems: &[Problem]| {
+        problems.iter().any(|problem| problem.system.is_some_and(|number| LACKS.contains(&number)))
+    };
+    let is_lack = |error: &(dyn StdError + 'static)| {
+        number(error).is_some_and(|number| LACKS.contains(&number))
+            || matches!(error.downcast_ref(), Some(ReadError::Handles { .. }))
+            || error.downcast_ref().is_some_and(|error: &SceneError| of_problems(error.problems()))
+            || error.downcast_ref().is_some_and(|error: &StudyError| of_problems(&error.0))
+            || matches!(error.downcast_ref(), Some(RunFileError::NoHandle { .. }))
+            || matches!(error.downcast_ref(), Some(SimulationError::Threads { .. }))
+    };
+    let mut next = Some(error);
+    while let Some(error) = next {
+        if is_lack(error) {
+            return true;
+        }
+        next = error.source();
+    }
+    false
 }

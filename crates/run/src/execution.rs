@@ -1,5 +1,6 @@
-//! How a run is carried out: workers, instruction set, cores. None of it shows in the results.
+//! Execution of a run: machine, cores, workers, instruction set. None of it shows in the results.
 
+use std::fs;
 use std::time::{Duration, Instant};
 
 use plateau_core::engine::kernel::InstructionSet;
@@ -7,10 +8,31 @@ use plateau_core::model::state::InitialSurfaces;
 use plateau_core::simulation::{Engine, Execution, Simulation, SimulationError};
 use plateau_io::scene::{Scene, Workers};
 
-use crate::observer::Observer;
-use crate::options::ExecutionOptions;
+use crate::options::{ExecutionOptions, Observer};
 
-/// How long each number of workers is tried.
+pub use plateau_io::process::host;
+
+/// Name of the processor.
+pub fn processor() -> String {
+    let text = fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
+    let line = text.lines().find_map(|line| line.strip_prefix("model name"));
+    line.map_or(std::env::consts::ARCH, |name| name.trim_matches([' ', '\t', ':'])).to_owned()
+}
+
+/// How many threads wanted to run, mean over the last minute; none where the system does not tell.
+pub(crate) fn load() -> Option<f64> {
+    fs::read_to_string("/proc/loadavg").ok()?.split_whitespace().next()?.parse().ok()
+}
+
+/// Largest memory that this process held so far, bytes; none where the system does not tell.
+pub(crate) fn peak_memory() -> Option<u64> {
+    let status = fs::read_to_string("/proc/self/status").ok()?;
+    let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;
+    let kilobytes: u64 = line.trim().strip_suffix("kB")?.trim().parse().ok()?;
+    Some(kilobytes * 1024)
+}
+
+/// Time for which each number of workers is tried.
 const TRIAL: Duration = Duration::from_millis(25);
 
 /// Steps before a trial's clock starts: threads start, caches fill, and the first displacement is searched from afar.
@@ -30,14 +52,18 @@ pub fn decide(
 ) -> Result<Execution, SimulationError> {
     let workers = scene.workers;
     let instructions = options.instructions.unwrap_or_else(InstructionSet::best);
-    if options.engine == Engine::Plain {
+    let engine = options.engine.of(&scene.parameters);
+    if engine == Engine::Plain {
         if ranks > 1 {
             return Err(SimulationError::PlainOnRanks { ranks });
+        }
+        if engine != options.engine {
+            observer.note(&"pooled debris: the plain model takes the steps, cell by cell, on one worker");
         }
         if workers != Workers::Count(1) {
             observer.warning(&"the plain model runs on one worker: numerics.workers and --workers have no effect");
         }
-        return Ok(Execution { engine: Engine::Plain, instructions, ..Execution::default() });
+        return Ok(Execution { engine, instructions, ..Execution::default() });
     }
     let execution = Execution { instructions, pin: options.pin, ..Execution::default() };
     if ranks > 1 {

@@ -13,44 +13,39 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! | what | where |
+//! | content | module |
 //! |---|---|
-//! | a run from its scene to its file, and what came of it | [`run()`], [`RunSummary`] |
-//! | what is asked of it, who follows it, how it fails | [`RunOptions`], [`Observer`], [`RunError`] |
+//! | a run from its scene to its file, and its results | [`run()`], [`RunSummary`] |
+//! | options of a run, its observer, its failures | [`RunOptions`], [`Observer`], [`RunError`] |
 //! | simulation, scout and schedule of a scene, put together once for all who run one | [`Assembly`] |
 //! | the time loop, and what takes its samples and maps | [`Assembly::run_to_end`], [`Sink`] |
-//! | how many workers, which instruction set | [`execution`] |
+//! | machine, number of workers, instruction set | [`execution`] |
 //! | start or continuation, from which checkpoint, and writing those | `start`, `resume`, `checkpointer` |
-//! | what was done before the first checkpoint, kept when a run begins anew | `kept` |
-//! | how exact a scene's runs are for their time | [`accuracy`] |
+//! | accuracy of a scene's runs for their time | [`accuracy`] |
+//! | the runs of a study | [`sweep`] |
 //! | the processes that take the steps together | [`job`] |
-//! | what the system tells of this machine | [`machine`] |
 
 pub mod accuracy;
 mod assembly;
 mod checkpointer;
 mod error;
 pub mod execution;
-mod header;
 pub mod job;
-mod kept;
-pub mod machine;
-mod observer;
 mod options;
 mod recorder;
 mod resume;
 mod run;
 mod start;
 mod summary;
+pub mod sweep;
 mod time_loop;
 mod warnings;
 
 pub use assembly::Assembly;
-pub use error::{InputError, Progress, RunError, RunFailure, Stopped, signal_in_words};
-pub use header::input_files;
+pub use error::{InputError, Progress, RunError, RunFailure, Stopped, lacks_resources, signal_in_words};
 pub use job::Job;
-pub use observer::Observer;
-pub use options::{ExecutionOptions, Program, RunOptions, StartMode};
+pub use options::{ExecutionOptions, Observer, Program, RunOptions, StartMode};
+pub use recorder::input_files;
 pub use run::run;
 pub use summary::{PartsSummary, RunSummary};
 pub use time_loop::Sink;

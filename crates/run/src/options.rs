@@ -1,26 +1,28 @@
-//! What is asked of a run besides its scene.
+//! Options of a run besides its scene, and its observer.
 
+use std::fmt::Display;
 use std::path::PathBuf;
 
 use plateau_core::engine::kernel::InstructionSet;
-use plateau_core::simulation::Engine;
+use plateau_core::observe::Sample;
+use plateau_core::simulation::{Engine, Simulation};
 
-/// What is asked of a run besides its scene.
+/// Options of a run besides its scene.
 #[derive(Debug, Clone, Default)]
 pub struct RunOptions {
     /// Run file, instead of the one that the scene names.
     pub output: Option<PathBuf>,
-    /// Whether a file that is there may be replaced.
+    /// Tells whether a file that is there may be replaced.
     pub replace: bool,
-    /// Whether the run begins or goes on.
+    /// Tells whether the run begins or goes on.
     pub mode: StartMode,
-    /// How it is carried out.
+    /// Its execution.
     pub execution: ExecutionOptions,
     /// Who makes it.
     pub program: Program,
 }
 
-/// Whether a run begins or goes on.
+/// Tells whether a run begins or goes on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum StartMode {
     /// It begins.
@@ -33,7 +35,7 @@ pub enum StartMode {
 }
 
 impl StartMode {
-    /// Whether a run that is there is to be gone on with.
+    /// Tells whether a run that is there is to be gone on with.
     pub(crate) fn resumes(self) -> bool {
         self != Self::New
     }
@@ -42,11 +44,11 @@ impl StartMode {
 /// How a run is carried out. Nothing of it shows in the results, but that the two engines round differently.
 #[derive(Debug, Clone, Copy)]
 pub struct ExecutionOptions {
-    /// What takes the steps.
+    /// Engine that takes the steps.
     pub engine: Engine,
     /// Instruction set of the kernels; the widest that the processor has unless given.
     pub instructions: Option<InstructionSet>,
-    /// Whether each worker stays on a core of its own.
+    /// Tells whether each worker stays on a core of its own.
     pub pin: bool,
 }
 
@@ -78,3 +80,47 @@ impl Default for Program {
         Self { name: format!("plateau {}", env!("CARGO_PKG_VERSION")), revision: "unknown".into() }
     }
 }
+
+/// Follows a run. Every method has an answer already: an observer says only what it cares for, `()` cares for nothing.
+///
+/// In a job of several processes each has an observer of its own. All are told the same, and it suffices that one of them
+/// asks for something.
+pub trait Observer {
+    /// Told what deserves attention though the run goes on.
+    fn warning(&mut self, _message: &dyn Display) {}
+
+    /// Told what is worth knowing.
+    fn note(&mut self, _message: &dyn Display) {}
+
+    /// Told how a surface was made ready, one step a line; for those who want to see it.
+    fn detail(&mut self, _message: &dyn Display) {}
+
+    /// All is read and made that the run needs, and nothing is written yet: until now whoever wants to stop it may end the process.
+    fn prepared(&mut self) {}
+
+    /// Steps begin, to be taken until this physical time (s); `name` tells a run from others of the same scene, else it is
+    /// empty.
+    fn starts(&mut self, _name: &str, _duration: f64) {}
+
+    /// Called about ten times a second between two steps.
+    fn progress(&mut self, _simulation: &Simulation) {}
+
+    /// A sample was taken; it is on its way to the run file.
+    fn sample(&mut self, _sample: &Sample) {}
+
+    /// The last step was taken, or the run ends before.
+    fn ends(&mut self) {}
+
+    /// The number of the signal that asks the run to stop, if one does. Looked at as often as [`progress`](Self::progress) is
+    /// called; a run that has a file leaves a checkpoint.
+    fn asked_to_stop(&mut self) -> Option<u8> {
+        None
+    }
+
+    /// Tells whether a checkpoint was asked for since the last time.
+    fn asked_to_save(&mut self) -> bool {
+        false
+    }
+}
+
+impl Observer for () {}

@@ -1,20 +1,59 @@
-//! Where the samples and maps of a run go, and what may end it.
+//! Recorder of a run: the header of its run file, the way of its samples and maps, and what may end it.
+
+use std::path::PathBuf;
 
 use plateau_core::engine::comm::CommError;
 use plateau_core::observe::{Sample, Snapshot};
 use plateau_core::simulation::{Simulation, SimulationError};
 use plateau_io::plausibility::Recorded;
-use plateau_io::run_file::{RunFileError, RunWriter};
+use plateau_io::run_file::{Header, InputFile, RunFileError, RunWriter};
+use plateau_io::scene::Scene;
 
 use crate::assembly::Assembly;
 use crate::checkpointer::Checkpointer;
 use crate::error::RunFailure;
+use crate::execution;
 use crate::job::{Agreement, Job};
-use crate::observer::Observer;
+use crate::options::{Observer, Program};
 use crate::time_loop::Sink;
 use crate::warnings::{grown_stiffness_warning, is_stiff};
 
-/// Why a run that had started did not end.
+/// The part of the run file that is known before the first step. `surface_files` are those that were read, with their digests;
+/// `surfaces` says what was done for the surfaces.
+pub fn header(
+    scene: &Scene,
+    assembly: &Assembly,
+    program: &Program,
+    surface_files: &[(PathBuf, String)],
+    surfaces: Vec<String>,
+) -> Header {
+    let execution = assembly.simulation.execution();
+    Header {
+        title: scene.title.clone(),
+        mesh: scene.parameters.mesh.clone(),
+        pin_base: assembly.simulation.pin_base().to_vec(),
+        maps: scene.output.maps.clone(),
+        extras: scene.extras(assembly.chooses_acceleration()),
+        expected_samples: assembly.schedule.samples(),
+        scene: scene.resolved.clone(),
+        program: program.name.clone(),
+        source_revision: program.revision.clone(),
+        host: execution::host(),
+        workers: execution.workers,
+        instruction_set: execution.means().into(),
+        seeds: scene.seeds.clone(),
+        inputs: input_files(scene, surface_files),
+        surfaces,
+    }
+}
+
+/// Every file that a scene read, with the digest of what was read; those of surfaces are `surface_files`.
+pub fn input_files(scene: &Scene, surface_files: &[(PathBuf, String)]) -> Vec<InputFile> {
+    let read = scene.files.iter().chain(surface_files);
+    read.map(|(path, sha256)| InputFile { path: path.to_string_lossy().into_owned(), sha256: sha256.clone() }).collect()
+}
+
+/// Reason why a run that had started did not end.
 #[derive(Debug)]
 pub enum Interruption {
     /// It failed.
@@ -51,11 +90,11 @@ pub struct Recorder<'a> {
     pub job: &'a mut Job,
     /// Writes the state now and then.
     pub checkpointer: Checkpointer,
-    /// What all processes settled last.
+    /// Last agreement of all processes.
     pub agreement: Agreement,
-    /// What the samples so far say of the scene.
+    /// Warnings of the samples so far of the scene.
     pub recorded: Recorded,
-    /// Whether it is said that the stiffness number is too large for the wear rule.
+    /// Tells whether it is said that the stiffness number is too large for the wear rule.
     pub is_stiff: bool,
 }
 

@@ -1,18 +1,103 @@
-//! What a run goes on from: the newest checkpoint that holds and whose run file has what it says.
+//! Continuation of a run: the newest checkpoint that holds and whose run file has what it says; or without any, a new beginning, for which
+//! the samples of before are kept.
 
-use std::path::Path;
+use std::fs;
+use std::io::{self, ErrorKind};
+use std::path::{Path, PathBuf};
 
 use plateau_core::model::mesh::Mesh;
-use plateau_io::brief;
-use plateau_io::checkpoint::{self, RunState};
-use plateau_io::run_file::{Earlier, Header, RunFileError, RunWriter};
+use plateau_io::run_file::checkpoint::{self, RunState};
+use plateau_io::run_file::{Earlier, Header, RunFile, RunFileError, RunWriter};
 use plateau_io::scene::differences;
 use plateau_io::scene::schema::{self, Role};
-use plateau_io::text::shown_title;
+use plateau_io::text::{self, shown_title};
 
 use crate::checkpointer::RunIdentity;
 use crate::error::{InputError, RunError};
-use crate::observer::Observer;
+use crate::options::Observer;
+
+/// Names that are tried.
+const MOST: usize = 1000;
+
+/// A run file that has a second name, which goes again unless it is to stay.
+pub struct Kept {
+    place: PathBuf,
+    /// Path that it was moved from, on file systems where a file has one name only.
+    moved_from: Option<PathBuf>,
+    /// Tells whether the name is new: there may be a file of before that holds as much.
+    is_new: bool,
+    stays: bool,
+}
+
+impl Kept {
+    /// Keeps a run file of so many samples as `RUN.before-resume`. Where a file of an earlier beginning of the same run has that name,
+    /// the one with more samples is kept; what else has it stays, and another name is taken.
+    ///
+    /// # Errors
+    /// What the system says.
+    pub fn of(path: &Path, samples: usize) -> io::Result<Self> {
+        for count in 1..=MOST {
+            let place = place(path, count);
+            match samples_of_same(&place, path) {
+                Some(there) if there >= samples => {
+                    return Ok(Self { place, moved_from: None, is_new: false, stays: true });
+                }
+                // All of them are the first of those that are kept now.
+                Some(_) => fs::remove_file(&place)?,
+                None => {}
+            }
+            match fs::hard_link(path, &place) {
+                Ok(()) => return Ok(Self { place, moved_from: None, is_new: true, stays: false }),
+                Err(_) if fs::symlink_metadata(&place).is_ok() => {}
+                // Some file systems have no hard links.
+                Err(_) => {
+                    fs::rename(path, &place)?;
+                    return Ok(Self { place, moved_from: Some(path.to_owned()), is_new: true, stays: false });
+                }
+            }
+        }
+        Err(ErrorKind::AlreadyExists.into())
+    }
+
+    /// Lets it stay; where it is.
+    pub fn stay(mut self) -> PathBuf {
+        self.stays = true;
+        self.place.clone()
+    }
+}
+
+impl Drop for Kept {
+    fn drop(&mut self) {
+        if self.stays || !self.is_new {
+            return;
+        }
+        // Nobody is left to tell.
+        let _ = match &self.moved_from {
+            Some(path) => fs::rename(&self.place, path),
+            None => fs::remove_file(&self.place),
+        };
+    }
+}
+
+/// `run.h5.before-resume`, then `run.h5.before-resume-2` and so on.
+fn place(path: &Path, count: usize) -> PathBuf {
+    let mut name = path.file_name().unwrap_or_default().to_owned();
+    name.push(".before-resume");
+    if count > 1 {
+        name.push(format!("-{count}"));
+    }
+    path.with_file_name(name)
+}
+
+/// Samples in a file of the same scene, surfaces and program, which are the same as far as they go; none of another file.
+fn samples_of_same(place: &Path, run: &Path) -> Option<usize> {
+    if !fs::symlink_metadata(place).is_ok_and(|there| there.is_file()) {
+        return None;
+    }
+    let [there, run] = [RunFile::open(place).ok()?, RunFile::open(run).ok()?];
+    let alike = |name: &str| there.attribute(name) == run.attribute(name);
+    ["scene", "program", "source_revision", "inputs"].into_iter().all(alike).then(|| there.time().len())
+}
 
 /// The states to go on from, the newest first; none if there is no checkpoint.
 ///
@@ -68,7 +153,7 @@ fn compare(run_file: &Path, state: &RunState, identity: &RunIdentity, extends: b
     if changed.is_empty() && identity.inputs.len() == state.inputs.len() {
         return Ok(());
     }
-    Err(refusal(run_file, format_args!("files that it reads have changed: {}", brief::list(changed, ", "))))
+    Err(refusal(run_file, format_args!("files that it reads have changed: {}", text::list(changed, ", "))))
 }
 
 /// Refuses a run file of another scene.
@@ -94,7 +179,7 @@ pub fn compare_scenes(run_file: &Path, scene: &str, identity: &RunIdentity, exte
     if keys.is_empty() {
         Ok(())
     } else {
-        Err(refusal(run_file, format_args!("the scene differs: {}", brief::list(keys, ", "))))
+        Err(refusal(run_file, format_args!("the scene differs: {}", text::list(keys, ", "))))
     }
 }
 

@@ -4,24 +4,21 @@ use std::error::Error as _;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-use plateau_io::checkpoint::{self, RunState};
 use plateau_io::claim::Claim;
 use plateau_io::number;
 use plateau_io::plausibility::{self, Recorded};
-use plateau_io::run_file::{End, Header, RunFile, RunFileError, RunWriter, State, Synced, WriterReport, check_place};
-use plateau_io::scene::Scene;
-use plateau_io::scene::Warning;
+use plateau_io::run_file::checkpoint::{self, RunState};
+use plateau_io::run_file::{End, Header, RunFile, RunFileError, RunWriter, State, Synced, WriterReport, check_output};
+use plateau_io::scene::{Scene, Warning};
 use plateau_io::surface::{self, Loaded};
 
 use crate::assembly::Assembly;
 use crate::checkpointer::{Checkpointer, RunIdentity};
 use crate::error::{InputError, Progress, RunError, RunFailure, Stopped};
 use crate::execution::decide;
-use crate::header::header;
 use crate::job::{Agreement, Job};
-use crate::observer::Observer;
-use crate::options::RunOptions;
-use crate::recorder::{Interruption, Recorder};
+use crate::options::{Observer, RunOptions};
+use crate::recorder::{Interruption, Recorder, header};
 use crate::start::{Request, Start};
 use crate::summary::RunSummary;
 use crate::warnings::{idle_warning, is_stiff, stiffness_warning};
@@ -80,7 +77,7 @@ impl Prepared {
         // What a link points to is what is written, and its checkpoints lie beside it.
         let path = if path.is_symlink() { path.canonicalize().unwrap_or(path) } else { path };
         if job.leads() {
-            if let Err(error) = check_place(&path, options.replace || options.mode.resumes()) {
+            if let Err(error) = check_output(&path, options.replace || options.mode.resumes()) {
                 return Err(if_unfinished(error, &path)?.into());
             }
             Claim::check(&path)?;
@@ -205,7 +202,7 @@ fn if_unfinished(error: RunFileError, path: &Path) -> Result<InputError, RunErro
     }
 }
 
-/// How a process that has no file to close fails.
+/// Failure of a process that has no file to close.
 fn without_file(interruption: Interruption) -> RunError {
     match interruption {
         Interruption::Stopped(signal) => Stopped { signal, progress: Progress::Elsewhere }.into(),

@@ -2,42 +2,41 @@
 
 use std::path::Path;
 
-use plateau_io::checkpoint::{self, RunState};
 use plateau_io::claim::Claim;
 use plateau_io::number;
 use plateau_io::process::{Writer, writer_of};
+use plateau_io::run_file::checkpoint::{self, RunState};
 use plateau_io::run_file::{Damage, Header, ReadError, RunFile, RunWriter, State, keep, verify};
 use plateau_io::temporary::Temporary;
 
 use crate::checkpointer::RunIdentity;
 use crate::error::{InputError, RunError};
 use crate::job::Job;
-use crate::kept::Kept;
-use crate::observer::Observer;
-use crate::options::{RunOptions, StartMode};
+use crate::options::{Observer, RunOptions, StartMode};
 use crate::resume;
+use crate::resume::Kept;
 
-/// What is asked for, and of which run.
+/// Request, and its run.
 pub struct Request<'a> {
     /// The run file.
     pub path: &'a Path,
-    /// What it says before the first step.
+    /// Messages before the first step.
     pub header: &'a Header,
-    /// What tells the run from others.
+    /// Identity of the run.
     pub identity: &'a RunIdentity,
-    /// Whether it begins or goes on, and what may be replaced.
+    /// Tells whether it begins or goes on, and what may be replaced.
     pub options: &'a RunOptions,
     /// Physical time at the end of its last step, s.
     pub end: f64,
 }
 
-/// What a run starts with.
+/// Start of a run: simulation, run file and checkpoints.
 pub struct Start {
     /// To be held until nothing more is written. None in a process that does not lead.
     pub claim: Option<Claim>,
     /// None in a process that does not lead.
     pub writer: Option<RunWriter>,
-    /// What it goes on from.
+    /// State from which it continues.
     pub state: Option<RunState>,
 }
 
@@ -82,7 +81,7 @@ impl Request<'_> {
         Ok(Some(Start { claim, writer, state }))
     }
 
-    /// Whether the run may come to a later end than it had.
+    /// Tells whether the run may come to a later end than it had.
     fn extends(&self) -> bool {
         self.options.mode == StartMode::Extend
     }
@@ -101,7 +100,7 @@ impl Request<'_> {
         Ok(())
     }
 
-    /// Whether all steps of the run are done, by its newest checkpoint and its file.
+    /// Tells whether all steps of the run are done, by its newest checkpoint and its file.
     fn is_finished(&self, newest: Option<&RunState>, there: Option<&There>) -> Result<bool, InputError> {
         let is_finished = there.is_some_and(|there| there.state == State::Finished);
         match newest {
@@ -123,7 +122,7 @@ impl Request<'_> {
         }
     }
 
-    /// Whether a finished run that is to go on to a time has come to just that.
+    /// Tells whether a finished run that is to go on to a time has come to just that.
     fn has_come_to_end(&self, state: &RunState) -> Result<bool, InputError> {
         let time = state.simulation.reached;
         // The last step may go beyond the time that is asked for.

@@ -1,4 +1,4 @@
-//! What came of a finished run, in numbers.
+//! Results of a finished run, in numbers.
 
 use std::path::PathBuf;
 
@@ -14,14 +14,14 @@ use plateau_io::scene::Scene;
 use plateau_io::scene::Warning;
 use serde::Serialize;
 
-use crate::machine;
+use crate::execution;
 
-/// What came of a finished run. Quantities of the contact are those of the last step unless said otherwise.
+/// Results of a finished run. Quantities of the contact are those of the last step unless said otherwise.
 #[derive(Debug, Serialize)]
 pub struct RunSummary {
     /// Title of the scene.
     pub title: String,
-    /// What was read, made and done for the surfaces.
+    /// Content read, made and done for the surfaces.
     pub surfaces: Vec<String>,
     /// The run file.
     pub file: PathBuf,
@@ -35,9 +35,9 @@ pub struct RunSummary {
     pub wall_time: f64,
     /// Steps of the run in that time, 1/s.
     pub steps_per_second: f64,
-    /// How often the load was looked for in a step, mean.
+    /// Number of times that the load was looked for in a step, mean.
     pub load_evaluations_per_step: f64,
-    /// How long the simulation waited for the run file, s.
+    /// Time for which the simulation waited for the run file, s.
     pub writer_wait: f64,
     /// Largest memory that this process held, bytes, where the system tells.
     pub peak_memory: Option<u64>,
@@ -47,14 +47,14 @@ pub struct RunSummary {
     pub contact_area_mean: f64,
     /// Its mean over the last tenth of the run, where there are enough samples.
     pub contact_area_last_tenth: Option<WindowMean>,
-    /// What its mean changed by in the second half of the run, where that can be told.
+    /// Change of its mean in the second half of the run, where that can be told.
     pub contact_area_drift: Option<Drift>,
-    /// When the contact area has come to 90 % of its value at the end of the run, s, where that is defined.
+    /// Time at which the contact area has come to 90 % of its value at the end of the run, s, where that is defined.
     pub running_in_time: Option<f64>,
     /// The same two, or why there are none.
     #[serde(skip)]
     pub running_in: (Result<Drift, NoDrift>, Result<f64, NotDefined>),
-    /// What the time acceleration was like, where the run chose it.
+    /// Time acceleration, where the run chose it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub time_acceleration: Option<Chosen>,
     /// Contact area as a part of the pin's.
@@ -75,7 +75,7 @@ pub struct RunSummary {
     pub worn: f64,
     /// Worn volume of the whole pin, plateaus and resin, m³.
     pub worn_whole_pin: f64,
-    /// What of it was worn off plateaus, m³.
+    /// Part of it that was worn off plateaus, m³.
     pub worn_pin: f64,
     /// Volume that the whole pin has lost, m³: what a balance tells, for build-up is weighed with the pin.
     pub lost_pin: f64,
@@ -88,15 +88,15 @@ pub struct RunSummary {
     pub parts: PartsSummary,
     /// Largest load residual of any step, relative.
     pub load_residual: f64,
-    /// What the scene allows.
+    /// Bound of the scene.
     pub load_tolerance: f64,
-    /// What the debris balance is off by, relative.
+    /// Residual of the debris balance, relative.
     pub balance_residual: f64,
-    /// What the scene can hardly mean.
+    /// Values of the scene that can hardly be meant.
     pub warnings: Vec<Warning>,
 }
 
-/// What came of the parts of the model that a scene may do without; each is there where the scene asks for it.
+/// Results of the parts of the model that a scene may do without; each is there where the scene asks for it.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct PartsSummary {
     /// Coefficient of friction, mean over the last simulated revolution, weighted by load.
@@ -114,7 +114,7 @@ pub struct PartsSummary {
     /// Mean temperature of the pin, K.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub pin_temperature: Option<f64>,
-    /// What the energy balance is off by, relative.
+    /// Residual of the energy balance, relative.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub heat_residual: Option<f64>,
     /// PM10, kg.
@@ -161,7 +161,11 @@ impl RunSummary {
     ) -> Self {
         // With a cycle, the distance at the end counts also what of the last pause's angle no step has turned.
         let distance = scene.parameters.angle_turned(last.step, last.time) * scene.parameters.mesh.mean_radius();
-        let work = scene.parameters.mean_load(last.step) * distance;
+        // Of a braking torque the load is known from the steps alone.
+        let work = match last.accounts.friction {
+            Some(friction) if scene.parameters.by_torque => friction.load_work,
+            _ => scene.parameters.mean_load(last.step) * distance,
+        };
         Self {
             title: scene.title.clone(),
             surfaces,
@@ -173,7 +177,7 @@ impl RunSummary {
             steps_per_second: last.step as f64 / wall_time,
             load_evaluations_per_step: 1.0 + course.extra_readings as f64 / course.steps as f64,
             writer_wait: report.waited.as_secs_f64(),
-            peak_memory: machine::peak_memory(),
+            peak_memory: execution::peak_memory(),
             contact_area: last.contact_area,
             contact_area_mean: last.contact_area_mean,
             contact_area_last_tenth: ended.last_tenth,

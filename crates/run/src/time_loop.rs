@@ -15,7 +15,7 @@ const LOOK_EVERY: Duration = Duration::from_millis(100);
 
 /// Takes what a simulation reports.
 pub trait Sink {
-    /// Why it cannot.
+    /// Reason why it cannot.
     type Error: From<SimulationError>;
 
     /// A sample of the step just done.
@@ -113,11 +113,16 @@ impl Assembly {
     /// What is reported of the step just done, or of a pause before or after its end.
     fn sample(&mut self, moment: &Moment) -> Result<Sample, SimulationError> {
         let mut sample = self.simulation.sample_at(moment, &self.output.extras)?;
+        let parameters = self.simulation.parameters();
         if let Some(cycle) = &self.cycle {
-            let angle = self.simulation.parameters().step_angle();
-            let [force, speed] = cycle.operation_at(moment.step, angle, moment.time, moment.pause);
+            let [load, speed] = cycle.operation_at(moment.step, parameters.step_angle(), moment.time, moment.pause);
+            // How hard a braking torque presses, the steps alone know.
+            let force = if parameters.by_torque && load > 0.0 { self.simulation.course().load } else { load };
             CYCLE.record(&mut sample, [force, speed, cycle.contact_time_until(moment.time)]);
             ROAD.record(&mut sample, [cycle.road_distance_at(moment.time)]);
+        } else if parameters.by_torque {
+            let speed = parameters.angular_velocity;
+            CYCLE.record(&mut sample, [self.simulation.course().load, speed, moment.time]);
         }
         if let Some(choice) = self.scout.as_ref().map(Scout::choice) {
             ACCELERATION.record(&mut sample, [choice.acceleration(), choice.error()]);

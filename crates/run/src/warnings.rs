@@ -1,4 +1,4 @@
-//! What deserves attention in what a scene asks for, in words.
+//! Warnings of values that a scene asks for, in words.
 
 use plateau_core::acceleration::scout::Idle;
 use plateau_core::model::parameters::{Integrator, Parameters};
@@ -7,7 +7,7 @@ use plateau_io::number;
 /// Π above which the explicit rule errs noticeably.
 const LARGE_STIFFNESS_NUMBER: f64 = 0.1;
 
-/// Whether the wear rule of a scene is out of its depth with a stiffness number (model section 8).
+/// Tells whether the wear rule of a scene is out of its depth with a stiffness number (model section 8).
 pub fn is_stiff(parameters: &Parameters, stiffness_number: f64) -> bool {
     parameters.integrator == Integrator::Explicit && stiffness_number > LARGE_STIFFNESS_NUMBER
 }
@@ -37,5 +37,5 @@ fn in_words(what: &str, stiffness_number: f64) -> String {
 
 /// Says why a run is not accelerated although it might choose.
 pub fn idle_warning(idle: Idle) -> String {
-    format!("numerics.time_acceleration: {idle}; see docs/accuracy.md")
+    format!("numerics.time_acceleration: {idle}; see docs/evidence/accuracy.md")
 }

@@ -8,7 +8,7 @@ use plateau_core::observe::event::event_quantities;
 use plateau_core::observe::{Quantity, Sample, quantities};
 use plateau_core::simulation::{Execution, SimulationError};
 use plateau_io::generation::GENERATIONS;
-use plateau_io::regular::sha256_of;
+use plateau_io::input::sha256_of;
 use plateau_io::{scene, surface};
 use plateau_run::{Assembly, Sink};
 
@@ -71,13 +71,16 @@ const EVENTS: [&str; 9] = [
 
 /// The vectors, and scenes with what these do not have: synthetic surfaces of each kind, measured ones, pictures, cycles, pools, rules and
 /// an acceleration that a run chooses.
-const SCENES: [(&str, &[&str]); 13] = [
+const SCENES: [(&str, &[&str]); 16] = [
     ("tests/vectors/flat/scene.toml", &[]),
     ("tests/vectors/rough/scene.toml", &[]),
     ("tests/vectors/track/scene.toml", &[]),
     ("tests/vectors/local/scene.toml", &[]),
     ("tests/vectors/cycle/scene.toml", &[]),
     ("tests/vectors/heat/scene.toml", &[]),
+    ("tests/vectors/pair/scene.toml", &[]),
+    ("tests/vectors/reach/scene.toml", &[]),
+    ("tests/vectors/torque/scene.toml", &[]),
     ("data/scenes/quick.toml", &["operation.duration=10 s"]),
     (
         "data/scenes/quick.toml",

@@ -1,6 +1,7 @@
 //! A run as another program has it: observed, stopped, gone on with, refused.
 
 mod generations;
+mod sweep;
 
 use std::fmt::Display;
 use std::path::Path;

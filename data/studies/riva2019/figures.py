@@ -28,7 +28,7 @@ BESIDE = {"1": "rough disc (baseline)", "0.1": "disc with heights / 10", "0.01":
 STATUS = ListedColormap(["#d9d2c3", "#8c8c8c", "#0072b2"])
 OF_STATUS = {"cmap": STATUS, "vmin": -0.5, "vmax": 2.5}
 STATUSES = ["none (resin)", "primary", "secondary"]
-# What docs/validation.md and README.md show.
+# What docs/evidence/validation.md and README.md show.
 SHOWN = ["fig08", "fig09", "fig13", "fig14", "tornado", "radial", "pin", "friction", "friction-tornado"]
 # Piece of the ring that is shown, columns: the paper's 8 mm.
 PIECE = 160

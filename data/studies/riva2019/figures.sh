@@ -1,6 +1,6 @@
 #!/bin/sh
 # Every figure of the study: those of the paper's section 4 by their numbers there, and what the paper leaves open. Writes
-# into data/studies/riva2019/figures and, those that docs/validation.md shows, into docs/images.
+# into data/studies/riva2019/figures and, those that docs/evidence/validation.md shows, into docs/images.
 #
 # usage: data/studies/riva2019/figures.sh, after run.sh
 set -u

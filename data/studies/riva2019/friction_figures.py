@@ -6,10 +6,15 @@ usage: friction_figures.py, in the environment .venv of the checkout with PYTHON
 import numpy as np
 from discs import NAMES
 from figures import COLOURS, RESULTS, plt, save
-from friction_tables import BETWEEN, SIGNS
+from friction_tables import BETWEEN
 from tables import m_of, shown
 
 FRICTION = RESULTS["friction"]
+# The law's numbers as figures have them: sign, factor, form, unit.
+SIGNS = {
+    "pressure_coefficient": ("α", 1, ".3f", ""), "shear_strength": ("τ₀", 1e-6, ".3f", " MPa"),
+    "maximum": ("μ_max", 1, ".1f", ""),
+}
 
 
 def against_time() -> None:

@@ -1,12 +1,11 @@
-"""Writes the numbers of results.json into documents: docs/validation.md and the first screen of README.md.
+"""Writes the numbers of results.json into documents: docs/evidence/validation.md and the first screen of README.md.
 
 usage: write_docs.py [--check]: with --check only says whether they agree, as exit status
 
 Templates have `{{path}}`, `{{path|format}}` and `{{path|factor|format}}`: a path in results.json, a factor and a Python
 format; with `*` in the path for the three discs, one after the other. `{{table NAME}}` is one of tables.py or friction_tables.py, `{{m runs}}` the
 time acceleration of a part of the study; between `{{if PATH}}`, `{{else}}` and `{{end}}` stands what depends on a part that may
-not be there yet; `{{holds RULE CLAIM}}` in how many sets a claim holds, and `{{last tenth HEIGHTS END}}`
-the mean contact area of a run at m = 1 over the last tenth of the time to its end, mm².
+not be there yet; `{{last tenth HEIGHTS END}}` is the mean contact area of a run at m = 1 over the last tenth of the time to its end, mm².
 """
 
 import re
@@ -16,7 +15,7 @@ from pathlib import Path
 import friction_tables
 import tables
 from discs import NAMES
-from tables import last_tenth, m_of, share, told, value
+from tables import last_tenth, m_of, told, value
 
 HERE = Path(__file__).parent
 ROOT = HERE.parents[2]
@@ -59,8 +58,6 @@ def filled_in(template: str) -> str:
             return last_tenth(heights, float(end))
         path, *rest = what.split("|")
         try:
-            if what.startswith("holds "):
-                return share(*what.removeprefix("holds ").split(" ", 1))
             return one_of(path, float(rest[0]) if len(rest) == 2 else 1.0, rest[-1] if rest else None)
         except KeyError:
             # Of a study that is not complete.
@@ -77,7 +74,7 @@ def documents() -> dict[Path, str]:
     after = rest.split(MARKS[1])[1]
     found = filled_in((HERE / "readme.md.in").read_text())
     return {
-        ROOT / "docs/validation.md": filled_in((HERE / "validation.md.in").read_text()),
+        ROOT / "docs/evidence/validation.md": filled_in((HERE / "validation.md.in").read_text()),
         readme: before + MARKS[0] + found + MARKS[1] + after,
     }
 

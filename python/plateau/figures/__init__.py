@@ -3,30 +3,24 @@
 Each is a function of a `Drawing` that gives figures by the names of their files; what they show is in docs/figures.md.
 """
 
-from collections.abc import Callable, Iterable, Sequence
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable, Sequence
+from functools import partial
+from typing import Any
 
 import xarray
 
 from plateau.errors import InputError, UnknownNameError
+from plateau.figures import maps
 from plateau.figures.distributions import heights, plateau_sizes
 from plateau.figures.drawing import Drawing, subjects_of
-from plateau.figures.maps import build_up, contact_temperature, pressure, status, topography
 from plateau.figures.series import contact_area, debris, emission, filled, friction, temperature
-from plateau.run_file import open_run
+from plateau.opened_runs import Run, opened
 from plateau.style import Figures, in_style
-from plateau.times import seconds
 from plateau.units import quantity
 
-if TYPE_CHECKING:
-    import os
-
-FIGURES: dict[str, Callable[[Drawing], Figures]] = {
-    "topography": topography,
-    "status": status,
-    "build-up": build_up,
-    "pressure": pressure,
-    "contact-temperature": contact_temperature,
+# Each gives the pages of a figure, none if no run has what it shows.
+FIGURES: dict[str, Callable[[Drawing], list[Any]]] = {
+    **{name: partial(maps.draw_maps, paths=paths, caption=caption) for name, (paths, caption) in maps.FIGURES.items()},
     "contact-area": contact_area,
     "friction": friction,
     "temperature": temperature,
@@ -47,7 +41,7 @@ NEEDS = {
 
 @in_style
 def plot(
-    runs: "xarray.DataTree | str | os.PathLike[str] | Sequence[xarray.DataTree | str | os.PathLike[str]]",
+    runs: Run | Sequence[Run],
     name: str | None = None,
     *,
     at: float | str | Sequence[float | str] | None = None,
@@ -102,33 +96,29 @@ def plot(
         raise UnknownNameError(f"no figure is called {name!r}, there are: {', '.join(FIGURES)}")
     if name is None and ax is not None:
         raise InputError("ax is given for all figures: name the one that is drawn in it")
-    several = [runs] if isinstance(runs, xarray.DataTree | str) or hasattr(runs, "__fspath__") else list(runs)
-    opened = [run if isinstance(run, xarray.DataTree) else open_run(run) for run in several]
-    times = [] if at is None else [seconds(at)] if isinstance(at, int | float | str) else [seconds(time) for time in at]
+    times = [] if at is None else [at] if isinstance(at, int | float | str) else at
     wide = quantity(width, "m") * 1e3 if isinstance(width, str) else width
-    drawing = Drawing(subjects_of(opened, times), wide, cmap, polar, ax)
-    figures = _all_of(drawing, FIGURES if name is None else [name])
-    if name is None:
-        drawing.say_left_out()
-        return figures
-    if not figures:
-        missing = ", ".join(f"{path} has {what}" for path, what in drawing.left_out)
-        raise InputError(f"nothing to draw of the figure {name}: {missing or f'it needs runs of scenes with {NEEDS.get(name)}'}")
-    drawing.say_left_out()
-    return list(figures.values()) if len(figures) > 1 else next(iter(figures.values()))
+    figures = drawn(opened(runs), [] if name is None else [name], [quantity(time, "s") for time in times], width=wide, cmap=cmap, polar=polar, ax=ax)
+    return figures if name is None else list(figures.values()) if len(figures) > 1 else next(iter(figures.values()))
 
 
 @in_style
 def drawn(runs: Sequence[xarray.DataTree], names: Sequence[str] = (), at: Sequence[float] = (), **look: Any) -> Figures:
-    """Figures of opened runs, all unless some are named, by the names of their files; says what is left out."""
+    """Figures of opened runs, all unless some are named, by the names of their files; says what is left out.
+
+    Raises
+    ------
+    InputError
+        If the runs have none of those that are named.
+    """
     drawing = Drawing(subjects_of(runs, at), **look)
-    figures = _all_of(drawing, [name for name in FIGURES if not names or name in names])
-    drawing.say_left_out()
-    return figures
-
-
-def _all_of(drawing: Drawing, names: Iterable[str]) -> Figures:
     figures: Figures = {}
-    for drawing.name in names:
-        figures |= FIGURES[drawing.name](drawing)
+    for drawing.name in (name for name in FIGURES if not names or name in names):
+        pages = FIGURES[drawing.name](drawing)
+        figures |= {f"{drawing.name}-{number}" if number > 1 else drawing.name: page for number, page in enumerate(pages, 1)}
+    if names and not figures:
+        missing = [f"{path} has {what}" for path, what in drawing.left_out]
+        needed = f"it needs runs of scenes with {' or '.join(NEEDS[name] for name in names if name in NEEDS)}"
+        raise InputError(f"nothing to draw of the figure {' or '.join(names)}: {', '.join(missing) or needed}")
+    drawing.say_left_out()
     return figures

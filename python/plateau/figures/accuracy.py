@@ -15,12 +15,8 @@ from plateau.style import APART, LINES, NARROW, QUIET, in_style, new
 LADDERS = {
     "time_acceleration": ("time acceleration", "o", True),
     "tolerance": ("tolerance of the time acceleration", "s", False),
-    "integrator": ("integrator", "D", False),
-    "mesh": ("coarser mesh", "^", True),
     "perturbation": ("heights times 1 + the number", "v", False),
 }
-# What stands beside runs; the legend says what the numbers of a colour are.
-NAMES = {"integrator": "{integrator}", "mesh": "{value:g}×"}
 # Where names are put from their points, and the room around their own and other points, points of 1/72 inch; lines that lead there.
 DISTANCES, NEAR, ANGLES, ROOM, OTHERS = (5, 9, 14, 20, 27, 35, 44, 54, 65), 9, np.pi / 4 * np.array([1, 0, 7, 3, 4, 5, 2, 6]), 2.5, 7.0
 LEADER = {"arrowstyle": "-", "color": QUIET, "linewidth": 0.5, "shrinkA": 0, "shrinkB": 3}
@@ -28,7 +24,7 @@ LEADER = {"arrowstyle": "-", "color": QUIET, "linewidth": 0.5, "shrinkA": 0, "sh
 
 @in_style
 def plot_accuracy(folder_or_json: str | os.PathLike[str], ax: Any = None) -> Any:
-    """Draws the error of the contact area of runs against the time that they took.
+    """Draws the largest error of the quantities of runs against the time that they took.
 
     Parameters
     ----------
@@ -46,18 +42,19 @@ def plot_accuracy(folder_or_json: str | os.PathLike[str], ax: Any = None) -> Any
     if not path.is_file():
         raise MissingFileError(f"{path} does not exist: plateau accuracy SCENE -o FOLDER writes accuracy.json there")
     told = json.loads(path.read_text(encoding="utf-8"))
-    if not isinstance(told, dict) or not {"reference", "runs"} <= set(told):
-        raise InputError(f"{path} has no reference and runs: expected the accuracy.json of plateau accuracy")
-    runs = [run for run in told["runs"] if (run["contact_area_error"] or 0) > 0 and (run["wall_time"] or 0) > 0]
+    if not isinstance(told, dict) or not {"reference", "runs", "quantities"} <= set(told):
+        raise InputError(f"{path} has no reference, runs and quantities: expected the accuracy.json of plateau accuracy")
+    runs = [run for run in told["runs"] if (run["error"] or 0) > 0 and (run["wall_time"] or 0) > 0]
     # Chance far below all other errors would take most of the room.
-    least = min((run["contact_area_error"] for run in runs if run["ladder"] != "perturbation"), default=0.0)
-    runs = [run for run in runs if run["ladder"] != "perturbation" or run["contact_area_error"] >= 0.1 * least]
-    caption = "Error of the mean contact areas over equal windows of physical time, against the wall time of the run."
+    least = min((run["error"] for run in runs if run["ladder"] != "perturbation"), default=0.0)
+    runs = [run for run in runs if run["ladder"] != "perturbation" or run["error"] >= 0.1 * least]
+    quantities = ", ".join(name.replace("_", " ") for name in told["quantities"])
+    caption = f"Largest error of the means over equal windows of physical time, against the wall time of the run: {quantities}."
     given, ax = ax, new(NARROW, 105, caption)[1][0, 0] if ax is None else ax
-    ax.set(xscale="log", yscale="log", xlabel="run time, s", ylabel="error of the contact area, %")
+    ax.set(xscale="log", yscale="log", xlabel="run time, s", ylabel=f"error, {quantities}, %" if len(told["quantities"]) == 1 else "largest error, %")
 
     def points(some: list[dict[str, Any]]) -> Any:
-        return np.array([[run["wall_time"], 100 * run["contact_area_error"]] for run in some]).reshape(-1, 2)
+        return np.array([[run["wall_time"], 100 * run["error"]] for run in some]).reshape(-1, 2)
 
     front = points(sorted((run for run in runs if run["on_front"] == 1), key=lambda run: float(run["wall_time"])))
     ax.plot(*front.T, color=APART, linewidth=5, solid_capstyle="round", label="no other run is quicker and more exact")
@@ -69,15 +66,15 @@ def plot_accuracy(folder_or_json: str | os.PathLike[str], ax: Any = None) -> Any
     if reference["wall_time"]:
         label = f"time of the reference, time acceleration {reference['time_acceleration']:g}"
         ax.axvline(reference["wall_time"], color=QUIET, label=label)
-    if reference["contact_area_error"]:
-        ax.axhline(100 * reference["contact_area_error"], color=QUIET, linestyle="--", label="own error of the reference")
+    if reference["error"]:
+        ax.axhline(100 * reference["error"], color=QUIET, linestyle="--", label="own error of the reference")
     ax.margins(0.12)
     _number_axes(ax)
     if given is None:
         ax.figure.legend(loc="outside upper left")
     else:
         ax.legend()
-    _name_points(ax, points(runs), [NAMES.get(run["ladder"], "{value:g}").format_map(run) for run in runs])
+    _name_points(ax, points(runs), [f"{run['value']:g}" for run in runs])
     return ax
 
 

@@ -4,7 +4,6 @@ Maps have true proportions, so their widths give their heights and that of a pag
 """
 
 import math
-import re
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from itertools import zip_longest
@@ -13,32 +12,59 @@ from typing import Any, NamedTuple
 import numpy as np
 import xarray
 
-from plateau.figures.drawing import Drawing, Subject, moment
-from plateau.quantities import MAPS, MICROMETRE, STATUSES, Map
+from plateau.figures.drawing import Drawing, Subject
+from plateau.quantities import MAPS, STATUSES, Map
 from plateau.run_file import array
-from plateau.style import APART, GROUND, MM, NARROW, STATUS_COLOURS, WIDE, Figures, in_style, labelled, wrapped
-from plateau.units import unit_of
+from plateau.style import APART, GROUND, MM, NARROW, STATUS_COLOURS, WIDE, labelled, wrapped
 
 # Status of a cell outside a round pin; debris thinner than THIN, m, is drawn as this status with this colour, and is none below LEAST.
 ABSENT, THIN, FILM, FILM_COLOUR, LEAST = 3, 0.1e-6, 3, "#f7d48f", 1e-15
 # Part of the values, or of the load, beyond an end of the colours; pressures that differ by a larger factor have a logarithmic scale.
 BEYOND, MOST_LINEAR = 0.005, 100.0
-THICKNESS = [Map(f"{name.lower()}/thickness", f"{name}: build-up", "thickness", MICROMETRE, "from zero") for name in ("Disc", "Pin")]
-# Why cells are grey, of which the value is zero; more columns and rows than this are more than the points of a page.
-GREY = {"pin/pressure": "no contact", "disc/thickness": "none", "pin/thickness": "none"}
+# Why cells are apart, of which the value is zero; more columns and rows than this are more than the points of a page.
+ZERO = {"pin/pressure": "no contact", "disc/thickness": "none", "pin/thickness": "none"}
 MOST_CELLS = {"disc_angle": 6000, "pin_angle": 2000, "radius": 1000}
 # In mm: the highest page; room left of a map, right of maps with and without a colour bar, below a map for numbers; a line, a letter.
 PAGE, LEFT, BAR, EDGE, NUMBERS, LINE, LETTER = 240.0, 14.0, 22.0, 3.0, 4.4, 3.6, 1.45
 # In mm: highest map, and lowest one without stretching; longest and shortest colour bar; about the narrowest column of a page.
 HIGHEST, LOWEST, LONGEST, SHORTEST, COLUMN = 85.0, 5.0, 60.0, 25.0, 52.0
-# How maps are laid out: what the axis below is called, in words that are shorter and shorter.
-SHORT = ["arc length, mm; the disc moves →", "arc length, mm\nthe disc moves →"]
-UNROLLED = ["arc length at the mean radius, mm; the disc moves →", *SHORT]
-ARCS = ["arc length from the middle, mm; the disc moves →", *SHORT]
-POLAR = ["x, mm; the disc turns counter-clockwise"] * 2 + ["x, mm; the disc turns\ncounter-clockwise"]
+# How maps are laid out: what the axis below is called; letters of that without places.
+UNROLLED = "arc length at the mean radius, mm; the disc moves →"
+ARCS = "arc length from the middle, mm; the disc moves →"
+POLAR = "x, mm; the disc turns counter-clockwise"
+SHORT = 32
+# Figures: their maps and captions.
+FIGURES = {
+    "topography": (
+        ("disc/height", "pin/height"),
+        "Heights, positive toward the other body; those of the pin from its mean. The colours span 99 % of all heights of a body.",
+    ),
+    "status": (
+        ("disc/status", "pin/status"),
+        "Status of the cells, with parts of the area. Thick build-up is debris of at least 0.1 µm; where it is thinner, it is paler.",
+    ),
+    "build-up": (
+        ("disc/thickness", "pin/thickness"),
+        "Thickness of the debris. The colours end at what 99.5 % of the covered cells of a body do not exceed; means are over all.",
+    ),
+    "pressure": (
+        ("pin/pressure",),
+        (
+            "Contact pressure on the pin. The colours end at the pressure above which 0.5 % of the load is carried. They begin at zero, or on "
+            "a logarithmic scale at that below which 0.5 % is carried."
+        ),
+    ),
+    "contact-temperature": (
+        ("pin/temperature",),
+        (
+            "Temperature of the cells of the pin. The colours span 99 % of all cells. Pressures count as constant during a pass, and there is "
+            "no conduction along the surface: on rough discs the hottest cells may be too cold by half of their rise, or more."
+        ),
+    ),
+}
 Legend = Sequence[tuple[str, str]]
-Options = dict[str, Any]
-NewFigure = Callable[[float, float], Any]
+LEGEND = [(colour, f"{name}: {made_of}") for colour, (name, made_of) in zip(STATUS_COLOURS, STATUSES, strict=False)]
+LEGEND.append((FILM_COLOUR, "the same, thinner than 0.1 µm"))
 
 
 @dataclass(frozen=True)
@@ -49,7 +75,7 @@ class Picture:
     # Edges of the cells, rad and mm.
     angles: Any
     radii: Any
-    form: list[str]
+    form: str
 
     def corners(self) -> tuple[Any, Any]:
         """Corners of the cells, mm, of a map that is not unrolled."""
@@ -73,20 +99,25 @@ class Picture:
 
     def below(self, letters: int, stretch: float) -> str:
         """What is written below, in lines of about so many letters; maps of a figure have the same words."""
-        words = self.form[(letters < len(UNROLLED[0])) + (letters < len(SHORT[0]))]
+        words = self.form if letters >= len(UNROLLED) else self.form.replace(" at the mean radius", "").replace(" from the middle", "")
+        words = words if letters >= SHORT else _wrapped(words.replace("; ", "\n"), letters * LETTER)
         return words + (f"\nradius stretched {stretch:g}×" if stretch > 1 else "")
 
 
 class Scale(NamedTuple):
     """Colours that maps share, and the label and the ends of their bar; statuses have a legend."""
 
-    colours: Options
+    colours: dict[str, Any]
     label: str = ""
     extend: str = "neither"
 
 
-# A map, with what is written above it.
-Tile = tuple[Picture, str, Scale]
+class Tile(NamedTuple):
+    """A map with what is written above it."""
+
+    picture: Picture
+    title: str
+    scale: Scale
 
 
 def picture_of(cells: xarray.DataArray, is_polar: bool) -> Picture:
@@ -118,7 +149,9 @@ def scale_of(shown: Map, pictures: Sequence[Picture], cmap: str) -> Scale:
     if shown.colours == "statuses":
         statuses = ListedColormap([*STATUS_COLOURS[:FILM], FILM_COLOUR]).with_extremes(bad=GROUND)
         return Scale({"cmap": statuses, "norm": Normalize(-0.5, FILM + 0.5)})
-    label, colours = labelled(shown.what, shown.unit.symbol), matplotlib.colormaps[cmap].with_extremes(bad=GROUND)
+    # What is apart is not grey among greys.
+    apart, name = ("#bfdcf2", "blue") if cmap == "greys" else (APART, "grey")
+    label, colours = labelled(shown.what, shown.unit.symbol), matplotlib.colormaps["Greys_r" if cmap == "greys" else cmap]
     is_pressure, is_span = shown.path == "pin/pressure", shown.colours == "span"
     values, weights = [np.array([])], [np.array([])]
     for picture in pictures:
@@ -134,30 +167,29 @@ def scale_of(shown: Map, pictures: Sequence[Picture], cmap: str) -> Scale:
     if is_span:
         # What rounding makes of equal values is no range.
         around = 0.01 if high - low <= 1e-9 * max(abs(low), abs(high)) else 0.0
-        return Scale({"cmap": colours, "norm": Normalize(low - around, high + around)}, label, "both")
+        return Scale({"cmap": colours.with_extremes(bad=GROUND), "norm": Normalize(low - around, high + around)}, label, "both")
     # Zero is below the colours.
     norm = LogNorm(low, high) if is_pressure and high > MOST_LINEAR * low > 0 else Normalize(1e-12 * high, high)
-    return Scale({"cmap": colours.with_extremes(under=APART, bad=GROUND), "norm": norm}, f"{label}\ngrey: {GREY[shown.path]}", "max")
+    return Scale({"cmap": colours.with_extremes(under=apart, bad=GROUND), "norm": norm}, f"{label}\n{name}: {ZERO[shown.path]}", "max")
 
 
-def draw_map(panels: Sequence[Any], tile: Tile, size: tuple[float, float], letters: int, stretch: float, options: Options) -> Any:
+def draw_map(panels: Sequence[Any], tile: Tile, size: tuple[float, float], letters: int, stretch: float) -> Any:
     """Draws one map into axes of this size, mm, for an unrolled ring several below each other; gives what a colour bar belongs to."""
     from matplotlib.colors import LogNorm
     from matplotlib.ticker import MaxNLocator
 
-    picture, title, scale = tile
-    options = scale.colours | options
-    values, radii, low = picture.values, picture.radii, options["norm"].vmin
-    if isinstance(options["norm"], LogNorm):
+    picture, title, (colours, *_) = tile
+    values, radii, low = picture.values, picture.radii, colours["norm"].vmin
+    if isinstance(colours["norm"], LogNorm):
         # Zero has no logarithm, and what is low has the lowest colour.
         values = np.where(values > 0, np.maximum(values, low), np.where(values == 0, 1e-3 * low, values))
     ends = np.linspace(0, values.shape[1], len(panels) + 1).astype(int)
     for panel, begin, end in zip(panels, ends[:-1], ends[1:], strict=True):
         if picture.form is UNROLLED:
             extent = (*picture.angles[[begin, end]] * radii.mean(), radii[0], radii[-1])
-            drawn = panel.imshow(values[:, begin:end], extent=extent, origin="lower", aspect=stretch, interpolation="nearest", **options)
+            drawn = panel.imshow(values[:, begin:end], extent=extent, origin="lower", aspect=stretch, interpolation="nearest", **colours)
         else:
-            drawn = panel.pcolormesh(*picture.corners(), values, rasterized=True, **options)
+            drawn = panel.pcolormesh(*picture.corners(), values, rasterized=True, **colours)
             panel.set_aspect("equal")
         if picture.form is ARCS:
             panel.set(xlim=np.array([-0.5, 0.5]) * picture.span[0], ylim=radii[[0, -1]])
@@ -165,7 +197,7 @@ def draw_map(panels: Sequence[Any], tile: Tile, size: tuple[float, float], lette
         panel.yaxis.set_major_locator(MaxNLocator(max(min(int(size[1] / LINE / 1.4), 5), 1), steps=[1, 2, 5, 10]))
         if size[1] < 2.5 * LINE:
             panel.set_yticks(panel.get_ylim(), labels=[f"{radius:.4g}" for radius in panel.get_ylim()])
-    panels[0].set_title(_broken(title, size[0]), loc="left", pad=3)
+    panels[0].set_title(_wrapped(title, size[0]), loc="left", pad=3)
     panels[-1].set_xlabel(picture.below(letters, stretch))
     # In the middle of all.
     middle = 0.5 if len(panels) % 2 else 1 + NUMBERS / (2 * size[1])
@@ -173,9 +205,9 @@ def draw_map(panels: Sequence[Any], tile: Tile, size: tuple[float, float], lette
     return drawn
 
 
-def _broken(text: str, wide: float) -> str:
-    """A text above a map of this width, mm, in lines; a number and its unit stay together."""
-    return "\n".join(wrapped(re.sub(r"(?<=\d) (?=[^\s\d]{1,3}\b|%)", "\u00a0", line), int(wide / LETTER)) for line in text.split("\n"))
+def _wrapped(text: str, wide: float) -> str:
+    """A text above a map of this width, mm, in lines."""
+    return "\n".join(wrapped(line, int(wide / LETTER)) for line in text.split("\n"))
 
 
 def _high(texts: Sequence[str]) -> float:
@@ -191,10 +223,10 @@ def _legend(onto: Any, legend: Legend, **options: Any) -> None:
     onto.legend(handles=keys, loc="upper left", handlelength=1.2, labelspacing=0.3, **options)
 
 
-def pages(rows: Sequence[Sequence[Tile | None]], width: float, new_figure: NewFigure, legend: Legend, options: Options) -> list[Any]:
+def pages(rows: Sequence[Sequence[Tile | None]], width: float, caption: str, legend: Legend, figure_of: Callable[..., Any]) -> list[Any]:
     """Lays out rows of maps in equal columns on pages of this width, mm."""
     room, columns = width - (EDGE if legend else BAR), 1 if width < 0.8 * WIDE else 2
-    letters = int((room / max(len(tiles) for tiles in rows) - LEFT) / LETTER)
+    letters = int((room / max(map(len, rows)) - LEFT) / LETTER)
     figures: list[Any] = []
     # By the identity of their colours: a scale, what a bar belongs to, and where that begins, ends and stands.
     bars: dict[int, tuple[Scale, Any, float, float, float]] = {}
@@ -207,7 +239,7 @@ def pages(rows: Sequence[Sequence[Tile | None]], width: float, new_figure: NewFi
         for scale, drawn, top, bottom, right in bars.values():
             high = max(min(bottom - top, LONGEST), SHORTEST)
             bar, end = add(right + 2.5, top, 3.0, high), max(end, top + high + 2.0)
-            figures[-1].colorbar(drawn, cax=bar, extend=scale.extend, label=_broken(scale.label, high))
+            figures[-1].colorbar(drawn, cax=bar, extend=scale.extend, label=_wrapped(scale.label, high))
         for axes in figures[-1].axes:
             box = axes.get_position(original=True)
             axes.set_position((box.x0, 1 - (1 - box.y0) * PAGE / end, box.width, box.height * PAGE / end))
@@ -217,14 +249,14 @@ def pages(rows: Sequence[Sequence[Tile | None]], width: float, new_figure: NewFi
     top = PAGE
     for tiles in rows:
         each, least = room / len(tiles), (0.06 if len(tiles) == 1 else 0.04) * width
-        fits = [(one, each * column + LEFT, *one[0].fitted(each - LEFT, least)) for column, one in enumerate(tiles) if one]
-        above = _high([_broken(title, wide) for (_, title, _), _, _, wide, *_ in fits]) + 1.5
+        fits = [(tile, each * column + LEFT, *tile.picture.fitted(each - LEFT, least)) for column, tile in enumerate(tiles) if tile]
+        above = _high([_wrapped(tile.title, wide) for tile, _, _, wide, *_ in fits]) + 1.5
         maps = max(count * high + (count - 1) * (NUMBERS + 1) for *_, count, _, high, _ in fits)
-        below = NUMBERS + _high([picture.below(letters, stretch) for (picture, *_), *_, stretch in fits]) + 2.0
+        below = NUMBERS + _high([tile.picture.below(letters, stretch) for tile, *_, stretch in fits]) + 2.0
         if top + above + maps + below > PAGE:
             if figures:
                 finish(top)
-            figures.append(new_figure(width * MM, PAGE * MM))
+            figures.append(figure_of(figsize=(width * MM, PAGE * MM), label=caption))
             top = 1.0
             if legend:
                 _legend(figures[-1], legend, ncols=columns, borderaxespad=0.2)
@@ -232,56 +264,32 @@ def pages(rows: Sequence[Sequence[Tile | None]], width: float, new_figure: NewFi
         top += above
         for tile, left, count, wide, high, stretch in fits:
             panels = [add(left, top + number * (high + NUMBERS + 1), wide, high) for number in range(count)]
-            drawn = draw_map(panels, tile, (wide, high), letters, stretch, options)
+            drawn = draw_map(panels, tile, (wide, high), letters, stretch)
             if not legend:
-                _, _, begin, _, right = bars.get(id(tile[2].colours), (None, None, top, 0.0, 0.0))
-                bars[id(tile[2].colours)] = tile[2], drawn, begin, top + maps, max(right, left + wide)
+                _, _, begin, _, right = bars.get(id(tile.scale), (None, None, top, 0.0, 0.0))
+                bars[id(tile.scale)] = tile.scale, drawn, begin, top + maps, max(right, left + wide)
         top += maps + below
     finish(top)
     return figures
 
 
-def _in_axes(ax: Any, tile: Tile, legend: Legend, options: Options) -> None:
+def in_axes(ax: Any, tile: Tile, legend: Legend) -> None:
     """Draws a map into axes that were given, a ring in one window."""
-    box, (along, across) = ax.get_position(original=True), tile[0].span
+    box, (along, across) = ax.get_position(original=True), tile.picture.span
     wide, high = (float(size) for size in (box.width, box.height) * ax.figure.get_size_inches() / MM)
     true = wide * across / along
-    stretch = max(float(f"{high / true:.2g}"), 1.0) if tile[0].form is UNROLLED and true < LOWEST else 1.0
-    drawn = draw_map([ax], tile, (wide, min(true * stretch, high)), int(wide / LETTER), stretch, options)
+    stretch = max(float(f"{high / true:.2g}"), 1.0) if tile.picture.form is UNROLLED and true < LOWEST else 1.0
+    drawn = draw_map([ax], tile, (wide, min(true * stretch, high)), int(wide / LETTER), stretch)
     if legend:
         _legend(ax, legend, bbox_to_anchor=(1.02, 1), borderaxespad=0)
     else:
-        ax.figure.colorbar(drawn, ax=ax, extend=tile[2].extend, label=tile[2].label)
+        ax.figure.colorbar(drawn, ax=ax, extend=tile.scale.extend, label=tile.scale.label)
 
 
-@in_style
-def draw_one(cells: xarray.DataArray, names: dict[int, str], polar: bool, ax: Any, options: Options) -> Any:
-    """Draws a map at one moment as ``run["disc/height"].plateau.plot()`` does, which describes it; gives the lowest axes."""
-    [angle] = [str(name) for name in cells.dims if name != "radius"]
-    long_name, unit = str(cells.attrs.get("long_name", cells.name)), str(cells.attrs.get("units", "1"))
-    path = f"{angle.removesuffix('_angle')}/{'thickness' if 'thickness' in long_name else cells.name}"
-    other = Map(path, long_name, str(cells.name or ""), unit_of(unit, cells.values), "statuses" if names else "span")
-    shown = next((one for one in [*MAPS.values(), *THICKNESS] if one.path == path), other)
-    picture = picture_of(_shown(cells.transpose("radius", angle), shown), polar)
-    # What is asked for holds.
-    scale = scale_of(shown, [picture], options.pop("cmap") if isinstance(options.get("cmap"), str) else "viridis")
-    scale.colours["norm"].vmin = options.pop("vmin", scale.colours["norm"].vmin)
-    scale.colours["norm"].vmax = options.pop("vmax", scale.colours["norm"].vmax)
-    tile = picture, shown.title + (f", {moment(float(cells['map_time']))}" if "map_time" in cells.coords else ""), scale
-    legend = [(STATUS_COLOURS[value], name) for value, name in names.items() if value != ABSENT]
-    if ax is not None:
-        _in_axes(ax, tile, legend, options)
-        return ax
-    import matplotlib.pyplot as plt
-
-    [figure] = pages([[tile]], WIDE, lambda wide, high: plt.figure(figsize=(wide, high)), legend, options)
-    return figure.axes[-1 if legend else -2]
-
-
-def _shown(cells: xarray.DataArray, shown: Map) -> xarray.DataArray:
+def in_unit(cells: xarray.DataArray, shown: Map) -> xarray.DataArray:
     """A map in the unit in which it is shown; NaN where there is no cell."""
-    values = np.where(cells.values == ABSENT, np.nan, cells.values) if shown.colours == "statuses" else cells.values
-    return cells.copy(data=shown.shown(values))
+    there = cells.where(cells != ABSENT) if shown.colours == "statuses" else cells
+    return there.copy(data=shown.shown(there.values))
 
 
 def _read(subject: Subject, path: str, index: int) -> xarray.DataArray:
@@ -289,86 +297,84 @@ def _read(subject: Subject, path: str, index: int) -> xarray.DataArray:
     body, name = path.split("/")
     if name != "thickness":
         return array(subject.run, path).isel(map_time=index).transpose("radius", ...).load()
-    height, substrate = (_read(subject, f"{body}/{name}", index) for name in ("height", "substrate"))
-    thickness = MAPS[f"{body}/height"].sign * (height.values - substrate.values)
-    return height.copy(data=np.where(thickness < LEAST, 0.0, thickness))
+    thickness = MAPS[f"{body}/height"].sign * (_read(subject, f"{body}/height", index) - _read(subject, f"{body}/substrate", index))
+    return thickness.where(~(thickness < LEAST), 0.0)
 
 
 def _moments(drawing: Drawing, shown: Map) -> dict[int, Sequence[int]]:
     """The moments of a map that are shown, by the numbers of the runs that have it: the first and the last, of the build-up the last, of a
     contact the first one after the start that has it and the last; or those that were asked for."""
-    is_thickness, of_contact = shown in THICKNESS, shown.path in ("pin/pressure", "pin/temperature")
-    having = drawing.with_maps(*[f"{shown.body}/height", f"{shown.body}/substrate"] if is_thickness else [shown.path])
+    is_thickness, of_contact = shown.what == "thickness", shown.path in ("pin/pressure", "pin/temperature")
     found: dict[int, Sequence[int]] = {}
-    for number, subject in enumerate(drawing.subjects):
+    needed = [f"{shown.body}/{name}" for name in ("height", "substrate")] if is_thickness else [shown.path]
+    # Temperatures of cells are recorded on request.
+    for subject in drawing.having(*needed, is_part=shown.path == "pin/temperature"):
+        own = subject.moments[-1:] if is_thickness and not subject.is_chosen else subject.moments
 
         def touches(index: int, subject: Subject = subject) -> bool:
             return bool(np.nanmax(_read(subject, shown.path, index).values, initial=0.0) > 0)
 
-        if not any(one is subject for one in having):
-            continue
-        found[number] = subject.moments[-1:] if is_thickness and not subject.is_chosen else subject.moments
         if of_contact and subject.is_chosen:
-            found[number] = [*filter(touches, subject.moments)]
+            own = [*filter(touches, own)]
         elif of_contact:
             later = np.flatnonzero(subject.map_time > 0).tolist()
-            found[number] = sorted({next(filter(touches, order), -1) for order in (later, later[::-1])} - {-1})
-        if not found[number]:
+            own = sorted({next(filter(touches, order), -1) for order in (later, later[::-1])} - {-1})
+        found[subject.number] = own
+        if not own:
             drawing.leave_out(subject, f"no map {shown.what} with a contact {'then' if subject.is_chosen else 'after the start'}")
     return found
 
 
 def _said(subject: Subject, shown: Map, index: int, cells: xarray.DataArray) -> str:
     """What is said above a map; thin films get a status of their own here."""
-    values, unit, radius = cells.values, shown.unit.symbol, cells["radius"].values
-    there = np.isfinite(values)
+    values, unit = cells.values, shown.unit.symbol
 
-    def mean(of: Any) -> float:
-        """Mean over the area; rows farther out have larger cells."""
-        return float(radius @ np.where(there, of, 0.0).sum(axis=1) / (radius @ there.sum(axis=1)))
-
-    def percent(of: Any) -> str:
-        return f"{0.0 if mean(of) < 5e-5 else 100 * mean(of):.3g} %"
+    def percent(of: xarray.DataArray) -> str:
+        """The part of the area; rows farther out have larger cells."""
+        part = float(of.where(cells.notnull()).weighted(cells["radius"]).mean())
+        return f"{0.0 if part < 5e-5 else 100 * part:.3g}\u00a0%"
 
     if shown.colours == "statuses":
-        text = f": none {percent(values == 0)}, primary {percent(values == 1)}, secondary {percent(values == 2)}"
-        if all(subject.has(f"{shown.body}/{name}") for name in ("height", "substrate")):
+        text = f": none {percent(cells == 0)}, primary {percent(cells == 1)}, secondary {percent(cells == 2)}"
+        if subject.has(f"{shown.body}/height", f"{shown.body}/substrate"):
             values[(values == 2) & (_read(subject, f"{shown.body}/thickness", index).values < THIN)] = FILM
-            text += f"; thick build-up {percent(values == 2)}"
+            text += f"; thick build-up {percent(cells == 2)}"
         return text
-    if shown in THICKNESS:
-        return f": on {percent(values > 0)} of the area, mean over all of it {mean(values):.3g} {unit}"
+    if shown.what == "thickness":
+        mean = float(cells.weighted(cells["radius"]).mean())
+        return f": on {percent(cells > 0)} of the area, mean over all of it {mean:.3g}\u00a0{unit}"
     if shown.about_mean:
-        return f"; from the mean, z\u00a0=\u00a0{shown.unit.value(np.nanmean(_read(subject, shown.path, index).values)):.4g} {unit}"
-    return "" if shown.body == "disc" else f"; at most {np.nanmax(values):.3g} {unit}"
+        return f"; from the mean, z\u00a0=\u00a0{shown.unit.value(np.nanmean(_read(subject, shown.path, index).values)):.4g}\u00a0{unit}"
+    return "" if shown.body == "disc" else f"; at most {np.nanmax(values):.3g}\u00a0{unit}"
 
 
-@in_style
-def _figures(drawing: Drawing, name: str, maps: Sequence[Map], caption: str, legend: Legend = ()) -> Figures:
+def draw_maps(drawing: Drawing, paths: Sequence[str], caption: str) -> list[Any]:
     """Pages of maps with their common scales: those of several runs in columns, of a single run moments beside each other."""
     from matplotlib.figure import Figure
 
     tiles: dict[tuple[str, int], list[Tile]] = {}
-    for shown in maps:
+    for path in paths:
+        shown = MAPS[path]
         places = [(number, index) for number, indices in _moments(drawing, shown).items() for index in indices]
         pictures, titles = [], []
         for number, index in places:
             subject = drawing.subjects[number]
-            cells = _shown(_read(subject, shown.path, index), shown)
-            run = f"{subject.label}\n" if len(drawing.subjects) > 1 else ""
-            titles.append(f"{run}{shown.body.capitalize()}, {subject.moment(index)}{_said(subject, shown, index, cells)}")
+            cells = in_unit(_read(subject, path, index), shown)
+            run, when = "" if drawing.only else f"{subject.label}\n", subject.moment(index).replace(" ", "\u00a0")
+            titles.append(f"{run}{shown.body.capitalize()}, {when}{_said(subject, shown, index, cells)}")
             pictures.append(picture_of(cells, drawing.polar and shown.body == "disc"))
         scale = scale_of(shown, pictures, drawing.cmap)
         for (number, _), picture, title in zip(places, pictures, titles, strict=True):
-            tiles.setdefault((shown.path, number), []).append((picture, title, scale))
+            tiles.setdefault((path, number), []).append(Tile(picture, title, scale))
     if not tiles:
-        return {}
+        return []
+    legend = LEGEND if "disc/status" in paths else ()
     if drawing.ax is not None:
-        figure, _ = drawing.new(NARROW, NARROW, caption, rows=sum(map(len, tiles.values())))
-        _in_axes(drawing.ax, next(iter(tiles.values()))[0], legend, {})
-        return {name: figure}
+        figure, _ = drawing.panels(sum(map(len, tiles.values())), NARROW, caption)
+        in_axes(drawing.ax, next(iter(tiles.values()))[0], legend)
+        return [figure]
     numbers = sorted({number for _, number in tiles})
-    is_ring = maps[0].body == "disc" and not drawing.polar
+    is_ring = paths[0].startswith("disc") and not drawing.polar
     width = drawing.width or (WIDE if is_ring or len(numbers) > 1 or max(map(len, tiles.values())) > 1 else NARROW)
 
     def beside(count: int) -> int:
@@ -378,51 +384,11 @@ def _figures(drawing: Drawing, name: str, maps: Sequence[Map], caption: str, leg
     rows: list[Sequence[Tile | None]] = []
     across = beside(len(numbers))
     for begin in range(0, len(numbers), across):
-        for shown in maps:
-            columns = [tiles.get((shown.path, number), []) for number in numbers[begin : begin + across]]
+        for path in paths:
+            columns = [tiles.get((path, number), []) for number in numbers[begin : begin + across]]
             if len(numbers) == 1 and columns[0]:
                 # But those of an unrolled ring below each other.
-                side = 1 if is_ring and shown.body == "disc" else beside(len(columns[0]))
+                side = 1 if is_ring and path.startswith("disc") else beside(len(columns[0]))
                 columns = [columns[0][first::side] for first in range(side)]
             rows += zip_longest(*columns, *[[]] * (across - len(columns)))
-    made = pages(rows, width, lambda wide, high: Figure(figsize=(wide, high), label=caption), legend, {})
-    return {name if number == 0 else f"{name}-{number + 1}": figure for number, figure in enumerate(made)}
-
-
-def topography(drawing: Drawing) -> Figures:
-    """Heights of disc and pin."""
-    caption = "Heights, positive toward the other body; those of the pin from its mean. The colours span 99 % of all heights of a body."
-    return _figures(drawing, "topography", [MAPS["disc/height"], MAPS["pin/height"]], caption)
-
-
-def status(drawing: Drawing) -> Figures:
-    """Status of the cells of disc and pin."""
-    caption = "Status of the cells, with parts of the area. Thick build-up is debris of at least 0.1 µm; where it is thinner, it is paler."
-    legend = [(colour, f"{name}: {made_of}") for colour, (name, made_of) in zip(STATUS_COLOURS, STATUSES, strict=False)]
-    films = (FILM_COLOUR, "the same, thinner than 0.1 µm")
-    return _figures(drawing, "status", [MAPS["disc/status"], MAPS["pin/status"]], caption, [*legend, films])
-
-
-def build_up(drawing: Drawing) -> Figures:
-    """Thickness of the debris on disc and pin."""
-    caption = "Thickness of the debris. The colours end at what 99.5 % of the covered cells of a body do not exceed; means are over all."
-    return _figures(drawing, "build-up", THICKNESS, caption)
-
-
-def pressure(drawing: Drawing) -> Figures:
-    """Contact pressure on the pin."""
-    caption = (
-        "Contact pressure on the pin. The colours end at the pressure above which 0.5 % of the load is carried. They begin at zero, or on "
-        "a logarithmic scale at that below which 0.5 % is carried."
-    )
-    return _figures(drawing, "pressure", [MAPS["pin/pressure"]], caption)
-
-
-def contact_temperature(drawing: Drawing) -> Figures:
-    """Temperature of the cells of the pin, of runs that have it."""
-    caption = (
-        "Temperature of the cells of the pin. The colours span 99 % of all cells. Pressures count as constant during a pass, and there is "
-        "no conduction along the surface: on rough discs the hottest cells may be too cold by half of their rise, or more."
-    )
-    maps = [MAPS[name] for name in ["pin/temperature"] if any(subject.has(name) for subject in drawing.subjects)]
-    return _figures(drawing, "contact-temperature", maps, caption)
+    return pages(rows, width, caption, legend, Figure)

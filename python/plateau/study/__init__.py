@@ -11,9 +11,9 @@ from plateau.study.results import open_study
 
 if TYPE_CHECKING:
     from plateau.study.analysis import effects
-    from plateau.study.calibration import fit
+    from plateau.study.fit_of_study import fit
     from plateau.study.level_differences import levels
-    from plateau.study.measured import import_values
+    from plateau.study.imports import import_values
     from plateau.study.optimum import optimize
     from plateau.study.prediction import predict
     from plateau.study.scene_comparison import compare
@@ -28,8 +28,8 @@ ANSWERS = {
     "predict": "prediction",
     "optimize": "optimum",
     "sensitivity": "variance_parts",
-    "fit": "calibration",
-    "import_values": "measured",
+    "fit": "fit_of_study",
+    "import_values": "imports",
     "compare": "scene_comparison",
 }
 

@@ -4,31 +4,27 @@ import itertools
 import os
 import warnings
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 import pandas
-from scipy import optimize, stats
+from scipy import stats
 
 from plateau.errors import InputError, PlateauWarning, RunFailed, UnknownNameError
 from plateau.output_folder import plain
-from plateau.study.model import MODELS, ROUNDING, SOLE, Fitted, NothingToFit, Squares, Term
-from plateau.study.model import contrasts, f_test, fitted, is_same, misfit, named
-from plateau.study.data import Numbers, Response, Study
+from plateau.study.effect_table import COLUMNS, box_cox, effect_table, lenth, transform_advice
+from plateau.study.equations import equations
+from plateau.study.model import SOLE, Fitted, NothingToFit, is_same
+from plateau.study.model_choice import cautions, fitted, misfit
+from plateau.study.data import Response, Study
 from plateau.study.results import analysed
-from plateau.units import Unit, shown_unit, unit_for, with_digits, with_minus
+from plateau.units import shown_unit
 
-# Powers of a response between which the best is looked for, and distance of those at which the search begins.
-POWERS, STEP = (-5.0, 5.0), 0.05
-TRANSFORMS = {"none": 1.0, "square root": 0.5, "log": 0.0}
 # Inflation of variances above which terms are said to be correlated, and shares whose sum differs by more from R² of which it is said.
 MOST_INFLATION, SHARES_DIFFER = 10.0, 0.02
-# Values of a range up to which means are given at each, and terms of an equation beyond which nobody reads it.
-MOST_VALUES, MOST_TERMS = 10, 4096
-COLUMNS = ["response", "term", "factors", "degrees_of_freedom", "sum_of_squares", "mean_square", "f", "p", "share", "variance_inflation"]
-COLUMNS += ["effect", "coefficient", "standard_error", "t", "low", "high", "error_freedom", "seed_ratio", "seed_p"]
-COLUMNS += ["margin_of_error", "simultaneous_margin_of_error", "aliased_with", "unit"]
+# Values of a range up to which means are given at each.
+MOST_VALUES = 10
 # Members of the document of a response, null where nothing could be fitted.
 MEMBERS = ["model", "model_reason", "runs", "missing", "mean", "middle", "r_squared", "adjusted_r_squared", "predicted_r_squared"]
 MEMBERS += ["residual_standard_deviation", "error_from", "residual", "lack_of_fit", "pure_error", "misfit", "curvature", "box_cox"]
@@ -168,205 +164,6 @@ def error_from(fit: Fitted) -> str:
     return "replicates" if fit.lack_of_fit[0].freedom <= 0 else f"replicates, pooled with {said}"
 
 
-def _aliases(fit: Fitted) -> tuple[set[int], list[list[str]]]:
-    """Columns that the runs do not tell, and by mean, blocks and terms, the labels of the terms that they cannot be told from.
-
-    Of two columns that are the same but for a factor the first is told, as the sum of both; of a combination of more, which an empty cell
-    makes, none is.
-    """
-    labels = ["mean", "replicate", *(fit.label(term) for term in fit.terms)]
-    untold, pairs = set(), []
-    for column, (parts, _) in fit.fit.relations.items():
-        untold |= {column, *parts} if len(parts) > 1 else {column}
-        pairs += [(fit.owner(column), fit.owner(part)) for part in parts or [0]]
-    for at, term in enumerate(fit.terms):
-        if not all(fit.codings[factor].width for factor in term):
-            # A factor of which one level was observed has no column, and its interactions are those of the others.
-            others = tuple(factor for factor in term if fit.codings[factor].width)
-            pairs.append((at + 2, fit.terms.index(others) + 2 if others in fit.terms else 0))
-    found: list[set[int]] = [set() for _ in labels]
-    for one, other in (pair for pair in pairs if pair[0] != pair[1]):
-        found[one].add(other)
-        found[other].add(one)
-    return untold, [[labels[other] for other in sorted(others)] for others in found]
-
-
-def _table(fit: Fitted) -> pandas.DataFrame:
-    """The analysis of variance with effects."""
-    rows: list[dict[str, Any]] = []
-    (untold, aliases), least, values = _aliases(fit), fit.fit, fit.values - fit.mean
-    spread = np.square(fit.design - fit.design.mean(axis=0)).sum(axis=0)
-    for at, columns in list(enumerate(fit.columns))[1 if fit.seeds > 1 else 2 :]:
-        is_blocks, term, width = at == 1, () if at == 1 else fit.terms[at - 2], columns.stop - columns.start
-        places = [place for place, column in enumerate(least.kept) if columns.start <= column < columns.stop]
-        weights = least.root[places] @ least.basis.T
-        # Orthonormal rows whose products with the responses are what the term explains, all others kept (type III).
-        directions = np.linalg.qr(weights.T)[0].T if places else weights
-        own = Squares(len(places), float(np.square(directions @ values).sum()))
-        row: dict[str, Any] = {"term": "replicate" if is_blocks else fit.label(term), "factors": term, "aliased_with": aliases[at]}
-        row |= {"degrees_of_freedom": own.freedom, "sum_of_squares": own.sum, "mean_square": own.mean, "share": own.sum / fit.total.sum}
-        is_told = len(places) == width > 0 and not untold & set(range(columns.start, columns.stop))
-        error, freedom = fit.error, float(fit.residual_freedom)
-        if not is_blocks and fit.seeds > 1 and is_told and not np.isnan(fit.error):
-            # The error over all seeds is what the term differs by between them, not what the model leaves.
-            variances, freedoms = fit.errors(directions)
-            error, freedom = float(variances.mean()), float(freedoms.sum())
-            if error > 0:
-                rest = Squares(round(fit.residual_freedom - freedom), max(fit.residual.sum - error * freedom, 0.0))
-                ratio, _ = f_test(Squares(1, error), rest)
-                row |= {"seed_ratio": ratio, "seed_p": float(stats.f.sf(ratio, freedom, rest.freedom))}
-        if is_told and error > 0:
-            f = own.mean / error
-            row |= {"error_freedom": freedom, "f": f, "p": float(stats.f.sf(f, own.freedom, freedom))}
-        if width == 1 and places:
-            column, variance = least.kept[places[0]], float(weights[0] @ weights[0])
-            row["variance_inflation"] = variance * spread[column] or np.nan
-            if not is_blocks:
-                # Of centre points the coefficient is the difference.
-                double, coefficient = 2.0 if term else 1.0, float(fit.coefficients[column])
-                row |= {"coefficient": coefficient, "effect": double * coefficient}
-                if "f" in row:
-                    deviation = double * (error * variance) ** 0.5
-                    reach = float(stats.t.ppf(0.5 + 0.5 * fit.confidence, freedom)) * deviation
-                    row |= {"standard_error": deviation, "t": row["effect"] / deviation}
-                    row |= {"low": row["effect"] - reach, "high": row["effect"] + reach}
-        rows.append(row)
-    missed, f, p = fit.lack_of_fit
-    parts = {"lack of fit": missed, "pure error": fit.scatter[0]} if fit.scatter[0].freedom > 0 else {}
-    for name, squares in {"residual": fit.residual, **parts, "total": fit.total}.items():
-        row = {"term": name, "degrees_of_freedom": squares.freedom, "sum_of_squares": squares.sum, "mean_square": squares.mean}
-        row |= {"f": f, "p": p} if name == "lack of fit" else {}
-        rows.append(row | {"share": squares.sum / fit.total.sum, "aliased_with": []})
-    table = pandas.DataFrame(rows).reindex(columns=COLUMNS)
-    table["response"], table["unit"] = fit.response.name, fit.response.unit if fit.response.transform == "none" else "1"
-    if np.isnan(fit.error) and (judged := lenth(table.loc[table["factors"].str.len() > 0, "effect"], fit.confidence)) is not None:
-        table.loc[table["effect"].notna(), ["margin_of_error", "simultaneous_margin_of_error"]] = judged[1:]
-    return table
-
-
-def lenth(effects: pandas.Series, confidence: float) -> tuple[float, float, float] | None:
-    """Pseudo standard error and margins of effects that have no error; None of fewer than six.
-
-    R. V. Lenth, Technometrics 31, 469-473 (1989).
-    """
-    sizes = effects.dropna().abs().to_numpy(float)
-    if len(sizes) < 6 or (first := 1.5 * float(np.median(sizes))) <= 1e-12 * sizes.max():
-        return None
-    error, freedom = 1.5 * float(np.median(sizes[sizes < 2.5 * first])), len(sizes) / 3.0
-    tails = 0.5 + 0.5 * confidence, 0.5 + 0.5 * confidence ** (1.0 / len(sizes))
-    margin, simultaneous = (float(stats.t.ppf(tail, freedom)) * error for tail in tails)
-    return error, margin, simultaneous
-
-
-def box_cox(fit: Fitted) -> tuple[float, float, float] | None:
-    """Power of the response that the model fits best, and the powers that fit hardly worse; None unless all responses are above 0.
-
-    G. E. P. Box and D. R. Cox, J. R. Stat. Soc. B 26, 211-252 (1964): the likelihood of a power at its best is that of the residual sum
-    of squares of (u^power - 1)/power, with u the response by its geometric mean.
-    """
-    responses, basis = fit.response.back(fit.values), fit.fit.basis
-    if np.isnan(fit.error) or not (responses > 0).all() or fit.residual_freedom < 3:
-        return None
-    logarithms = np.log(responses) - np.log(responses).mean()
-
-    def likelihood(power: float) -> float:
-        powers = logarithms if abs(power) < 1e-7 else np.expm1(power * logarithms) / power
-        left = powers - basis @ (basis.T @ powers)
-        return -0.5 * len(left) * float(np.log(left @ left))
-
-    grid = np.linspace(*POWERS, round((POWERS[1] - POWERS[0]) / STEP) + 1)
-    near = float(grid[np.argmax([likelihood(power) for power in grid])])
-    bounds = max(near - STEP, POWERS[0]), min(near + STEP, POWERS[1])
-    best = float(optimize.minimize_scalar(lambda power: -likelihood(power), bounds=bounds, method="bounded", options={"xatol": 1e-9}).x)
-    least = likelihood(best) - 0.5 * float(stats.chi2.ppf(fit.confidence, 1))
-
-    def end(powers: Numbers) -> float:
-        inside = best
-        for power in powers:
-            if likelihood(power) < least:
-                return float(optimize.brentq(lambda at: likelihood(at) - least, inside, power, xtol=1e-12))
-            inside = float(power)
-        return inside
-
-    return best, end(grid[grid < best][::-1]), end(grid[grid > best])
-
-
-def _advice(fit: Fitted, found: tuple[float, float, float] | None) -> str:
-    """What the best power says of the transform: nothing where another one would not forecast points better that it does not know."""
-    power = TRANSFORMS.get(fit.response.transform)
-    if found is None or power is None or found[1] <= power <= found[2]:
-        return ""
-    left, (best, low, high) = fit.residuals / np.maximum(1.0 - fit.leverages, SOLE), found
-    if 1.0 - float(left @ left) / fit.total.sum > 0.999 and misfit(fit) is None:
-        # Nobody would see what is to be gained.
-        return ""
-    allowed = ["none"] if low <= 1.0 <= high else [name for name in ("log", "square root") if low <= TRANSFORMS[name] <= high]
-    name = min(allowed, key=lambda name: abs(TRANSFORMS[name] - best), default="")
-    said = "try it without transform" if name == "none" else f'try transform = "{name}"'
-    if not name:
-        said = "none of the transforms is this power; keep the response as it is, and look for a bend in the residuals, "
-        said += "which another --model may explain"
-    elif fitted(fit.study, replace(fit.response, transform=name), fit.model, confidence=fit.confidence).loo_error > 0.95 * fit.loo_error:
-        return ""
-    at_end = ", looked for between −5 and 5 alone" if low <= POWERS[0] or high >= POWERS[1] else ""
-    return f"Box-Cox: lambda = {best:.2g} ({low:.2g} to {high:.2g}{at_end}): {said}"
-
-
-# What a coefficient is multiplied by: numbers (0, factor), levels (1, factor, level) and centre points (2,), in this order.
-Product = tuple[tuple[int, ...], ...]
-
-
-def equations(fit: Fitted) -> dict[str, pandas.DataFrame]:
-    """The fitted model in coded units and in the units of the study; nothing where it is too long to be read."""
-    found = {}
-    for units in ("coded", "of the study"):
-        sums: dict[Product, list[float]] = {(): [fit.coefficients[0]]}
-        for term, columns in zip(fit.terms, fit.columns[2:], strict=True):
-            coefficients = np.where(np.abs(fit.coefficients[columns]) <= fit.rounding, 0.0, fit.coefficients[columns])
-            for product, value in _multiplied(fit, term, coefficients, units):
-                sums.setdefault(product, []).append(value)
-            if len(sums) > MOST_TERMS:
-                return {}
-        # What is smaller than the rounding of its parts is nothing.
-        kept = {key: sum(parts) for key, parts in sums.items() if not key or abs(sum(parts)) > 0.25 * ROUNDING * sum(map(abs, parts))}
-        rows = [(_words(fit, key), kept[key]) for key in sorted(kept, key=lambda key: (len(key), key))]
-        found[units] = pandas.DataFrame(rows, columns=["variables", "coefficient"])
-    return found
-
-
-def _multiplied(fit: Fitted, term: Term, coefficients: Numbers, units: str) -> list[tuple[Product, float]]:
-    """A term at each combination of levels, with the products of its numbers multiplied out."""
-    classes = [at for at in term if not fit.codings[at].is_straight]
-    grid = coefficients.reshape([fit.codings[at].width for at in classes])
-    for place, at in enumerate(classes):
-        grid = np.moveaxis(np.tensordot(contrasts(fit.codings[at].width + 1), grid, axes=(1, place)), 0, place)
-    products = []
-    for index, coefficient in np.ndenumerate(grid):
-        # By the place among all levels of the study.
-        levels = [fit.study.factors[at].levels.index((fit.codings[at].classes or ())[own]) for at, own in zip(classes, index, strict=True)]
-        begun: Product = tuple((1, at, level) for at, level in zip(classes, levels, strict=True)) if term else ((2,),)
-        multiplied = [(begun, float(coefficient))]
-        for at in (at for at in term if fit.codings[at].is_straight):
-            slope, shift, factor = 1.0, 0.0, fit.study.factors[at]
-            if units == "of the study":
-                low, high = (np.log10 if factor.logarithmic else np.asarray)(factor.in_study_unit(np.array(factor.ends)))
-                slope, shift = 2.0 / (high - low), -(low + high) / (high - low)
-            longer = [((*key, (0, at)), value * slope) for key, value in multiplied]
-            multiplied = longer + [(key, value * shift) for key, value in multiplied if shift]
-        products += [(tuple(sorted(key)), value) for key, value in multiplied]
-    return products
-
-
-def _words(fit: Fitted, product: Product) -> str:
-    """A product in words, such as ``load·speed``, ``load²`` or ``load·[pool contact]``."""
-    parts = []
-    for (kind, *which), same in itertools.groupby(product):
-        factor = fit.study.factors[which[0]] if which else None
-        level = f"[{factor.name} {factor.shown(factor.levels[which[1]])}]" if factor and kind == 1 else "[centre points]"
-        parts.append((named(factor) if factor and kind == 0 else level) + "²" * (len(list(same)) - 1))
-    return "·".join(parts)
-
-
 @dataclass(frozen=True, repr=False)
 class Effects:
     """What the factors of a study do to its responses.
@@ -428,11 +225,13 @@ class Effects:
             if self.study.document.get("centre_points", 1) > 1:
                 why += " Leave out centre_points: one is enough, with a rotatable design, too."
             said.append(f"{self.repeats} of {len(self.study.runs)} runs {verb} another one and {counts} once with it: {why}\n")
-        return "\n".join([*said, *map(_text, self.responses)])
+        from plateau.study.effects_text import text_of
+
+        return "\n".join([*said, *map(text_of, self.responses)])
 
     def figures(self) -> Any:
         """Draws main effects, interactions, sizes of effects and residuals."""
-        from plateau.study.figures import effects_figures
+        from plateau.study.effects_figures import effects_figures
 
         return effects_figures(self)
 
@@ -496,23 +295,23 @@ def _effects(study: Study, response: Response, model: str | None, terms: str, co
         fit = fitted(study, response, model, terms, confidence, centre=True)
     except NothingToFit as error:
         return ResponseEffects(response, None, str(error), pandas.DataFrame(columns=COLUMNS), None, "", {}, [])
-    table, power, cautions = _table(fit), box_cox(fit), list(fit.cautions)
+    table, power, said_of_fit = effect_table(fit), box_cox(fit), cautions(fit)
 
     def listed(rows: pandas.DataFrame, column: str) -> str:
         return ", ".join(f"{row['term']} {row[column]:.2g}" for row in rows.to_dict("records"))
 
     if len(varied := table[(table["seed_ratio"] > 1.0) & (table["seed_p"] < 1.0 - confidence)]):
         said = f"seeds x factor exceeds the residual (ratio of mean squares): {listed(varied, 'seed_ratio')}; these effects differ between "
-        cautions.append(said + "sets of seeds, and intervals tell of the mean over all seeds")
-        warnings.warn(f"{response.name}: {cautions[-1]}", PlateauWarning, stacklevel=4)
+        said_of_fit.append(said + "sets of seeds, and intervals tell of the mean over all seeds")
+        warnings.warn(f"{response.name}: {said_of_fit[-1]}", PlateauWarning, stacklevel=4)
     if len(inflated := table[table["variance_inflation"] > MOST_INFLATION]):
         said = f"correlated with other terms, so that their effects are hardly told apart (variance inflation above {MOST_INFLATION:g})"
-        cautions.append(f"{said}: {listed(inflated, 'variance_inflation')}")
+        said_of_fit.append(f"{said}: {listed(inflated, 'variance_inflation')}")
     shares = float(table.loc[table["factors"].notna(), "share"].sum())
     if abs(shares - 1.0 + fit.residual.sum / fit.total.sum) > SHARES_DIFFER:
         said = "not to R²: terms are correlated, and a share is what is lost without the term and all others kept (type III)"
-        cautions.append(f"shares add up to {100 * shares:.0f} %, {said}")
-    return ResponseEffects(response, fit, "", table, power, _advice(fit, power), equations(fit), cautions)
+        said_of_fit.append(f"shares add up to {100 * shares:.0f} %, {said}")
+    return ResponseEffects(response, fit, "", table, power, transform_advice(fit, power), equations(fit), said_of_fit)
 
 
 def _report(one: ResponseEffects) -> dict[str, Any]:
@@ -543,64 +342,3 @@ def _report(one: ResponseEffects) -> dict[str, Any]:
         for row in terms.to_dict("records")
     ]
     return report | {"cautions": one.cautions}
-
-
-def told(one: ResponseEffects) -> tuple[list[str], list[list[str]], list[str]]:
-    """What is said of a response, the rows of its table with their heads, and what stands below it."""
-    if (fit := one.fit) is None:
-        return [one.response.name, one.error], [], []
-    unit, table, summary = unit_for(one.unit, float(np.abs(fit.values).max())), one.table, one.summary
-    unit = Unit(one.unit, 1.0) if unit.offset else unit
-    scale, symbol = unit.per_si, f" {unit.symbol}".rstrip()
-    lines = [one.response.name, f"model: {MODELS[fit.model]}" + (f"; {fit.reason}" if fit.reason else "")]
-    if fit.left_out is not None:
-        kept, left = (", ".join(fit.label(term) for term in terms) for terms in (fit.terms, fit.left_out))
-        lines[-1] = f"model: {kept or 'the mean alone'}; chosen from {MODELS[fit.model]}"
-        of_all = f" instead of {fit.aicc_of_all:.5g} with all" if np.isfinite(fit.aicc_of_all) else ""
-        lines.append(f"terms left out: {left or 'none'}; AICc {fit.aicc:.5g}{of_all}")
-    names = {"R²": "r_squared", "adjusted R²": "adjusted_r_squared", "predicted R²": "predicted_r_squared"}
-    quality = [f"{name} {summary[key]:.4f}" for name, key in names.items() if np.isfinite(summary[key])]
-    p, why = fit.lack_of_fit[2], "nothing is left for it" if fit.scatter[0].freedom else "no point has replicates"
-    quality.append(f"lack of fit not tested: {why}" if np.isnan(p) else f"lack of fit p {'< 0.0001' if p < 1e-4 else f'= {p:.2g}'}")
-    error = f"error {'' if np.isnan(fit.error) else 'from '}{summary['error_from']}"
-    error += f"; residual {with_digits(fit.error**0.5 * scale)}{symbol}" if np.isfinite(fit.error) else ""
-    if fit.residual_freedom == 0:
-        error += ", so no interval can be told: give [replicates] of seeds, such as those of the disc, or a smaller model, such as "
-        error += "--model main"
-    for _, margins in table[["margin_of_error", "simultaneous_margin_of_error"]].dropna().head(1).iterrows():
-        error += ", margin of error {}, simultaneous {} (Lenth)".format(*(with_digits(value * scale) for value in margins))
-    missing = f", {fit.missing} without a response" if fit.missing else ""
-    lines += [", ".join(quality), f"{len(fit.values)} runs{missing}, mean {with_digits(fit.mean * scale)}{symbol}, {error}"]
-    lines += [f"all results are those of {one.title}"] if one.response.transform != "none" else []
-    lines += [f"caution: {caution}" for caution in one.cautions] + ([one.advice] if one.advice else [])
-    interval = f"{100 * fit.confidence:.4g} % interval"
-    rows = [["term", f"effect,{symbol}" if symbol else "effect", interval, "share", "df", "error df", "F", "p"]]
-    parts = ["lack of fit", "pure error"] if fit.lack_of_fit[0].freedom > 0 else []
-    left_over = table[table["factors"].isna() & table["term"].isin(["residual", *parts])]
-    for row in pandas.concat([one.terms.sort_values("share", ascending=False, kind="stable"), left_over]).to_dict("records"):
-        width = (row["high"] - row["low"]) / 2 * scale
-        interval = " … ".join(with_digits(row[end] * scale, width) for end in ("low", "high")) if np.isfinite(width) else ""
-        freedom = f"{row['error_freedom']:.3g}" if np.isfinite(row["error_freedom"]) else ""
-        name = ("  " if row["term"] in parts else "") + row["term"]
-        cells = [name, with_digits(row["effect"] * scale, width), interval, f"{100 * row['share']:.1f} %"]
-        rows.append([*cells, str(row["degrees_of_freedom"]), freedom, with_digits(row["f"]), with_digits(row["p"])])
-    aliased = [(row["term"], ", ".join(row["aliased_with"])) for row in table.to_dict("records") if row["aliased_with"]]
-    below = [f"{term} cannot be told from {others}" for term, others in aliased]
-    for units, products in one.equations.items():
-        said = "in coded units, −1 to 1 over each range" if units == "coded" else "in the units of the study"
-        signed = [("−" if value < 0 else "+", abs(value) * scale, words) for words, value in products.itertuples(index=False)]
-        pieces = [f"{sign} {value:.6g} {words}".strip() for sign, value, words in signed]
-        below += [f"{said}:", f"  {one.title}{f' [{unit.symbol}]' if symbol else ''} = {' '.join(pieces).removeprefix('+ ')}"]
-    if any("[centre points]" in words for products in one.equations.values() for words in products["variables"]):
-        below.append("[centre points] is 1 at the centre points, where a curve shows that is left out elsewhere, and 0 at all other points")
-    return list(map(with_minus, lines)), rows, list(map(with_minus, below))
-
-
-def _text(one: ResponseEffects) -> str:
-    """The same as text."""
-    lines, rows, below = told(one)
-    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
-    for first, *cells in rows:
-        right = [cell.rjust(width) for cell, width in zip(cells, widths[1:], strict=True)]
-        lines.append("  ".join([first.ljust(widths[0]), *right]).rstrip())
-    return "\n  ".join([*lines, *below]) + "\n"

@@ -31,7 +31,7 @@ class Factor:
     Attributes
     ----------
     name : str
-        Its name in the study.
+        Its name in the study, with `` (factor)`` behind it where tables have a column of that name.
     keys : str
         The keys of the scene that it sets; empty if it is set elsewhere.
     unit : str
@@ -60,6 +60,11 @@ class Factor:
     study_unit: str
     one: float
     zero: float
+
+    @property
+    def names(self) -> list[str]:
+        """Names by which people call it."""
+        return [self.name, self.name.removesuffix(" (factor)"), *filter(None, self.keys.split(", "))]
 
     @property
     def is_number(self) -> bool:
@@ -108,7 +113,7 @@ class Response:
     Attributes
     ----------
     name : str
-        Its name in the study.
+        Its name in the study, with `` (response)`` behind it where tables have a column of that name.
     unit : str
         SI unit; ``"1"`` for plain numbers.
     series : str

@@ -2,9 +2,9 @@
 
 import itertools
 import warnings
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import lru_cache
+from functools import cached_property, lru_cache
 from typing import Any
 
 import numpy as np
@@ -13,9 +13,9 @@ from scipy import optimize, stats
 
 from plateau.errors import InputError
 from plateau.study.data import Numbers, Study
-from plateau.study.settings import axis_of, beyond_of, held_values
+from plateau.study.settings import axis_of, beyond_of, ends_of, held_values, reach_of
 from plateau.study.surrogate import Surrogate
-from plateau.units import parsed
+from plateau.units import quantity
 
 # Typed more strictly than it can be called.
 minimize: Any = optimize.minimize
@@ -75,7 +75,7 @@ def overall(goals: Sequence[Goal], desirabilities: Sequence[Any]) -> Numbers:
     return np.asarray(np.exp(logs / sum(goal.importance for goal in goals)))
 
 
-# A merit, the levels of a point, and its coded place in the ranges.
+# A merit, the levels of a point, and its place in the cube.
 Start = tuple[float, tuple[Any, ...], Numbers]
 
 
@@ -97,15 +97,47 @@ class Problem:
             columns[factor.name] = factor.value(next(place)) if axis is None else [level] * len(coded)
         return pandas.DataFrame(columns)
 
+    @cached_property
+    def _region(self) -> tuple[Numbers, Numbers, float]:
+        """Coded ends of the factors, and how far from the middle the search goes in all of them together."""
+        ends = [ends_of(self.study, factor) if factor.is_number else (0.0, 0.0) for factor in self.study.factors]
+        return *np.array(ends).T, reach_of(self.study)
+
+    def within(self, levels: Sequence[Any], cube: Numbers) -> Numbers:
+        """Coded places in the region of the design of points of a cube from -1 to 1: what is too far out comes back towards the middle."""
+        low, high, reach = self._region
+        is_free = np.array([axis is None for axis in self.axes])
+        places = low[is_free] + (cube + 1.0) / 2.0 * (high - low)[is_free]
+        numbers = [(factor, level) for factor, level in zip(self.study.factors, levels, strict=True) if level is not None and factor.is_number]
+        left = reach**2 - sum(float(factor.coded(level)) ** 2 for factor, level in numbers)
+        away = np.sqrt(np.square(places).sum(axis=1, keepdims=True))
+        return np.asarray(places * np.minimum(1.0, max(left, 0.0) ** 0.5 / np.maximum(away, 1e-300)))
+
+    @property
+    def wanted(self) -> list[str]:
+        """Names of the responses with a goal or a limit."""
+        return list(dict.fromkeys([*(goal.response for goal in self.goals), *(limit.response for limit in self.limits)]))
+
     def forecasts(self, points: pandas.DataFrame, *, with_intervals: bool = False) -> dict[str, pandas.DataFrame]:
         """What surrogates expect of the responses that are wanted."""
         found = {}
-        for name in dict.fromkeys([*(goal.response for goal in self.goals), *(limit.response for limit in self.limits)]):
+        for name in self.wanted:
             surrogate = self.surrogates[name]
             needs = with_intervals or any(limit.response == name and limit.on != "mean" for limit in self.limits)
             value = pandas.DataFrame({"value": surrogate.response.back(surrogate.mean(points))})
             found[name] = surrogate.forecast(points, self.confidence) if needs else value
         return found
+
+    def worth(self, points: pandas.DataFrame) -> Numbers:
+        """The mean desirability; NaN where a limit is missed."""
+        found = self.forecasts(points)
+        reached = overall(self.goals, [goal.desirability(found[goal.response]["value"]) for goal in self.goals])
+        return np.where(self.keeps(found), reached, np.nan)
+
+    def keeps(self, forecasts: dict[str, pandas.DataFrame]) -> Numbers:
+        """Whether forecasts keep all limits."""
+        kept = [limit.margin(forecasts[limit.response]) >= -ROUNDING for limit in self.limits]
+        return np.logical_and.reduce(kept) if kept else np.ones(len(next(iter(forecasts.values()))), bool)
 
     def merit(self, points: pandas.DataFrame) -> Numbers:
         """Above 0 the mean desirability; below 0 how far a limit is missed or a response is worth nothing, so that the way back is known."""
@@ -118,7 +150,7 @@ class Problem:
         return np.nan_to_num(np.where(missed > ROUNDING, -2.0 - missed, merit), nan=-1e9)
 
     def spread(self, count: int = POINTS) -> list[tuple[tuple[Any, ...], Numbers]]:
-        """All combinations of levels, each with coded points spread over the ranges."""
+        """All combinations of levels, each with points spread over a cube from -1 to 1, which stands for the region."""
         choices = [[None] if axis is None else axis for axis in self.axes]
         if (combinations := int(np.prod([len(choice) for choice in choices], dtype=float))) > MOST_COMBINATIONS:
             raise InputError(
@@ -129,50 +161,59 @@ class Problem:
         places = 2.0 * stats.qmc.Sobol(ranges, rng=0).random_base2(bits) - 1.0 if ranges else np.zeros((1, 0))
         return [(levels, places) for levels in itertools.product(*choices)]
 
+    def at(self, levels: Sequence[Any], cube: Numbers) -> pandas.DataFrame:
+        """Points of the factors at levels, and in the region at points of the cube."""
+        return self.points(levels, self.within(levels, np.clip(cube, -1.0, 1.0)))
+
+    def starts(self, merit: Callable[[pandas.DataFrame], Numbers], count: int = POINTS) -> list[Start]:
+        """Points at which something is large among many, the largest first."""
+        starts: list[Start] = []
+        for levels, cube in self.spread(count):
+            merits = merit(self.at(levels, cube))
+            starts += [(float(merits[at]), levels, cube[at]) for at in np.argsort(-merits, kind="stable")[:STARTS]]
+            starts = sorted(starts, key=lambda start: -start[0])[:STARTS]
+        return starts
+
+    def simplex(self, merit: Callable[[pandas.DataFrame], Numbers], start: Start) -> Start:
+        """Goes on from a start by simplices, whatever corners there are."""
+        value, levels, place = start
+        inward = 0.1 * np.where(place > 0.0, -1.0, 1.0) * np.eye(len(place))
+        options = {"maxfev": 60 * len(place), "xatol": 1e-5, "fatol": 1e-9, "initial_simplex": np.vstack([place, place + inward])}
+        bounds = [(-1.0, 1.0)] * len(place)
+        found = minimize(lambda x: -merit(self.at(levels, x[None]))[0], place, method="Nelder-Mead", bounds=bounds, options=options)
+        return (-float(found.fun), levels, np.clip(found.x, -1.0, 1.0)) if -found.fun > value else start
+
     def best(self) -> pandas.DataFrame:
         """The point of the largest merit, one row."""
-        starts: list[Start] = []
-        for levels, places in self.spread():
-            merits = self.merit(self.points(levels, places))
-            starts += [(merits[at], levels, places[at]) for at in np.argsort(-merits, kind="stable")[:STARTS]]
-            starts = sorted(starts, key=lambda start: -start[0])[:STARTS]
+        starts = self.starts(self.merit)
         best = starts[0]
         if self.axes.count(None):
-            best = max((self._climbed(start, ["SLSQP"]) for start in starts), key=lambda found: found[0])
-            best = self._climbed(best, ["Nelder-Mead", "SLSQP"])
-        return self.points(best[1], best[2][None])
+            best = max(map(self._climbed, starts), key=lambda found: found[0])
+            best = self._climbed(self.simplex(self.merit, best))
+        return self.at(best[1], best[2][None])
 
-    def _climbed(self, start: Start, methods: Sequence[str]) -> Start:
-        """Goes on from a start: along slopes and limits, and by simplices where these have corners."""
+    def _climbed(self, start: Start) -> Start:
+        """Goes on from a start along slopes and limits."""
         merit, levels, place = start
-        bounds, step = [(-1.0, 1.0)] * len(place), 1e-5 * np.eye(len(place))
-
-        def fall(x: Numbers) -> float:
-            return -float(self.merit(self.points(levels, x[None]))[0])
+        step = 1e-5 * np.eye(len(place))
 
         @lru_cache(maxsize=8)
-        def smooth(coded: bytes) -> tuple[Numbers, Numbers]:
+        def smooth(cube: bytes) -> tuple[Numbers, Numbers]:
             """Minus the logarithm of the desirability and the margins of the limits, and their slopes."""
-            x = np.frombuffer(coded)
-            found = self.forecasts(self.points(levels, np.vstack([x, x + step, x - step])))
+            x = np.frombuffer(cube)
+            found = self.forecasts(self.points(levels, self.within(levels, np.vstack([x, x + step, x - step]))))
             logs = sum(goal.importance * np.log(np.maximum(goal.way(found[goal.response]["value"]), 1e-9)) for goal in self.goals)
             values = np.column_stack([-logs, *(limit.margin(found[limit.response]) for limit in self.limits)])
             return values[0], ((values[1 : 1 + len(x)] - values[1 + len(x) :]) / 2e-5).T
 
-        kept = [
-            {"type": "ineq", "fun": lambda x, at=at: smooth(x.tobytes())[0][at], "jac": lambda x, at=at: smooth(x.tobytes())[1][at].copy()}
-            for at in range(1, 1 + len(self.limits))
-        ]
-        of_slopes = {"fun": lambda x: smooth(x.tobytes())[0][0], "jac": lambda x: smooth(x.tobytes())[1][0].copy(), "constraints": kept}
-        options: dict[str, Any] = {"SLSQP": {**of_slopes, "options": {"ftol": 1e-13}}}
-        options["Nelder-Mead"] = {"fun": fall, "options": {"xatol": 1e-5, "fatol": 1e-9, "maxfev": 60 * len(place)}}
-        for method in methods:
-            with warnings.catch_warnings():
-                warnings.simplefilter("ignore", RuntimeWarning)
-                x = np.clip(minimize(x0=place, method=method, bounds=bounds, **options[method]).x, -1.0, 1.0)
-            if np.isfinite(x).all() and -fall(x) > merit:
-                merit, place = -fall(x), x
-        return merit, levels, place
+        kept = {"type": "ineq", "fun": lambda x: smooth(x.tobytes())[0][1:], "jac": lambda x: smooth(x.tobytes())[1][1:].copy()}
+        options: dict[str, Any] = {"constraints": kept} if self.limits else {}
+        options |= {"jac": lambda x: smooth(x.tobytes())[1][0].copy(), "options": {"ftol": 1e-13}, "bounds": [(-1.0, 1.0)] * len(place)}
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", RuntimeWarning)
+            x = np.clip(minimize(lambda x: smooth(x.tobytes())[0][0], place, method="SLSQP", **options).x, -1.0, 1.0)
+        found = float(self.merit(self.at(levels, x[None]))[0]) if np.isfinite(x).all() else -np.inf
+        return (found, levels, x) if found > merit else start
 
 
 def beyond_runs(problem: Problem) -> Problem:
@@ -215,7 +256,7 @@ def wanted(
 
     for aim, text in ((aim, text) for aim, texts in given.items() for text in texts):
         name, _, said = named(list(responses), text, ["="])
-        values = [parsed(responses[name].unit, value) for value in said.split("..")] if said else []
+        values = [quantity(value, responses[name].unit, needs_unit=False) for value in said.split("..")] if said else []
         low, high = observed(name)
         if name in goals:
             raise InputError(f'"{name}" has two goals, expected one; a --limit may stand beside it')
@@ -238,14 +279,14 @@ def wanted(
         raise InputError("no goal: give --maximize, --minimize or --target with a response")
     for text in importance:
         name, _, said = named(list(goals), text, ["="])
-        if not 0.01 <= (power := parsed("1", said)) <= 100.0:
+        if not 0.01 <= (power := quantity(said, "1", needs_unit=False)) <= 100.0:
             raise InputError(f'--importance "{text}": expected a number between 0.01 and 100')
         goals[name] = replace(goals[name], importance=power)
     found = []
     for text in limits:
         name, sign, said = named(list(responses), text, ["<=", ">="])
         low, high = observed(name)
-        found.append(Limit(name, sign == ">=", parsed(responses[name].unit, said), limit_on, high - low if high > low else 1.0))
+        found.append(Limit(name, sign == ">=", quantity(said, responses[name].unit, needs_unit=False), limit_on, high - low if high > low else 1.0))
     return list(goals.values()), found
 
 
@@ -254,7 +295,7 @@ def axes_of(study: Study, hold: Mapping[str, Any] | Sequence[str], is_curved: bo
     held = held_values(study, hold, "--hold", is_curved)
     place = pandas.DataFrame({factor.name: [held.get(factor.name, axis_of(factor, None, is_curved)[0])] for factor in study.factors})
     if beyond := beyond_of(study, place)[0]:
-        raise InputError(f"--hold: {beyond}; the search stays within the ranges")
+        raise InputError(f"--hold: {beyond}; the search stays in the region of the design")
     axes: list[list[Any] | None] = []
     for factor in study.factors:
         levels = (

@@ -10,7 +10,7 @@ from scipy import stats
 
 from plateau.errors import InputError
 from plateau.study.data import Numbers, Study
-from plateau.study.goals import POINTS, ROUNDING, Problem, Start, beyond_runs, minimize, overall
+from plateau.study.goals import POINTS, ROUNDING, Problem, beyond_runs, overall
 from plateau.study.surrogate import surrogates
 
 # Draws of responses, and the improvement, as part of the way to the goal, that is worth no run.
@@ -68,8 +68,7 @@ def _with_runs(study: Study, new: Sequence[pandas.DataFrame]) -> Study:
 
 def with_processes(problem: Problem, study: Study) -> Problem:
     """The problem with processes that are fitted to the runs of a study."""
-    wanted = [*(goal.response for goal in problem.goals), *(limit.response for limit in problem.limits)]
-    own = replace(study, responses=[response for response in study.responses if response.name in wanted])
+    own = replace(study, responses=[response for response in study.responses if response.name in problem.wanted])
     found = {one.response.name: replace(one, takes_process=one.process is not None) for one in surrogates(own, of_any_design=True)}
     return replace(problem, study=study, surrogates={**problem.surrogates, **found})
 
@@ -81,7 +80,7 @@ def expected_improvement(problem: Problem, points: pandas.DataFrame) -> Numbers:
     Optimization 48, 607-626 (2013)). What is as uncertain at points that were run, too, is nothing that more runs tell. Points that miss a
     limit improve nothing.
     """
-    names = list(problem.forecasts(points.head(1)))
+    names = problem.wanted
     known = problem.study.runs.drop_duplicates("point")
     draws = stats.norm.ppf(stats.qmc.Sobol(len(names), rng=0).random(DRAWS) * (1.0 - 1e-9) + 0.5e-9)
     values, kept, forecasts = {}, np.ones((len(points), DRAWS), bool), problem.forecasts(points)
@@ -93,36 +92,21 @@ def expected_improvement(problem: Problem, points: pandas.DataFrame) -> Numbers:
         change = (values[limit.response] - forecasts[limit.response][["value"]].to_numpy()) / limit.scale
         kept &= limit.margin(forecasts[limit.response])[:, None] + (change if limit.is_least else -change) >= -ROUNDING
     expected = problem.forecasts(known)
-    keeps = np.ones(len(known), bool)
-    for limit in problem.limits:
-        keeps &= limit.margin(expected[limit.response]) >= -ROUNDING
     reached = overall(problem.goals, [np.maximum(goal.way(expected[goal.response]["value"]), 0.0) for goal in problem.goals])
-    best = float(np.where(keeps, reached, 0.0).max())
+    best = float(np.where(problem.keeps(expected), reached, 0.0).max())
     merit = overall(problem.goals, [np.maximum(goal.way(values[goal.response]), 0.0) for goal in problem.goals])
     return np.asarray((np.maximum(merit - best, 0.0) * kept).mean(axis=1))
 
 
 def _promising(problem: Problem) -> tuple[pandas.DataFrame, float]:
     """The point of the largest expected improvement that was not run, and how large that is."""
-    best: Start = (-1.0, (), np.zeros(0))
-    for levels, places in problem.spread(POINTS // 4):
-        points = problem.points(levels, places)
-        gains = np.where(is_run(problem, points), 0.0, expected_improvement(problem, points))
-        if gains.max() > best[0]:
-            best = (float(gains.max()), levels, places[gains.argmax()])
-    gain, levels, place = best
-    if len(place) and gain > 0.0:
 
-        def fall(x: Numbers) -> float:
-            at = problem.points(levels, np.clip(x, -1.0, 1.0)[None])
-            return 0.0 if is_run(problem, at)[0] else -float(expected_improvement(problem, at)[0])
+    def gains(points: pandas.DataFrame) -> Numbers:
+        return np.where(is_run(problem, points), 0.0, expected_improvement(problem, points))
 
-        inward = 0.1 * np.where(place > 0.0, -1.0, 1.0) * np.eye(len(place))
-        options = {"maxfev": 40 * len(place), "initial_simplex": np.vstack([place, place + inward])}
-        found = minimize(fall, place, method="Nelder-Mead", bounds=[(-1.0, 1.0)] * len(place), options=options)
-        if -found.fun > gain:
-            gain, place = -float(found.fun), np.clip(found.x, -1.0, 1.0)
-    return problem.points(levels, place[None]), gain
+    start, *_ = problem.starts(gains, POINTS // 4)
+    gain, levels, place = problem.simplex(gains, start) if start[0] > 0.0 and start[2].size else start
+    return problem.at(levels, place[None]), gain
 
 
 def is_run(problem: Problem, points: pandas.DataFrame, near: float = NEAR) -> Numbers:

@@ -13,7 +13,8 @@ from scipy import optimize, stats
 from plateau.errors import InputError
 from plateau.study.analysis import usable
 from plateau.study.data import Study
-from plateau.study.model import Fitted, NothingToFit, fitted
+from plateau.study.model import Fitted, NothingToFit
+from plateau.study.model_choice import fitted
 from plateau.study.results import analysed
 from plateau.units import unit_for, with_minus
 

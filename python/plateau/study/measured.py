@@ -1,121 +1,16 @@
-"""What was measured: values of responses from elsewhere, which become part of a study, and what runs are fitted to."""
+"""What was measured of responses, to which runs are fitted."""
 
-import fcntl
 import math
-import os
 import re
-from collections.abc import Iterator
-from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 import numpy as np
-import pandas
 
-from plateau.errors import InputError, RunFailed
+from plateau.errors import InputError
 from plateau.study.data import Numbers, Response, Study
-from plateau.study.kept_values import KeptValues, file_of, imported_columns
-from plateau.output_folder import put
-from plateau.study.results import analysed
 from plateau.study.text_tables import read_text_table
 from plateau.units import NUMBER, in_si, quantity
-
-
-@dataclass(frozen=True)
-class Imported:
-    """What a table brought.
-
-    Attributes
-    ----------
-    study : str
-        Title.
-    lines, new, changed, complete, runs : int
-        Lines of the table, values that were not there before and that have changed, runs that have all imported responses, all runs.
-    responses : list of str
-        Which are in the table.
-    idle : list of str
-        What is kept of points and responses that the study does not have now.
-    file : Path
-        Where values are kept.
-    """
-
-    study: str
-    lines: int
-    responses: list[str]
-    new: int
-    changed: int
-    runs: int
-    complete: int
-    idle: list[str]
-    file: Path
-
-    def document(self) -> dict[str, Any]:
-        """The JSON of ``plateau sweep import --json``."""
-        return {**self.__dict__, "file": str(self.file)}
-
-    def text(self) -> str:
-        """What ``plateau sweep import`` prints."""
-        lines = [
-            self.study,
-            f"  read      {self.lines} {'line' if self.lines == 1 else 'lines'} with {', '.join(self.responses)}",
-            f"  values    {self.new} new, {self.changed} changed",
-            f"  complete  {self.complete} of {self.runs} runs",
-            f"  kept in   {self.file}",
-        ]
-        kept = [f"  {line}" for line in self.idle]
-        return "\n".join([*lines, *(["Kept, but of nothing that the study has now"] if kept else []), *kept])
-
-
-def import_values(study: str | os.PathLike[str], table: str | os.PathLike[str], force: bool = False) -> Imported:
-    """Takes values of responses with ``imported = true`` into a study.
-
-    Parameters
-    ----------
-    study : path
-        The study file.
-    table : path
-        Table in CSV: a column for each factor and for each response in it, and ``replicate`` where needed. Empty cells change nothing.
-    force : bool
-        Replace values that were imported before and differ.
-
-    Returns
-    -------
-    Imported
-
-    Raises
-    ------
-    InputError
-        If a line fits no point, or a value is wrong or there already; with its line. Then nothing has changed.
-    """
-    opened = analysed(study)
-    file, given = file_of(opened), read_text_table(Path(table))
-    names = [response.name for response in opened.responses if response.asked.get("imported")]
-    imported_columns(given, opened, strict=True)
-    inputs = [Path(study), Path(table), *([Path(study).parent / opened.document["file"]] if "file" in opened.document else [])]
-    if file.exists() and any(one.exists() and file.samefile(one) for one in inputs):
-        raise InputError(f"{file}: it is an input, and imported values would be kept in its place; give the study another directory")
-    # A table with a mistake in it leaves no folder.
-    KeptValues(opened).take(given, force)
-    with _alone(file):
-        kept = KeptValues(opened)
-        new, changed = kept.take(given, force)
-        put(file, kept.written())
-    columns = [opened.responses[at].name for _, at in imported_columns(given, opened, strict=True)]
-    complete = int(kept.values[names].notna().all(axis=1).sum())
-    return Imported(opened.title, len(given.rows), columns, new, changed, len(opened.runs), complete, kept.idle(), file)
-
-
-@contextmanager
-def _alone(file: Path) -> Iterator[None]:
-    """One import at a time: another one waits."""
-    try:
-        file.parent.mkdir(parents=True, exist_ok=True)
-        with (file.parent / f".{file.name}.lock").open("a") as lock:
-            fcntl.flock(lock, fcntl.LOCK_EX)
-            yield
-    except OSError as error:
-        raise RunFailed(f"cannot write {file}: {error.strerror}") from error
 
 
 @dataclass(frozen=True)

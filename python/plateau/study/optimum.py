@@ -16,10 +16,10 @@ from plateau.study.data import Numbers, Study
 from plateau.study.goals import ROUNDING, Goal, Limit, Problem, axes_of, beyond_runs, overall, wanted
 from plateau.study.improvement import improved, is_run
 from plateau.output_folder import plain
-from plateau.study.prediction import INTERVALS, forecast_table
+from plateau.study.prediction import INTERVALS, confirmed_by, forecast_table, reported, settings_at
 from plateau.study.results import analysed
 from plateau.study.runs import make_runs
-from plateau.study.settings import beyond_of, no_curve
+from plateau.study.settings import beyond_of, ends_of, no_curve, region_of
 from plateau.study.surrogate import Surrogate, surrogates
 from plateau.units import Unit, unit_of, with_minus
 
@@ -90,34 +90,23 @@ class Optimum:
 
     def document(self) -> dict[str, Any]:
         """The JSON of ``plateau sweep optimize --json``, SI units."""
-
-        def interval(row: dict[Any, Any], of: str) -> list[float] | None:
-            return [row[f"{of}_low"], row[f"{of}_high"]] if row.get(f"{of}_low") is not None else None
-
-        responses, confirmed, limits, worth = [], [], [], {}
-        for row in plain(self.table.to_dict("records")):
-            error = "no model could be fitted" if row["value"] is None else None
-            ends = {"mean_interval": interval(row, "mean"), "run_interval": interval(row, "run"), "error": error}
-            responses.append({"name": row["response"], "unit": row["unit"], "value": row["value"], **ends})
-            made = {"runs": int(row["confirmed_runs"]), "mean": row["confirmed"], "standard_error": row["confirmed_error"]}
-            confirmed.append({**made, "within_run_interval": row["is_within"]} if made["runs"] else None)
-            worth[row["response"]] = row["desirability"]
-        for limit in self.problem.limits:
+        problem, rows = self.problem, plain(self.table.to_dict("records"))
+        confirmed, worth = list(map(confirmed_by, rows)), {row["response"]: row["desirability"] for row in rows}
+        limits = []
+        for limit in problem.limits:
+            ends = {"least": limit.value, "most": None} if limit.is_least else {"least": None, "most": limit.value}
             margin = self._margin(limit)
-            least, most = (limit.value, None) if limit.is_least else (None, limit.value)
-            said = {"response": limit.response, "least": least, "most": most, "on": limit.on}
-            limits.append({**said, "is_kept": margin >= -ROUNDING, "holds_back": abs(margin) < ON_LIMIT})
-        settings: list[dict[str, Any]] = []
-        for place in self.settings.to_dict("records"):
-            number = None if isinstance(place["value"], str) else float(place["value"])
-            settings.append({"factor": place["factor"], "value": place["text"], "number": number, "given": True})
+            kept = {"is_kept": margin >= -ROUNDING, "holds_back": abs(margin) < ON_LIMIT}
+            limits.append({"response": limit.response, **ends, "on": limit.on, **kept})
         goals = [
             {**{name: getattr(goal, name) for name in ("response", "aim", "values", "importance")}, "desirability": worth[goal.response]}
-            for goal in self.problem.goals
+            for goal in problem.goals
         ]
-        found = {"study": self.problem.study.title, "confidence": self.problem.confidence, "settings": settings, "responses": responses}
-        found |= {"goals": goals, "desirability": self.desirability, "keeps_limits": self.keeps_limits, "limits": limits}
-        found |= {"at_ends": self.at_ends, "confirmed": confirmed if any(confirmed) else None, "canonical": self.canonical}
+        settings = settings_at(problem.study, self.settings.set_index("factor")["value"], [factor.name for factor in problem.study.factors])
+        responses = [reported(row, "no model could be fitted" if row["value"] is None else "") for row in rows]
+        found = {"study": problem.study.title, "confidence": problem.confidence, "settings": settings, "responses": responses, "goals": goals}
+        found |= {"desirability": self.desirability, "keeps_limits": self.keeps_limits, "limits": limits, "at_ends": self.at_ends}
+        found |= {"region": region_of(problem.study), "confirmed": confirmed if any(confirmed) else None, "canonical": self.canonical}
         return found | {"rounds": plain(self.rounds.to_dict("records")), "cautions": self.cautions}
 
     def text(self) -> str:
@@ -125,7 +114,7 @@ class Optimum:
         responses = {response.name: response for response in self.problem.study.responses}
         found = "best at" if self.keeps_limits else "no settings within the ranges keep all limits; they are missed least at"
         place = ", ".join(f"{one.name} = {one.shown(value)}" for one, value in zip(self.problem.study.factors, self.settings["value"], strict=True))
-        lines = [self.problem.study.title, f"  {found} {place}", f"  desirability {self.desirability:.3g}"]
+        lines = [self.problem.study.title, f"  {found} {place}", f"  desirability {self.desirability:.3g}, searched in {region_of(self.problem.study)}"]
         level, cells, confirmed = f"{100 * self.problem.confidence:g} %", [], []
         for row in self.table.to_dict("records"):
             unit = unit_of(row["unit"], self.problem.study.runs[row["response"]])
@@ -153,7 +142,7 @@ class Optimum:
                 risk = "; the predicted mean lies on it, so that about half of all runs will miss it: --limit-on runs keeps a margin"
                 lines.append(f"  held back by {words}{risk if limit.on == 'mean' else ''}")
         if self.at_ends:
-            lines.append(f"  at an end of the range: {', '.join(self.at_ends)}; the study knows nothing beyond it")
+            lines.append(f"  at an end of the region: {', '.join(self.at_ends)}; the study knows nothing beyond it")
         factors = {factor.name: factor for factor in self.problem.study.factors}
         for each in self.canonical:
             is_near = all(abs(row["coded"]) <= FAR for row in each["stationary"])
@@ -304,7 +293,8 @@ def _told(problem: Problem, best: pandas.DataFrame, confirming: pandas.DataFrame
     for factor, axis in zip(study.factors, problem.axes, strict=True):
         value = best[factor.name].iloc[0]
         settings.append({"factor": factor.name, "unit": factor.unit, "value": value, "text": factor.text(value)})
-        if axis is None and abs(factor.coded(value)) > 1.0 - AT_END:
+        further = best.assign(**{factor.name: factor.value((1.0 + 2.0 * AT_END) * factor.coded(value))}) if axis is None else best
+        if axis is None and abs(factor.coded(value)) > 1.0 - AT_END and beyond_of(study, further)[0]:
             at_ends.append(f"{factor.name} ({factor.shown(value)})")
     total = float(overall(problem.goals, [worth[goal.response] for goal in problem.goals])) if keeps else 0.0
     if keeps and total <= 0.0:
@@ -328,10 +318,11 @@ def _canonical(problem: Problem, best: pandas.DataFrame) -> list[dict[str, Any]]
         said = canonical(value_at, len(ranges))
         places = []
         for factor, coded in zip(ranges, said["stationary"], strict=True) if said["nature"] != "ridge" else []:
+            low, high = ends_of(problem.study, factor)
             with np.errstate(over="ignore"):
                 at = float(factor.value(coded))
             place = {"factor": factor.name, "unit": factor.unit, "value": at, "coded": float(coded), "text": factor.text(at)}
-            places.append({**place, "is_within": bool(abs(coded) <= 1.0)})
+            places.append({**place, "is_within": bool(low <= coded <= high)})
         value = float(surrogate.response.back(said["value"])) if places else None
         numbers = {"eigenvalues": said["eigenvalues"].tolist(), "directions": said["directions"].tolist()}
         found.append({"response": name, "nature": said["nature"], "value": value, "stationary": places, **numbers})

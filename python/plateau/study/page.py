@@ -5,7 +5,7 @@ from html import escape
 from typing import TYPE_CHECKING, Any
 
 from plateau.html_page import listed, page, pictures, table, table_of
-from plateau.study.figures import file_names
+from plateau.study.figure_axes import file_names
 
 if TYPE_CHECKING:
     from plateau.study.analysis import Effects
@@ -19,7 +19,7 @@ NOTE = (
 
 def effects_page(found: "Effects", figures: Mapping[str, Any], files: Mapping[str, bytes]) -> str:
     """The page of ``plateau sweep effects``."""
-    from plateau.study.analysis import told
+    from plateau.study.effects_text import told
 
     study = found.study
     factors = [[factor.name, factor.keys, " … ".join(map(factor.shown, factor.levels)) if factor.is_range else ", ".join(map(factor.shown, factor.levels))]

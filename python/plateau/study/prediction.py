@@ -17,7 +17,7 @@ from plateau.study.data import Study
 from plateau.study.kept_values import factor_value
 from plateau.output_folder import plain
 from plateau.study.results import analysed
-from plateau.study.settings import SAME, axis_of, beyond_of, factor_named, held_values, joined, no_curve, value_of
+from plateau.study.settings import SAME, axis_of, beyond_of, factor_named, held_values, joined, no_curve, region_of, value_of
 from plateau.study.surrogate import Surrogate, surrogates
 from plateau.study.text_tables import read_text_table
 from plateau.units import unit_for, unit_of, with_digits, with_minus, with_unit
@@ -76,29 +76,17 @@ class Prediction:
         """What ``plateau sweep predict --json`` prints, SI units."""
         places = []
         for (_, rows), (_, place) in zip(self.table.groupby("place", sort=False), self.places.iterrows(), strict=True):
-            settings: list[dict[str, Any]] = []
-            for factor in self.study.factors:
-                value, number = factor.text(place[factor.name]), place[factor.name] if factor.is_number else None
-                settings.append({"factor": factor.name, "value": value, "number": number, "given": factor.name in self.given})
-            responses, confirmed = [], []
-            for (_, row), surrogate in zip(rows.iterrows(), self.surrogates, strict=True):
-                value, *ends, leverage, mean, error = (
-                    plain(row[name]) for name in ["value", *INTERVALS, "leverage", "confirmed", "confirmed_error"]
-                )
-                intervals = [None if None in pair else pair for pair in (ends[:2], ends[2:])]
-                own = {"name": row["response"], "unit": row["unit"], "value": value}
-                own |= {"mean_interval": intervals[0], "run_interval": intervals[1]}
-                cautions = [caution for caution in row["cautions"].split("; ") if caution]
-                responses.append({**own, "error": surrogate.error or None, "leverage": leverage, "cautions": cautions})
-                count, is_within = int(row["confirmed_runs"]), row["is_within"]
-                made = {"runs": count, "mean": mean, "standard_error": error, "within_run_interval": is_within}
-                confirmed.append(made if count else None)
             beyond = [one for one in rows["beyond"].iloc[0].split("; ") if one]
-            places.append(
-                {"settings": settings, "beyond": beyond, "responses": responses, "confirmed": confirmed if any(confirmed) else None}
-            )
-        models = [surrogate.words or None for surrogate in self.surrogates]
-        return {"study": self.study.title, "confidence": self.confidence, "models": models, "places": places, "cautions": self.cautions}
+            responses, confirmed = [], []
+            for row, surrogate in zip(plain(rows.to_dict("records")), self.surrogates, strict=True):
+                said = {"leverage": row["leverage"], "cautions": [caution for caution in row["cautions"].split("; ") if caution]}
+                responses.append(reported(row, surrogate.error) | said)
+                confirmed.append(confirmed_by(row))
+            made = confirmed if any(confirmed) else None
+            settings = settings_at(self.study, place, self.given)
+            places.append({"settings": settings, "beyond": beyond, "responses": responses, "confirmed": made})
+        found = {"study": self.study.title, "confidence": self.confidence, "region": region_of(self.study), "cautions": self.cautions}
+        return found | {"models": [surrogate.words or None for surrogate in self.surrogates], "places": places}
 
     def text(self) -> str:
         """What ``plateau sweep predict`` prints."""
@@ -133,6 +121,28 @@ class Prediction:
                 )
         lines += [f"  {one.response.name}: {one.error or one.reason}" for one in self.surrogates if one.process is not None or one.error]
         return with_minus("\n".join([*lines, *(f"  caution: {caution}" for caution in self.cautions), ""]))
+
+
+def settings_at(study: Study, place: pandas.Series, given: Sequence[str]) -> list[dict[str, Any]]:
+    """Values of the factors at a place for JSON."""
+    return [
+        {"factor": one.name, "value": one.text(place[one.name]), "number": place[one.name] if one.is_number else None, "given": one.name in given}
+        for one in study.factors
+    ]
+
+
+def reported(row: dict[Any, Any], error: str) -> dict[str, Any]:
+    """A forecast of a response for JSON."""
+    ends = {of: [row[f"{of}_low"], row[f"{of}_high"]] for of in ("mean", "run")}
+    intervals = {f"{of}_interval": None if None in end else end for of, end in ends.items()}
+    return {"name": row["response"], "unit": row["unit"], "value": row["value"], **intervals, "error": error or None}
+
+
+def confirmed_by(row: dict[Any, Any]) -> dict[str, Any] | None:
+    """What runs at the place gave, for JSON; None without any."""
+    count = int(row["confirmed_runs"])
+    made = {"runs": count, "mean": row["confirmed"], "standard_error": row["confirmed_error"]}
+    return {**made, "within_run_interval": row["is_within"]} if count else None
 
 
 def predict(

@@ -177,11 +177,6 @@ class Process:
         _, own, seeds = self.moments(x)
         return np.asarray(np.sqrt(own + seeds / self.seeds))
 
-    def run_deviation(self, x: npt.ArrayLike) -> Numbers:
-        """Standard deviations of the response of one more run."""
-        _, own, seeds = self.moments(x)
-        return np.asarray(np.sqrt(own + self.run_variance + seeds * (1.0 + 1.0 / self.seeds)))
-
     def intervals(self, x: npt.ArrayLike, confidence: float) -> Numbers:
         """Means, ends of their intervals, and ends of those of runs: five columns."""
         columns, (mean, own, seeds) = [], self.moments(x)

@@ -15,7 +15,7 @@ from plateau.errors import InputError, InputTypeError, MissingFileError
 from plateau.program import call, file_name
 from plateau.run_file import locking
 from plateau.study.data import Factor, Response, Study
-from plateau.study.kept_values import imported_values
+from plateau.study.kept_values import KeptValues
 from plateau.units import with_unit
 
 
@@ -83,20 +83,20 @@ def _opened(folder: Path, study: Path | None, directory: Path) -> Study:
         own = {name: data[name].values for name in ("point", "replicate", "order", "same_as", "state")}
         index = pandas.Index(data["run"].values.astype(int), name="run")
 
-        def columns(role: str) -> dict[str, Any]:
-            return {str(values.attrs["name"]): values.values for values in with_role[role]}
+        factors, responses = [_factor(values) for values in with_role["factor"]], with_role["response"]
+        of_factors = {factor.name: values.values for factor, values in zip(factors, with_role["factor"], strict=True)}
+        taken = {*own, *(factor.name for factor in factors)}
 
-        if taken := [(role, name) for role in ROLES[:2] for name in columns(role) if name in own]:
-            raise InputError(
-                f'{study or folder}: {taken[0][0]} "{taken[0][1]}": tables of runs have a column of this name; give it another one'
-            )
+        def columns(role: str) -> dict[str, Any]:
+            return {_name(values, "response", taken): values.values for values in with_role[role]}
+
         asked = {str(table.get("name", table.get("dataset", "").rsplit("/")[-1])): table for table in document.get("response", [])}
         study_of = Study(
             title=str(data.attrs["title"]),
             design=str(data.attrs["design"]),
-            factors=[_factor(values) for values in with_role["factor"]],
-            responses=[_response(values, asked) for values in with_role["response"]],
-            runs=pandas.DataFrame({**own, **columns("factor"), **columns("response")}, index=index),
+            factors=factors,
+            responses=[_response(values, asked, _name(values, "response", taken)) for values in responses],
+            runs=pandas.DataFrame({**own, **of_factors, **columns("response")}, index=index),
             errors=pandas.DataFrame(columns("standard error"), index=index),
             table=table,
             data=data,
@@ -115,7 +115,7 @@ def _with_imported(study: Study) -> Study:
     """A study with the values of its imported responses."""
     if not any(response.asked.get("imported") for response in study.responses):
         return study
-    values = imported_values(study)
+    values = KeptValues(study).values
     units = {response.name: response.unit for response in study.responses}
     for name in map(str, values):
         study.runs[name] = values[name]
@@ -130,6 +130,15 @@ def _with_imported(study: Study) -> Study:
 
 
 ROLES = ("factor", "response", "standard error")
+# Columns that stand beside those of factors in tables of runs and answers.
+COLUMNS = {"point", "replicate", "order", "same_as", "state", "error", "run", "place", "response", "unit", "value", "leverage", "beyond", "cautions"}
+COLUMNS |= {"mean", "low", "high", "observed", "runs", "round", "expected_improvement", "is_within", "confirmed", "check", "forecast", "deviation", "held"}
+
+
+def _name(values: xarray.DataArray, role: str, taken: set[str]) -> str:
+    """A name, with its role where a column of tables has it; so do the heads of results.csv."""
+    name = str(values.attrs["name"])
+    return f"{name} ({role})" if name in taken else name
 
 
 def _factor(values: xarray.DataArray) -> Factor:
@@ -149,7 +158,7 @@ def _factor(values: xarray.DataArray) -> Factor:
             # Between two levels there are points of a response surface, and a table has values where they are.
             levels, is_range = (min(levels), max(levels)) if len(levels) > 2 else levels, True
     return Factor(
-        name=str(said["name"]),
+        name=_name(values, "factor", COLUMNS),
         keys=str(said["keys"]),
         unit=str(said.get("units", "")),
         levels=levels,
@@ -166,10 +175,10 @@ def _factor(values: xarray.DataArray) -> Factor:
 MOST_LEVELS = 10
 
 
-def _response(values: xarray.DataArray, asked: dict[str, Any]) -> Response:
+def _response(values: xarray.DataArray, asked: dict[str, Any], name: str) -> Response:
     said = values.attrs
     return Response(
-        name=str(said["name"]),
+        name=name,
         unit=str(said.get("units", "1")),
         series=str(said.get("series", "")),
         transform=str(said["transform"]),

@@ -52,7 +52,7 @@ def made_study(study: Study, points: pandas.DataFrame, progress: bool | None, re
         path.write_text(toml_document(_document(study)), encoding="utf-8")
         with path.with_suffix(".csv").open("w", newline="", encoding="utf-8") as file:
             lines = csv.writer(file)
-            lines.writerow(factor.name for factor in study.factors)
+            lines.writerow(factor.name.removesuffix(" (factor)") for factor in study.factors)
             lines.writerows([written(factor, point[factor.name]) for factor in study.factors] for _, point in points.iterrows())
         try:
             made = finished(path, progress, retry, **options)

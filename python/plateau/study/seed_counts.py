@@ -3,6 +3,7 @@
 import os
 import warnings
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -11,8 +12,8 @@ from scipy import stats
 
 from plateau.errors import InputError, PlateauWarning
 from plateau.study.analysis import Effects, effects
-from plateau.study.data import Study
-from plateau.units import parsed, with_minus
+from plateau.study.data import Numbers, Study
+from plateau.units import quantity, with_minus
 
 # Beyond this nobody runs them.
 MOST_SETS = 100_000
@@ -20,21 +21,17 @@ MOST_SETS = 100_000
 SAFE = 0.9
 
 
+@lru_cache
+def _reaches(confidence: float) -> Numbers:
+    """Half widths of intervals of means of 2, 3, ... values over their scatter."""
+    count = np.arange(2, MOST_SETS + 1)
+    return np.asarray(stats.t.ppf(0.5 + 0.5 * confidence, count - 1) / np.sqrt(count))
+
+
 def sets_for(scatter: float, half_width: float, confidence: float = 0.95) -> float:
     """The smallest n with t(n - 1) scatter / sqrt(n) <= half width, that of the interval of a mean; infinite beyond 100 000."""
-    low, high = 1, 2
-
-    def is_enough(count: int) -> bool:
-        return bool(stats.t.ppf(0.5 + 0.5 * confidence, count - 1) * scatter <= half_width * count**0.5)
-
-    while not is_enough(high):
-        low, high = high, 2 * high
-        if high > MOST_SETS:
-            return np.inf
-    while high - low > 1:
-        middle = (low + high) // 2
-        low, high = (low, middle) if is_enough(middle) else (middle, high)
-    return float(high)
+    enough = _reaches(confidence) * scatter <= half_width
+    return 2.0 + float(enough.argmax()) if enough[-1] else np.inf
 
 
 @dataclass(frozen=True, repr=False)
@@ -100,7 +97,7 @@ def seeds_needed(
         if isinstance(asked, int | float) and row["unit"] != "1":
             bare[row["response"]] = f'{row["response"]}: half_width = {asked:g} is taken in {row["unit"]}; give text with a unit'
         try:
-            wanted = parsed(row["unit"], asked) if isinstance(asked, str) else abs(row["effect"]) if asked is None else float(asked)
+            wanted = quantity(asked, row["unit"], needs_unit=False) if isinstance(asked, str) else abs(row["effect"]) if asked is None else float(asked)
         except InputError as error:
             raise InputError(f'{row["response"]}: {error}; give each response its own, such as {{"contact area": "0.02 mm2"}}') from None
         scatter = row["standard_error"] * np.sqrt(pilot)

@@ -11,8 +11,8 @@ from plateau.errors import InputError
 from plateau.study.data import Factor, Study
 from plateau.units import NUMBER, in_si
 
-# Coded values that differ by less are the same.
-SAME = 1e-9
+# Coded values that differ by less are the same, and by less than the second as people type them.
+SAME, ROUNDED = 1e-9, 1e-5
 
 
 def held_values(study: Study, said: Mapping[str, Any] | Sequence[str], where: str, is_curved: bool) -> dict[str, Any]:
@@ -28,14 +28,14 @@ def held_values(study: Study, said: Mapping[str, Any] | Sequence[str], where: st
 
 def factor_named(study: Study, name: str, where: str) -> Factor:
     for factor in study.factors:
-        if name.strip() in (factor.name, *factor.keys.split(", ")):
+        if name.strip() in factor.names:
             return factor
     raise InputError(f"{where}: {name!r} is not a factor of the study, expected one of {', '.join(one.name for one in study.factors)}")
 
 
 def _assignment(study: Study, text: str) -> tuple[str, str]:
     """Name and value of ``NAME=VALUE``; both may have ``=`` in them."""
-    names = {name for factor in study.factors for name in (factor.name, *factor.keys.split(", "))}
+    names = {name for factor in study.factors for name in factor.names}
     parts = [(text[: at.start()].strip(), text[at.end() :].strip()) for at in re.finditer("=", text)]
     return next((part for part in parts if part[0] in names), parts[0] if parts else (text, ""))
 
@@ -80,15 +80,44 @@ def axis_of(factor: Factor, grid: int | None, is_curved: bool) -> list[Any]:
     return [float(value) for value in (np.unique(np.round(values)) if factor.whole else values)]
 
 
+def ends_of(study: Study, factor: Factor) -> tuple[float, float]:
+    """Coded ends of the region of a factor: those of its range, and beyond it those of the runs, such as axial ones."""
+    runs = factor.coded(study.runs[factor.name])
+    return float(min(runs.min(), -1.0)), float(max(runs.max(), 1.0))
+
+
+def reach_of(study: Study) -> float:
+    """How far from the middle the region goes in all numbers together, coded: to the corners of the ranges, or to the farthest run."""
+    coded = [factor.coded(study.runs[factor.name]) for factor in study.factors if factor.is_number]
+    return float(max(len(coded), np.square(coded).sum(axis=0).max(initial=0.0)) ** 0.5)
+
+
+def region_of(study: Study) -> str:
+    """The region of the design, in which forecasts are made and the best is searched, in words."""
+    said = "the ranges of the factors"
+    ends = {factor: ends_of(study, factor) for factor in study.factors if factor.is_number}
+    far = [(factor, end) for factor, end in ends.items() if end[0] < -1.0 - SAME or end[1] > 1.0 + SAME]
+    if not far:
+        return said
+    shown = ", ".join(f"{factor.name} {' … '.join(factor.shown(float(factor.value(at)), 4) for at in end)}" for factor, end in far)
+    return f"{said}, and around them as far as runs are: {shown}, all together no farther from the middle than runs or corners of the ranges"
+
+
 def beyond_of(study: Study, places: pandas.DataFrame) -> list[str]:
-    """By place, which factors are beyond the runs."""
+    """By place, which factors are beyond the region of the design: the ranges, and around them what is no farther out than runs are."""
     said: list[list[str]] = [[] for _ in range(len(places))]
-    for factor in (factor for factor in study.factors if factor.is_number):
-        run = factor.coded(study.runs[factor.name])
-        ends, coded = (min(run.min(), -1.0), max(run.max(), 1.0)), factor.coded(places[factor.name].to_numpy(float))
+    numbers = [factor for factor in study.factors if factor.is_number]
+    coded = np.array([factor.coded(places[factor.name].to_numpy(float)) for factor in numbers]).reshape(len(numbers), len(places))
+    for factor, own in zip(numbers, coded, strict=True):
+        ends = ends_of(study, factor)
         low, high = (factor.shown(float(factor.value(end)), with_unit=is_last) for end, is_last in zip(ends, (False, True), strict=True))
-        for at in np.flatnonzero((coded < ends[0] - SAME) | (coded > ends[1] + SAME)):
+        for at in np.flatnonzero((own < ends[0] - SAME) | (own > ends[1] + SAME)):
             said[at].append(f"{factor.name} is beyond {low} to {high}")
+    reach = reach_of(study)
+    for at in np.flatnonzero(np.square(coded).sum(axis=0) ** 0.5 > reach + ROUNDED) if numbers else ():
+        names = [factor.name for factor, own in zip(numbers, coded[:, at], strict=True) if abs(own) > 1.0 + SAME]
+        if not said[at]:
+            said[at].append(f"{' and '.join(names)} are together farther from the middle than all runs")
     return [joined(one) for one in said]
 
 

@@ -8,7 +8,8 @@ import pandas
 
 from plateau.errors import InputError
 from plateau.study.data import Numbers, Response, Study
-from plateau.study.model import Fitted, NothingToFit, fitted
+from plateau.study.model import Fitted, NothingToFit
+from plateau.study.model_choice import cautions, fitted
 from plateau.study.process import Process
 from plateau.units import unit_for, with_digits
 
@@ -58,6 +59,11 @@ class Surrogate:
         """Root of the mean square of leave-one-point-out errors, SI; NaN where it is not known."""
         return self._loo_errors[self.takes_process]
 
+    @property
+    def missed(self) -> float:
+        """Part of the variance of the runs that leave-one-point-out errors have; NaN where they are not known."""
+        return float((self.loo_error / self.study.runs[self.response.name].std(ddof=0)) ** 2)
+
     @cached_property
     def reason(self) -> str:
         """Leave-one-out errors of the candidates, and which one is taken."""
@@ -89,7 +95,7 @@ class Surrogate:
             points, factors = len(self.process.points), len(self.study.factors)
             few = f"few points: {points} for {factors} factors; take {POINTS_FOR_EACH} for each factor or more"
             return [few] if points < POINTS_FOR_EACH * factors else []
-        return list(self.fit.cautions) if self.fit else []
+        return cautions(self.fit) if self.fit else []
 
     def rows(self, points: pandas.DataFrame) -> Numbers:
         """Places for the process: coded numbers, and indicators of words."""
@@ -106,12 +112,6 @@ class Surrogate:
         if self.takes_process and self.process is not None:
             return self.process.deviation(self.rows(points))
         return np.asarray(np.hypot(np.sqrt(self._fit.variances(points)["mean"].to_numpy()), self._apart(points)))
-
-    def run_deviation(self, points: pandas.DataFrame) -> Numbers:
-        """Standard deviations of one more run, on the scale of the fit."""
-        if self.takes_process and self.process is not None:
-            return self.process.run_deviation(self.rows(points))
-        return np.asarray(np.hypot(np.sqrt(self._fit.variances(points)["run"].to_numpy()), self._apart(points)))
 
     def _apart(self, points: pandas.DataFrame) -> Numbers:
         """Differences of process and polynomial: what of the two is taken by its errors at few points may be wrong by as much."""

@@ -29,6 +29,8 @@ from plateau.units import unit_of, with_digits, with_minus
 # Places of the sample, functions that are drawn, and cosines of each.
 ROWS, FUNCTIONS, COSINES = 1024, 100, 200
 SEEDS = "seeds"
+# Part of the variance that a surrogate may miss at points left out before its smoothness is said to matter.
+MISSED = 0.1
 
 
 @dataclass(frozen=True, repr=False)
@@ -160,7 +162,11 @@ def sensitivity(study: Study | str | os.PathLike[str], confidence: float = 0.95)
             table, variance = _indices(opened, one, confidence)
             tables.append(table.assign(response=one.response.name, unit="1"))
             variances[one.response.name] = variance
-            cautions += [f"{one.response.name}: {caution}" for caution in one.cautions]
+            of_one = list(one.cautions)
+            if one.missed > MISSED:
+                said = f"points that were left out are missed by {100 * min(one.missed, 1.0):.0f} % of the variance: intervals hold for smooth"
+                of_one.append(f"{said} responses; if it has a threshold or a kink, they are too short, those of totals most")
+            cautions += [f"{one.response.name}: {caution}" for caution in of_one]
     numbers = ["mean_size", "mean", "deviation", "standard_error", "effects"]
     parts = [f"{name}{end}" for name in ("first_order", "total") for end in ("", "_low", "_high")]
     columns = ["response", "factor", *parts, *numbers, "unit"]

@@ -225,14 +225,14 @@ def _sensitivity(given: argparse.Namespace) -> str:
 
 
 def _import(given: argparse.Namespace) -> str:
-    from plateau.study.measured import import_values
+    from plateau.study.imports import import_values
 
     found = import_values(given.study, given.table, force=given.force)
     return json_of(found.document()) if given.json else found.text()
 
 
 def _fit(given: argparse.Namespace) -> str:
-    from plateau.study.calibration import fit, plan
+    from plateau.study.fit_of_study import fit, plan
     from plateau.style import saved
 
     if given.plan:

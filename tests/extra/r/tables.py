@@ -13,13 +13,13 @@ import pandas
 HERE = Path(__file__).resolve().parents[3]
 sys.path[:0] = [str(HERE / folder) for folder in ("python", "tests/python", "tests/python/coverage")]
 
-from effects import cube, number, study_of, word
+from effects import cube
+from made_studies import number, span, stored, study_of, word
 from plateau.errors import PlateauWarning
 from plateau.study.analysis import effects
 from plateau.study.level_differences import levels
 from plateau.study.model import Fitted
 from plateau.study.data import Study
-from test_study_effects import recorded
 
 
 def columns(fit: Fitted, table: pandas.DataFrame) -> dict[str, Any]:
@@ -73,7 +73,7 @@ def case(name: str, study: Study, checks: str, model: str | None = None, respons
 
 warnings.simplefilter("ignore", PlateauWarning)
 fixture = json.loads(gzip.decompress((HERE / "tests/python/data/effects.json.gz").read_bytes()))["studies"]
-studies, random = {said["name"]: recorded(said) for said in fixture}, np.random.default_rng(1)
+studies, random = {said["name"]: stored(said) for said in fixture}, np.random.default_rng(1)
 runs = cube(4)
 runs["y"] = random.normal(size=len(runs)) + runs["A"] * (1.0 + np.array([1.5, -2.0, 0.0, 1.0])[runs["replicate"] - 1])
 cells = pandas.DataFrame([(a, b, n) for a in "pqrs" for b in "tuv" for n in (1, 2, 3, 4)], columns=["a", "b", "replicate"])
@@ -81,7 +81,7 @@ cells["y"] = np.exp(0.3 * random.normal(size=48) + 0.5 * (cells["a"] == "q") + 0
 words, fewer = [word("a", *"pqrs"), word("b", *"tuv")], cells.drop([0, 5, 6, 17, 30, 31, 44])
 points = pandas.DataFrame(random.uniform(-1.0, 1.0, (24, 3)), columns=list("ABC"))
 points["y"] = np.exp(points["A"]) * (2.0 + points["B"]) + 0.1 * random.normal(size=24)
-ranges = [number(name, -1.0, 1.0, is_range=True) for name in "ABC"]
+ranges = [span(name) for name in "ABC"]
 cases = [
     case("full-words-mixed", studies["full-words-mixed"], "anova tukey dunnett"),
     case("csv-words-unbalanced", studies["csv-words-unbalanced"], "anova tukey dunnett", "main"),

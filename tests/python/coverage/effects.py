@@ -10,7 +10,6 @@ intervals from the residual, as they were before, stand beside.
 
 import argparse
 import itertools
-import math
 import sys
 import warnings
 from pathlib import Path
@@ -18,38 +17,21 @@ from typing import Any
 
 import numpy as np
 import pandas
-import xarray
 from scipy import stats
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[3] / "python"))
+HERE = Path(__file__).resolve()
+sys.path[:0] = [str(HERE.parents[3] / "python"), str(HERE.parents[1])]
 
-from plateau.study.data import Factor, Response, Study
+from made_studies import number, study_of, word
+from plateau.study.data import Study
 from plateau.study.level_differences import levels
-from plateau.study.model import Fitted, fitted
+from plateau.study.model import Fitted
+from plateau.study.model_choice import fitted
 from plateau.study.results import analysed
 
 RATIOS, SEEDS = (0.0, 0.5, 1.0, 2.0), (2, 3, 4, 5)
 # Results of data/studies/seeds.toml.
-SEEDS_STUDY = Path(__file__).resolve().parents[1] / "data/seeds"
-
-
-def number(name: str, *levels: float, is_range: bool = False) -> Factor:
-    """A factor of plain numbers."""
-    return Factor(name, "", "1", levels, is_range, False, False, "", 1.0, 0.0)
-
-
-def word(name: str, *levels: str) -> Factor:
-    """A factor of words."""
-    return Factor(name, "", "", levels, False, False, False, "", 1.0, 0.0)
-
-
-def study_of(factors: list[Factor], runs: pandas.DataFrame, design: str = "full-factorial", transform: str = "none") -> Study:
-    """A study of a response y, of runs with the columns of the factors, y and, if it has sets of seeds, replicate."""
-    count = len(runs)
-    own = {"point": range(1, count + 1), "replicate": 1, "order": range(1, count + 1), "same_as": range(1, count + 1), "state": "finished"}
-    runs = pandas.DataFrame({**own, **{name: list(runs[name]) for name in runs}}, index=pandas.RangeIndex(1, count + 1, name="run"))
-    response = Response("y", "1", "y", transform, -math.inf, math.inf, {})
-    return Study("t", design, factors, [response], runs, pandas.DataFrame(), pandas.DataFrame(), xarray.Dataset(), {}, None, Path())
+SEEDS_STUDY = HERE.parents[1] / "data/seeds"
 
 
 def cube(seeds: int, numbers: int = 3) -> pandas.DataFrame:

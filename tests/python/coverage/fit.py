@@ -13,8 +13,9 @@ from scipy.stats import qmc
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[3] / "python"))
 
-from plateau.study.calibration import best_with, calibrated
+from plateau.study.calibration import calibrated
 from plateau.study.data import Response
+from plateau.study.key_intervals import best_with
 from plateau.study.likelihood import Runs, Target
 from plateau.study.measured import Measurement
 

@@ -1,7 +1,7 @@
 """Coverage of the forecasts' 95 % intervals, by simulation: ``python tests/python/coverage/forecasts.py [functions]``.
 
 Responses are smooth by lot: sums of cosines with random frequencies (A. Rahimi, B. Recht, NIPS 20, 2007), products of powers, sums that
-come to an end. Each run has noise besides (a standard deviation of 0.04 of the response's), and its seeds add something everywhere (0.02; nothing
+come to an end. Parts of the variance are tried, too, where neither surrogate can be right: functions with a kink, and with a threshold. Each run has noise besides (a standard deviation of 0.04 of the response's), and its seeds add something everywhere (0.02; nothing
 where there is one set alone, which cannot tell it).
 """
 
@@ -11,12 +11,12 @@ from pathlib import Path
 
 import numpy as np
 import pandas
-import xarray
 from scipy.stats import qmc
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[3] / "python"))
+HERE = Path(__file__).resolve()
+sys.path[:0] = [str(HERE.parents[3] / "python"), str(HERE.parents[1])]
 
-from plateau.study.data import Factor, Response, Study
+import made_studies
 from plateau.study.process import Process
 from plateau.study.surrogate import surrogates
 from plateau.study.variance_parts import sensitivity, sobol
@@ -33,6 +33,7 @@ STUDIES = [
     ("product of powers", 4, 20, 2),
     ("comes to an end", 4, 20, 2),
 ]
+ROUGH = [("kink", 2, 10, 2), ("kink", 4, 20, 2), ("threshold", 2, 10, 2), ("threshold", 4, 20, 2), ("threshold", 4, 40, 2)]
 
 
 def function(kind, factors, random):
@@ -43,6 +44,11 @@ def function(kind, factors, random):
         return lambda x: np.exp(0.6 * x @ slopes) / size
     if kind == "comes to an end":
         return lambda x: 2.0 * np.tanh(2.0 * x @ slopes / size + 0.5)
+    if kind in ("kink", "threshold"):
+        # Along a line through the ranges: where it bends, or goes up within a fiftieth of its length.
+        at = random.uniform(-0.4, 0.4)
+        along = slopes / np.abs(slopes).sum()
+        return lambda x: 4.0 * np.abs(x @ along - at) if kind == "kink" else np.tanh(50.0 * (x @ along - at))
     drawn = random.standard_t(5, (300, factors)) if kind == "smooth" else random.standard_normal((300, factors))
     phase = random.uniform(0.0, 2.0 * np.pi, 300)
     return lambda x: (2.0 / 300.0) ** 0.5 * np.cos(x @ (drawn / lengths).T + phase).sum(-1)
@@ -72,19 +78,11 @@ def process_coverage(kind, factors, points, seeds, functions, number=20261124):
 
 def study_of(place, response, replicate=None, design="latin-hypercube", words=None):
     """A study whose factors x1, x2, ... are coded, with a response y; `words` are the levels of a further factor w, by run."""
-    names, count = [f"x{at + 1}" for at in range(place.shape[1])], len(place)
-    factors = [Factor(name, "", "1", (-1.0, 1.0), True, False, False, "", 1.0, 0.0) for name in names]
-    columns = dict(zip(names, place.T, strict=True))
+    columns = {f"x{at + 1}": column for at, column in enumerate(place.T)} | {"y": np.broadcast_to(response, len(place))}
+    factors = [made_studies.span(name) for name in columns if name != "y"]
     if words is not None:
-        factors.append(Factor("w", "", "", tuple(sorted(set(words))), False, False, False, "", 1.0, 0.0))
-        columns["w"] = words
-    index = pandas.Index(np.arange(1, count + 1), name="run")
-    points = np.unique(place, axis=0, return_inverse=True)[1].ravel() + 1
-    replicate = np.ones(count, int) if replicate is None else replicate
-    own = {"point": points, "replicate": replicate, "order": index, "same_as": index, "state": "finished"}
-    runs = pandas.DataFrame({**own, **columns, "y": response}, index=index)
-    responses = [Response("y", "1", "", "none", -math.inf, math.inf, {})]
-    return Study("Simulated", design, factors, responses, runs, runs[[]], runs, xarray.Dataset(), {}, None, Path())
+        factors, columns = [*factors, made_studies.word("w", *sorted(set(words)))], columns | {"w": words}
+    return made_studies.study_of(factors, columns | ({} if replicate is None else {"replicate": replicate}), design)
 
 
 def surrogate_coverage(kind, factors, points, seeds, functions, number=20261124):
@@ -131,7 +129,7 @@ def main():
         cells = [f"{count} | {100 * own[0]:.1f} % | {100 * own[1]:.1f} %" for own, count in zip(shares, counts, strict=True)]
         print(f"| {kind} | {factors} | {points} | {seeds} | {' | '.join(cells)} |", flush=True)
     print("\nParts of the variance\n\n| response | factors | points | seeds | first order | total |\n|---|---|---|---|---|---|", flush=True)
-    for kind, factors, points, seeds in STUDIES[1:]:
+    for kind, factors, points, seeds in [*STUDIES[1:], *ROUGH]:
         first, total = 100.0 * sensitivity_coverage(kind, factors, points, seeds, max(functions // 5, 1))
         print(f"| {kind} | {factors} | {points} | {seeds} | {first:.1f} % | {total:.1f} % |", flush=True)
 

@@ -13,12 +13,12 @@ import sys
 import warnings
 
 import numpy as np
-import pandas
 from scipy.stats import qmc
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[3] / "python"))
+HERE = pathlib.Path(__file__).resolve()
+sys.path[:0] = [str(HERE.parents[3] / "python"), str(HERE.parents[1])]
 
-from plateau.study.data import Factor, Response, Study
+from made_studies import span, study_of
 from plateau.study.goals import Goal, Problem, beyond_runs
 from plateau.study.improvement import improved, with_processes
 from plateau.study.results import analysed
@@ -34,14 +34,10 @@ def branin(x, y):
 
 def study(points, seeds, noise, random):
     """Runs at points, each with so many seeds: what a seed adds everywhere, and noise of the same size."""
-    factors = [Factor(name, "key", "1", ends, True, False, False, "", 1.0, 0.0) for name, ends in zip("xy", ENDS, strict=True)]
     at = np.repeat(points, len(seeds), axis=0)
     z = branin(*at.T) + np.tile(seeds, len(points)) + noise * random.standard_normal(len(at))
-    index = pandas.RangeIndex(1, len(at) + 1)
-    own = {"point": (index - 1) // len(seeds) + 1, "replicate": (index - 1) % len(seeds) + 1, "order": index, "same_as": index, "state": "finished"}
-    runs = pandas.DataFrame({**own, "x": at[:, 0], "y": at[:, 1], "z": z}, index=index)
-    response = Response("z", "1", "z", "none", -math.inf, math.inf, {})
-    return Study("", "sobol", factors, [response], runs, pandas.DataFrame(), pandas.DataFrame(), None, {}, None, pathlib.Path("."))
+    columns = {"x": at[:, 0], "y": at[:, 1], "z": z, "replicate": np.tile(np.arange(len(seeds)) + 1, len(points))}
+    return study_of([span(name, *ends) for name, ends in zip("xy", ENDS, strict=True)], columns, "sobol", responses={"z": "1"})
 
 
 def regrets(number, noise, first=8, more=8, count=2):

@@ -4,7 +4,7 @@ use std::fs;
 use std::process::Stdio;
 
 use plateau_io::generation;
-use plateau_io::regular::sha256_of;
+use plateau_io::input::sha256_of;
 use plateau_tests::program::{Outcome, WorkingDirectory, quick_scene_with, wait_until};
 use serde_json::Value;
 

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use plateau_io::units::Dimension;
-use plateau_run::accuracy::Ladder;
+use plateau_run::accuracy::{COMPARED, Ladder};
 
 use super::quantity::quantity;
 use super::run::{ExecutionArguments, SceneArguments};
@@ -18,9 +18,15 @@ pub struct AccuracyArguments {
     /// Wall time that all runs together may take; the reference is as fine as half of it allows, and finer than the scene
     #[arg(long, value_name = "TIME", allow_hyphen_values = true, default_value = "10min", value_parser = budget)]
     pub budget: f64,
-    /// Ladders that are climbed, with commas between; all but mesh and perturbation unless given
+    /// Ladders of runs, with commas between; all but perturbation unless given
     #[arg(long = "ladder", value_parser = ladder(), value_name = "NAME", value_delimiter = ',')]
     pub ladders: Vec<Ladder>,
+    /// Quantities that the advice is for, with commas between; all unless given
+    #[arg(long = "quantity", value_parser = quantities(), value_name = "NAME", value_delimiter = ',')]
+    pub quantities: Vec<&'static str>,
+    /// Error for which a time acceleration is advised, as a part of the quantity
+    #[arg(long, value_name = "PART", allow_hyphen_values = true, default_value = "0.01", value_parser = tolerance)]
+    pub tolerance: f64,
     /// Run file of the same scene, numerics and output apart, that is the reference instead of a run made here; finer than
     /// the scene
     #[arg(long, value_name = "RUN")]
@@ -42,17 +48,30 @@ fn ladder() -> impl TypedValueParser<Value = Ladder> {
     PossibleValuesParser::new(Ladder::ALL.map(value)).try_map(named)
 }
 
-/// What the runs of a ladder differ in.
+/// Difference between the runs of a ladder.
 fn meaning(ladder: Ladder) -> &'static str {
     match ladder {
         Ladder::TimeAcceleration => "Revolutions that a simulated one stands for",
         Ladder::Tolerance => "Accelerations that the run chooses itself, by the error that it may make",
-        Ladder::Mesh => "Coarser meshes, with the initial surfaces averaged",
-        Ladder::Integrator => "The other integrator of wear",
         Ladder::Perturbation => {
             "The reference anew with initial heights that differ a little: how much of the errors is chance"
         }
     }
+}
+
+/// A value of `--quantity`.
+fn quantities() -> impl TypedValueParser<Value = &'static str> {
+    let named =
+        |name: String| COMPARED.iter().find(|one| one.name == name).map(|one| one.name).ok_or("no such quantity");
+    PossibleValuesParser::new(COMPARED.map(|one| one.name)).try_map(named)
+}
+
+/// A value of `--tolerance`.
+fn tolerance(text: &str) -> Result<f64, &'static str> {
+    text.parse()
+        .ok()
+        .filter(|part| (f64::MIN_POSITIVE..1.0).contains(part))
+        .ok_or("expected a number between 0 and 1, such as 0.01")
 }
 
 /// A value of `--budget`, s.

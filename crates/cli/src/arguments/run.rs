@@ -1,5 +1,7 @@
-//! The command lines of `plateau run` and `plateau check`: a scene, and how it is run.
+//! Command lines of the commands that make, show, check and mend run files, cores of the runs of a study, and arguments of words that
+//! another program answers.
 
+use std::ffi::OsString;
 use std::num::NonZeroU64;
 use std::path::PathBuf;
 
@@ -7,6 +9,7 @@ use clap::{Args, ValueEnum};
 use plateau_core::engine::kernel::InstructionSet;
 use plateau_core::simulation::Engine;
 use plateau_run::ExecutionOptions;
+use plateau_run::execution::cores;
 
 /// Arguments of `plateau run`.
 #[derive(Debug, Args)]
@@ -104,4 +107,85 @@ fn instruction_set(text: &str) -> Result<InstructionSet, String> {
     let available = || InstructionSet::available().map(InstructionSet::name);
     let found = InstructionSet::available().find(|instructions| instructions.name() == text);
     found.ok_or_else(|| format!("this processor has {}", available().collect::<Vec<_>>().join(", ")))
+}
+
+/// Arguments of `plateau watch`.
+#[derive(Debug, Args)]
+pub struct WatchArguments {
+    /// Run file, which need not be there yet
+    pub run: PathBuf,
+    /// Print the state once and end
+    #[arg(long)]
+    pub once: bool,
+    /// Give up after so many seconds without a new sample; unless given, after 10 s without a file, else never
+    #[arg(long, value_name = "SECONDS", allow_hyphen_values = true, value_parser = seconds)]
+    pub timeout: Option<u64>,
+}
+
+/// A value of `--timeout`.
+fn seconds(text: &str) -> Result<u64, &'static str> {
+    text.parse::<NonZeroU64>().map(NonZeroU64::get).map_err(|_| "expected whole seconds, at least 1")
+}
+
+/// Arguments of `plateau verify`.
+#[derive(Debug, Args)]
+pub struct VerifyArguments {
+    /// Run files
+    #[arg(value_name = "RUN", required = true)]
+    pub runs: Vec<PathBuf>,
+    /// Print one JSON document instead of text: an array with an object for each file
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// Arguments of `plateau repair`.
+#[derive(Debug, Args)]
+pub struct RepairArguments {
+    /// Run files
+    #[arg(value_name = "RUN", required = true)]
+    pub runs: Vec<PathBuf>,
+    /// Repair also what another machine has written a moment ago, or what another user may still be writing
+    #[arg(long)]
+    pub force: bool,
+}
+
+/// Arguments of `plateau summary`.
+#[derive(Debug, Args)]
+pub struct SummaryArguments {
+    /// Run file, also of a run that goes on or was stopped
+    pub run: PathBuf,
+    /// Print JSON, as it does anyway
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// Runs at a time and threads of each.
+#[derive(Debug, Args)]
+pub struct CoresArguments {
+    /// Runs at a time; as many as there are cores for their workers unless given
+    #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = clap::value_parser!(u32).range(1..))]
+    pub jobs: Option<u32>,
+    /// Threads of each run
+    #[arg(long, value_name = "N", allow_hyphen_values = true, default_value = "1", value_parser = clap::value_parser!(u32).range(1..))]
+    pub workers: u32,
+}
+
+impl CoresArguments {
+    /// Runs at a time: as many as are asked for, else as there are cores for their workers.
+    pub fn runs_at_a_time(&self) -> usize {
+        self.jobs.map_or_else(|| (cores() / self.workers()).max(1), |jobs| jobs as usize)
+    }
+
+    /// Threads of each run.
+    pub fn workers(&self) -> usize {
+        self.workers as usize
+    }
+}
+
+/// Arguments that are handed over as they are; `--help` among them tells what they may be.
+#[derive(Debug, Args)]
+pub struct HandedArguments {
+    /// What the answering program takes; --help tells
+    #[arg(value_name = "ARGUMENTS", trailing_var_arg = true, allow_hyphen_values = true)]
+    pub arguments: Vec<OsString>,
 }

@@ -2,15 +2,27 @@
 
 use std::path::PathBuf;
 
-use clap::Args;
+use clap::{Args, Subcommand};
 use plateau_core::surface::Level;
 
+use super::HandedArguments;
 use super::quantity::run_time;
 use super::reading::ReadArguments;
 
+/// What else to do with surfaces.
+#[derive(Debug, Subcommand)]
+pub enum SurfaceWord {
+    /// Convert files of instruments to HDF5, which is read
+    #[command(disable_help_flag = true)]
+    Convert(HandedArguments),
+}
+
 /// Arguments of `plateau surface`.
 #[derive(Debug, Args)]
+#[command(args_conflicts_with_subcommands = true, subcommand_negates_reqs = true, disable_help_subcommand = true)]
 pub struct SurfaceArguments {
+    #[command(subcommand)]
+    pub word: Option<SurfaceWord>,
     /// Surface files, told by their content; of a run file the heights of disc and pin, or the map that --dataset names
     #[arg(value_name = "FILE", required_unless_present = "prepare")]
     pub files: Vec<PathBuf>,

@@ -4,8 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, Subcommand};
 
-use super::cores::CoresArguments;
-use super::handed::HandedArguments;
+use super::run::{CoresArguments, HandedArguments};
 
 /// What to do with a study.
 #[derive(Debug, Subcommand)]

@@ -11,18 +11,16 @@ use plateau_io::surface::{self, Loaded};
 use plateau_run::execution::{decide, time_per_step};
 use plateau_run::{idle_warning, stiffness_warning};
 
-use super::check_files::files;
-use super::check_pulse::PulseReport;
-use super::check_report::CheckReport;
-use super::load_scene;
+use super::check_parts::PulseReport;
+use super::check_report::{CheckReport, files};
 use crate::arguments::CheckArguments;
-use crate::called;
 use crate::failure::Failure;
-use crate::message;
+use crate::scene::load_scene;
 use crate::table::print;
 use crate::terminal::Messages;
+use crate::{invocation, message};
 
-/// How long the trial that the estimated time rests on may take.
+/// Time that the trial on which the estimated time rests may take.
 const TRIAL: Duration = Duration::from_millis(300);
 
 /// Checks a scene.
@@ -56,7 +54,7 @@ pub fn check(arguments: &CheckArguments) -> Result<(), Failure> {
         message::warning(format_args!(
             "{} exists; `{} run` needs --force to replace it, or -o FILE",
             scene.output.file.display(),
-            called::program()
+            invocation::program()
         ));
     }
     if arguments.scene.json {

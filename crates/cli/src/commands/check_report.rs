@@ -1,21 +1,81 @@
-//! What `plateau check` reports of a scene: its numbers, and what they are in words.
+//! Report of `plateau check` on a scene: its numbers, in words, and the files that are read and written.
+
+use std::env;
+use std::path::{Path, PathBuf};
 
 use plateau_core::engine::parts::{ACCELERATION, Part};
 use plateau_core::simulation::Execution;
-use plateau_io::checkpoint;
-use plateau_io::run_file::{image_estimate, size_estimate};
+use plateau_io::claim::lock_of;
+use plateau_io::number;
+use plateau_io::run_file::{checkpoint, image_estimate, resolve, size_estimate};
 use plateau_io::scene::{Scene, Warning, memory_estimate};
 use plateau_run::stiffness_warning;
 use serde::Serialize;
 
-use super::check_cycle::CycleReport;
-use super::check_files::File;
-use super::check_outline::OutlineReport;
-use super::check_pulse::PulseReport;
+use super::check_parts::{CycleReport, OutlineReport, PulseReport};
+use crate::message;
 use crate::table::{list, table};
-use crate::{message, number};
 
-/// What `plateau check` reports.
+/// A file that a run reads or writes.
+#[derive(Debug, Serialize)]
+pub(super) struct File {
+    access: &'static str,
+    /// As the run uses it.
+    path: String,
+    /// The path without links and `..`.
+    resolved: String,
+}
+
+impl File {
+    /// Use and place of it, for a table.
+    pub(super) fn row(&self) -> (&'static str, String) {
+        let Self { access, path, resolved } = self;
+        let plain = env::current_dir().is_ok_and(|here| here.join(path) == Path::new(resolved));
+        (access, if plain { path.clone() } else { format!("{path}, which is {resolved}") })
+    }
+
+    /// Files that are read, and the run file, in one line.
+    pub(super) fn in_one_line(files: &[Self]) -> String {
+        let of = |access: &str| {
+            files.iter().filter(|file| file.access == access).map(|file| &*file.path).collect::<Vec<_>>()
+        };
+        let written = of("writes").first().map_or(String::new(), |file| format!("; writes {file}"));
+        format!("reads {}{written}", of("reads").join(", "))
+    }
+}
+
+/// Every file that a run of the scene reads, and those that it writes, with where they really are.
+pub(super) fn files(scene: &Scene, inputs: &[(PathBuf, String)]) -> Vec<File> {
+    let read = scene.files.iter().chain(inputs).map(|(path, _)| path);
+    let mut files: Vec<File> = Vec::new();
+    for path in read {
+        // It was there a moment ago.
+        let resolved = path.canonicalize().unwrap_or_else(|_| path.clone()).display().to_string();
+        let path = path.display().to_string();
+        if files.iter().all(|file| file.path != path) {
+            files.push(File { access: "reads", path, resolved });
+        }
+    }
+    let path = &scene.output.file;
+    match resolve(path, true) {
+        Ok(resolved) => {
+            let lists = [path, &resolved].map(|path| {
+                let [last, before] = checkpoint::paths(path);
+                [path.clone(), last, before, lock_of(path)]
+            });
+            let [paths, resolved] = lists.map(|list| list.map(|path| path.display().to_string()));
+            let written = paths.into_iter().zip(resolved);
+            files.extend(written.map(|(path, resolved)| File { access: "writes", path, resolved }));
+            if let Err(error) = checkpoint::refuse_foreign(path, false) {
+                message::warning(error);
+            }
+        }
+        Err(error) => message::warning(error),
+    }
+    files
+}
+
+/// Report of `plateau check`.
 #[derive(Debug, Serialize)]
 pub(super) struct CheckReport {
     title: String,
@@ -49,7 +109,7 @@ pub(super) struct CheckReport {
     instruction_set: &'static str,
     /// Of the steps and the surfaces, s.
     estimated_time: f64,
-    /// What making the surfaces has taken, s.
+    /// Time that making the surfaces has taken, s.
     preparing_time: f64,
     /// Of a run that chooses it.
     largest_acceleration: Option<f64>,
@@ -58,7 +118,7 @@ pub(super) struct CheckReport {
     #[serde(skip_serializing_if = "Option::is_none")]
     hot_stiffness_number: Option<f64>,
     warns_of_stiffness: bool,
-    /// What the scene can hardly mean.
+    /// Values of the scene that can hardly be meant.
     warnings: Vec<Warning>,
     needed: Vec<Reasoned>,
     left_out: Vec<Reasoned>,
@@ -122,7 +182,7 @@ impl CheckReport {
             cell_height: mesh.row_height(),
             cell_width: mesh.column_width(),
             outline: OutlineReport::of(mesh),
-            nominal_pressure: parameters.normal_force / mesh.pin_area(),
+            nominal_pressure: parameters.usual_load() / mesh.pin_area(),
             steps: scene.steps,
             step_time: parameters.step_time(),
             cycle: CycleReport::of(scene),
@@ -154,7 +214,7 @@ impl CheckReport {
         }
     }
 
-    /// How long the run will take, in words: the surfaces, which are not made faster by acceleration, and the steps.
+    /// Time that the run will take, in words: the surfaces, which are not made faster by acceleration, and the steps.
     fn time(&self) -> String {
         let steps = number::duration(self.estimated_time - self.preparing_time);
         let trial = match self.largest_acceleration {

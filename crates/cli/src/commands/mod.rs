@@ -1,29 +1,21 @@
-//! One file per command.
+//! Commands, one file or folder for each.
 
 mod accuracy;
 mod check;
-mod check_cycle;
-mod check_files;
-mod check_outline;
-mod check_pulse;
+mod check_parts;
 mod check_report;
-mod completions;
-mod man;
 mod new;
+mod reference;
 mod repair;
 mod run;
 mod runs;
-mod schema;
 mod summary;
 mod surface;
 mod sweep;
 mod verify;
 mod watch;
 
-use plateau_io::plausibility;
-use plateau_io::scene::{self, Scene};
-
-use crate::arguments::{Arguments, Command, SceneArguments};
+use crate::arguments::{Arguments, Command};
 use crate::failure::Failure;
 use crate::hand_over::hand_over;
 use crate::message;
@@ -47,18 +39,8 @@ pub fn perform(arguments: Arguments) -> Result<(), Failure> {
         Command::Verify(arguments) => verify::verify(&arguments),
         Command::Repair(arguments) => repair::repair(&arguments),
         Command::Summary(arguments) => summary::summary(&arguments),
-        Command::Schema => schema::schema(),
-        Command::Completions(arguments) => completions::completions(&arguments),
-        Command::Man(arguments) => man::man(&arguments),
+        Command::Schema => reference::schema(),
+        Command::Completions(arguments) => reference::completions(&arguments),
+        Command::Man(arguments) => reference::man(&arguments),
     }
-}
-
-/// Reads the scene with the changes of the command line; what it can hardly mean goes to standard error.
-fn load_scene(arguments: &SceneArguments) -> Result<Scene, Failure> {
-    let mut sets = arguments.sets.clone();
-    sets.extend(arguments.workers.iter().map(|workers| format!("numerics.workers={workers}")));
-    let mut scene = scene::load(&arguments.scene, &sets).map_err(Failure::of_scene)?;
-    scene.warnings.extend(plausibility::of_scene(&scene));
-    scene.warnings.iter().for_each(message::warning);
-    Ok(scene)
 }

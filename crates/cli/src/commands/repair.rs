@@ -4,18 +4,18 @@ use std::fs;
 use std::path::Path;
 use std::time::Duration;
 
-use plateau_io::checkpoint;
 use plateau_io::claim::Claim;
+use plateau_io::number;
 use plateau_io::process::{Writer, writer_of};
-use plateau_io::run_file::{self, LeftOut, Repair, RepairError, RunFile};
+use plateau_io::run_file::{self, LeftOut, Repair, RepairError, RunFile, checkpoint};
 use plateau_io::units::{self, Dimension};
-use plateau_run::signal_in_words;
+use plateau_run::{execution, signal_in_words};
 
 use crate::arguments::RepairArguments;
 use crate::failure::Failure;
 use crate::interrupt::Interrupt;
+use crate::message;
 use crate::table::print;
-use crate::{machine, message, number};
 
 /// A run that goes on touches its file or a checkpoint at least that often, unless its scene wants rarer checkpoints.
 const SILENCE: Duration = Duration::from_secs(150);
@@ -42,7 +42,7 @@ pub fn repair(arguments: &RepairArguments) -> Result<(), Failure> {
     last.map_or(Ok(()), Err)
 }
 
-/// What became of a file, on one line.
+/// Outcome for a file, on one line.
 fn repair_one(path: &Path, force: bool) -> Result<String, Failure> {
     let file = path.display();
     match run_file::is_healthy(path) {
@@ -71,7 +71,7 @@ fn repair_one(path: &Path, force: bool) -> Result<String, Failure> {
     }
 }
 
-/// What may be missing in a file, in words.
+/// Part that may be missing in a file, in words.
 fn told(left_out: LeftOut) -> Option<&'static str> {
     match left_out {
         LeftOut::Nothing => None,
@@ -87,7 +87,7 @@ fn told(left_out: LeftOut) -> Option<&'static str> {
     }
 }
 
-/// How long a run that goes on may touch nothing.
+/// Time for which a run that continues may touch nothing.
 fn silence(scene: &toml::Table) -> Duration {
     let every = scene.get("output").and_then(|output| output.get("checkpoint_every")?.as_str());
     let every = every.and_then(|every| units::parse(every, Dimension::Time).ok()).unwrap_or(0.0);
@@ -120,7 +120,7 @@ fn refuse_if_written(path: &Path, force: bool) -> Result<(), Failure> {
         Writer::Nobody | Writer::Hidden => {}
     }
     let (host, scene) = origin(path)?;
-    if force || host == machine::host() {
+    if force || host == execution::host() {
         return Ok(());
     }
     let [last, _] = checkpoint::paths(path);

@@ -4,12 +4,12 @@ use std::path::Path;
 
 use plateau_run::{Job, RunOptions, StartMode};
 
-use super::load_scene;
 use crate::arguments::{RunArguments, SceneArguments};
 use crate::failure::{Failure, in_job};
+use crate::scene::load_scene;
 use crate::table::print;
 use crate::terminal::Terminal;
-use crate::{called, message, output, summary, version};
+use crate::{invocation, message, output, summary, version};
 
 /// Runs a scene, together with the other processes of the job if there are any.
 pub fn run(arguments: &RunArguments) -> Result<(), Failure> {
@@ -77,7 +77,7 @@ fn refuse_other_format(given: &str, file: &Path) -> Result<(), Failure> {
             "{given} {}: a run file is HDF5, expected a name such as {}; afterwards `{} {call}` makes .{ending} of it",
             file.display(),
             file.with_extension("h5").display(),
-            called::program()
+            invocation::program()
         ))),
     }
 }

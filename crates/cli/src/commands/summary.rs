@@ -1,11 +1,11 @@
 //! `plateau summary`: what the Python package asks of a run file that this program computes.
 
 use plateau_core::observe::window_mean::WindowMean;
+use plateau_io::number;
 use serde::Serialize;
 
 use crate::arguments::SummaryArguments;
 use crate::failure::Failure;
-use crate::number;
 use crate::summary::{acceleration, running_in, running_in_time};
 use crate::table::print;
 

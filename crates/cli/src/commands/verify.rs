@@ -2,13 +2,14 @@
 
 use std::path::Path;
 
+use plateau_io::number;
 use plateau_io::run_file::{self, Damage, ReadError, State, Verification};
 use serde::Serialize;
 
 use crate::arguments::VerifyArguments;
 use crate::failure::Failure;
+use crate::message;
 use crate::table::{print, table};
-use crate::{message, number};
 
 /// Looks at all files before it fails because of one.
 pub fn verify(arguments: &VerifyArguments) -> Result<(), Failure> {
@@ -42,7 +43,7 @@ pub fn verify(arguments: &VerifyArguments) -> Result<(), Failure> {
     }
 }
 
-/// What can be said of a file in a word.
+/// State of a file in a word.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 enum Verdict {
@@ -56,7 +57,7 @@ enum Verdict {
     Damaged,
 }
 
-/// What is reported of a file.
+/// Report on a file.
 #[derive(Debug, Serialize)]
 struct Finding {
     file: String,
@@ -65,7 +66,7 @@ struct Finding {
     samples: Option<usize>,
     moments: Option<usize>,
     digests: usize,
-    /// Whether there are digests of the numbers among the attributes, and of what tells of machine and time.
+    /// Tells whether there are digests of the numbers among the attributes, and of what tells of machine and time.
     covers_numbers: bool,
     damage: Vec<Place>,
 }

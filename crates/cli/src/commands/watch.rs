@@ -1,20 +1,18 @@
 //! `plateau watch`: follow a run file that is being written.
 
-use std::fs;
-use std::io;
 use std::path::Path;
-use std::thread;
 use std::time::{Duration, Instant, SystemTime};
+use std::{fs, io, thread};
 
-use crate::watch::{Look, Pace};
+use plateau_io::number;
 use plateau_io::run_file::{ReadError, State};
 
 use crate::arguments::WatchArguments;
 use crate::failure::Failure;
 use crate::interrupt::Interrupt;
 use crate::message;
-use crate::number;
 use crate::screen::Screen;
+use crate::watch::{Look, Pace};
 
 /// Time between two looks, at least.
 const INTERVAL: Duration = Duration::from_secs(1);
@@ -22,9 +20,9 @@ const INTERVAL: Duration = Duration::from_secs(1);
 const PART: u32 = 5;
 /// Time between two questions whether a signal has come.
 const NAP: Duration = Duration::from_millis(50);
-/// How long a file may look damaged: its writer closes it, or replaces it.
+/// Time for which a file may look damaged: its writer closes it, or replaces it.
 const MENDING: Duration = Duration::from_secs(3);
-/// How long a file is waited for unless a timeout is given.
+/// Time for which a file is waited for unless a timeout is given.
 const ARRIVAL: Duration = Duration::from_secs(10);
 
 /// Shows a run until it ends.
@@ -63,7 +61,7 @@ pub fn watch(arguments: &WatchArguments) -> Result<(), Failure> {
     }
 }
 
-/// What the end of a run means for the exit status.
+/// Meaning of the end of a run for the exit status.
 fn ended(look: &Look) -> Result<(), Failure> {
     match look.state {
         State::Failed => {
@@ -103,7 +101,7 @@ impl<'a> Watcher<'a> {
         }
     }
 
-    /// What the file says now; nothing while it is not there, or is just being closed.
+    /// Content of the file now; nothing while it is not there, or is just being closed.
     fn look(&mut self) -> Result<Option<Look>, Failure> {
         let stamp = fs::metadata(self.path).and_then(|file| Ok((file.len(), file.modified()?))).ok();
         // Twice, for a file system may give two changes shortly after one another the same time.
@@ -122,7 +120,7 @@ impl<'a> Watcher<'a> {
         }
     }
 
-    /// Whether a file that cannot be read is worth waiting for.
+    /// Tells whether a file that cannot be read is worth waiting for.
     fn unreadable(&mut self, error: ReadError) -> Result<Option<Look>, Failure> {
         let since = *self.unreadable.get_or_insert_with(Instant::now);
         let absent = !self.path.exists();

@@ -1,16 +1,11 @@
-//! What `plateau watch` sees and shows.
+//! A run that `plateau watch` follows.
 //!
-//! | what | where |
+//! | content | module |
 //! |---|---|
-//! | what a run file says at one moment | [`look`] |
-//! | how fast the run is, and whether it still goes on | [`pace`] |
-//! | a curve made of characters | [`curve`] |
+//! | a run file at one moment, and the pace of its run | [`look`] |
 //! | a look in words and as a page of the terminal | [`page`] |
 
-mod curve;
 mod look;
-mod pace;
 pub mod page;
 
-pub use look::Look;
-pub use pace::Pace;
+pub use look::{Look, Pace};

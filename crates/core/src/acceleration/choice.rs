@@ -34,7 +34,7 @@ const AIM: f64 = 0.7;
 const LARGEST_CHANGE: f64 = 2.0;
 /// Smaller changes are not worth it: they would follow the noise.
 const SMALLEST_CHANGE: f64 = 1.2;
-/// Part of the time passed that a revolution may stand for, over the tolerance (docs/accuracy.md).
+/// Part of the time passed that a revolution may stand for, over the tolerance (docs/evidence/accuracy.md).
 const GROWTH: f64 = 3.5;
 /// Least m beside a scout: both together take 5/8 of the steps of m = 1.
 const LEAST: f64 = 2.0;

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::acceleration::choice::{Adaptive, Choice, RATIO};
 use crate::acceleration::smoothness::Smoothness;
-use crate::engine::checkpoint::Checkpoint;
+use crate::simulation::checkpoint::Checkpoint;
 use crate::simulation::{Simulation, SimulationError};
 
 /// A simulation that begins with the state of a run whenever that begins to be accelerated, and goes on with [`RATIO`] times its

@@ -11,7 +11,7 @@
 
 use std::f64::consts::TAU;
 
-use crate::engine::parts::Needs;
+use crate::engine::execution::Engine;
 use crate::model::parameters::Parameters;
 use crate::model::state::{Base, InitialSurfaces};
 use crate::observe::roughness::root_mean_square_along_tracks;
@@ -19,7 +19,7 @@ use crate::observe::roughness::root_mean_square_along_tracks;
 /// How much rougher a disc must be than the pin wears down in a revolution with m = 1.
 ///
 /// Of the paper's discs the roughest is 75 times as rough, and 62 times after 3000 s: waves grow, and are lost among its
-/// asperities. The others begin with 7.5 and 0.75 times, and end as waves (docs/accuracy.md).
+/// asperities. The others begin with 7.5 and 0.75 times, and end as waves (docs/evidence/accuracy.md).
 const ROUGH_ENOUGH: f64 = 20.0;
 
 /// The roughness below which a disc is too smooth to accelerate its run.
@@ -35,14 +35,13 @@ impl Smoothness {
         let Parameters { mesh, materials, .. } = parameters;
         let base = || pin_base.iter().zip(mesh.pin_areas()).filter(|(_, area)| *area > 0.0);
         let wears = materials.wear_height > 0.0 && base().any(|(base, _)| base.is_resin());
-        let needs = Needs::of(parameters);
-        let pooled = needs.forms && !needs.local && parameters.plateaus.captured_of_resin() > 0.0;
+        let pooled = Engine::Fast.of(parameters) == Engine::Plain && parameters.plateaus.captured_of_resin() > 0.0;
         if !(wears && pooled) {
             return None;
         }
         let fibre: f64 = base().filter(|(base, _)| !base.is_resin()).map(|(_, area)| area).sum();
         let radius = mesh.radius().iter().sum::<f64>() / mesh.rows() as f64;
-        let pressure = parameters.normal_force / fibre;
+        let pressure = parameters.usual_load() / fibre;
         Some(Self { recession: materials.pin_primary.specific_wear_rate * pressure * TAU * radius })
     }
 

@@ -1,6 +1,6 @@
 //! Coefficients of a pair of cells by status and row: stiffness (model 4.1) and wear per overlap (model 4.2).
 
-use crate::model::material::{Materials, Status};
+use crate::model::material::Status;
 use crate::model::parameters::{Integrator, Parameters};
 
 /// The statuses of a pin cell and the disc cell under it, as an index into the tables of [`Coefficients`].
@@ -57,7 +57,7 @@ impl Coefficients {
         for (pin, disc_secondary) in StatusPair::all() {
             let pair = StatusPair::new(pin, disc_secondary).index();
             let stiffness = materials.combined_modulus(pin, disc_secondary) / parameters.foundation_height;
-            let wear_rate_pin = pin_wear_rate(materials, pin);
+            let wear_rate_pin = materials.pin_wear_rate(pin, disc_secondary);
             let wear_rate_disc = materials.disc(disc_secondary).specific_wear_rate;
             for (row, (radius, area)) in mesh.radius().iter().zip(mesh.area()).enumerate() {
                 let sliding = parameters.time_acceleration * radius * mesh.column_angle();
@@ -68,8 +68,8 @@ impl Coefficients {
                 tables.stiffness[pair][row] = stiffness * area;
                 tables.pin[pair][row] = factor(wear_rate_pin, wear_rate_disc);
                 tables.disc[pair][row] = factor(wear_rate_disc, wear_rate_pin);
-                tables.fibre[pair][row] =
-                    below(materials.pin_primary.specific_wear_rate, wear_rate_pin, wear_rate_disc);
+                let fibre = materials.pin_wear_rate(Status::Primary, disc_secondary);
+                tables.fibre[pair][row] = below(fibre, wear_rate_pin, wear_rate_disc);
                 tables.coating[pair][row] =
                     below(materials.disc_primary.specific_wear_rate, wear_rate_disc, wear_rate_pin);
             }
@@ -126,14 +126,6 @@ pub struct PairLoss {
     pub per_overlap: f64,
     /// Per load of the cell, m/N.
     pub per_load: f64,
-}
-
-/// κ of a pin cell; 0 for resin, which does not wear by Archard's law.
-fn pin_wear_rate(materials: &Materials, status: Status) -> f64 {
-    match status {
-        Status::Resin => 0.0,
-        plateau => materials.pin(plateau).specific_wear_rate,
-    }
 }
 
 /// Loss per overlap of a cell with wear rate `own` (1/Pa) against one with `other`; `stiffness_sliding` is k ds, Pa.

@@ -10,11 +10,10 @@ use serde::{Deserialize, Serialize};
 use crate::engine::coefficients::StatusPair;
 use crate::engine::exact::float;
 use crate::engine::kernel::{Bracket, NearPair, PLATEAU};
-use crate::engine::strips::REACH;
 use crate::engine::sums::{PairSums, RawLoss, RowWeights, Sums};
-use crate::model::ContactError;
 use crate::model::friction::{ContactSums, StatusContact};
 use crate::model::material::Status;
+use crate::model::{ContactError, REACH};
 
 /// What a reading says about the balance.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -27,9 +26,9 @@ pub enum Verdict {
     Apart,
 }
 
-/// The contact of the cells that share a pool.
+/// What touches, and what it loses.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
-pub struct PoolContact {
+pub struct Touching {
     /// Σ A over cells in contact, in units of the area.
     pub area: i128,
     /// Σ A over bare resin in contact, in units of the area.
@@ -68,8 +67,7 @@ pub struct Contact {
     above: f64,
     /// Of which overlaps at the lower end are multiples, m.
     quantum: f64,
-    /// By pool.
-    pools: Vec<PoolContact>,
+    touching: Touching,
     /// What a unit of the area is worth, m².
     area_unit: f64,
     /// By status of the pin, where friction differs between them.
@@ -88,14 +86,14 @@ impl Contact {
             residual: 0.0,
             above: 0.0,
             quantum: 0.0,
-            pools: vec![PoolContact::default(); weights.pools()],
+            touching: Touching::default(),
             area_unit: weights.area.unit(),
         }
     }
 
-    /// How many pools it has sums of, and whether it has sums by status.
-    pub fn shape(&self) -> (usize, bool) {
-        (self.pools.len(), self.statuses.is_some())
+    /// Whether it has sums by status.
+    pub fn has_statuses(&self) -> bool {
+        self.statuses.is_some()
     }
 
     /// Solves Σ k A (δ − g)₊ = F_N where δ lies within the bracket that the sums and the list of near pairs are of.
@@ -190,39 +188,37 @@ impl Contact {
         (self.load, self.slope, self.doubt) = at_low;
         self.load += self.slope * above;
         self.settle_statuses(weights, sums, near, bracket, displacement);
-        for (contact, sums) in self.pools.iter_mut().zip(&sums.pools) {
-            *contact = PoolContact::default();
-            for pair in weights.pairs {
-                let sums = &sums.pairs[*pair];
-                if sums.area == 0 {
-                    continue;
-                }
-                contact.area += sums.area;
-                if is_bare_resin(*pair) {
-                    contact.resin_area += sums.area;
-                }
-                if *pair == PLATEAU {
-                    contact.pin_loss = RawLoss { low: sums.pin_loss, rate: sums.pin_loss_rate, ..contact.pin_loss };
-                }
-                let loss = float(sums.disc_loss) * bracket.quantum.value() + float(sums.disc_loss_rate) * above;
-                contact.disc_loss += loss * weights.disc_loss[*pair].unit();
+        let touching = &mut self.touching;
+        *touching = Touching::default();
+        for pair in weights.pairs {
+            let sums = &sums.pairs[*pair];
+            if sums.area == 0 {
+                continue;
             }
+            touching.area += sums.area;
+            if is_bare_resin(*pair) {
+                touching.resin_area += sums.area;
+            }
+            if *pair == PLATEAU {
+                touching.pin_loss = RawLoss { low: sums.pin_loss, rate: sums.pin_loss_rate, ..touching.pin_loss };
+            }
+            let loss = float(sums.disc_loss) * bracket.quantum.value() + float(sums.disc_loss_rate) * above;
+            touching.disc_loss += loss * weights.disc_loss[*pair].unit();
         }
         let distinct = weights.needs.distinct;
         for near in near.iter().take_while(|near| near.gap < displacement) {
             let (pair, row) = (usize::from(near.pair), near.row as usize);
             let overlap = displacement - near.gap;
-            let contact = &mut self.pools[weights.pool_of(row)];
             let area = i128::from(weights.area.row(row));
-            contact.area += area;
+            touching.area += area;
             if is_bare_resin(pair) {
-                contact.resin_area += area;
+                touching.resin_area += area;
             }
             if !distinct {
                 if pair == PLATEAU {
-                    contact.pin_loss.near.add(weights.near_loss(row, overlap));
+                    touching.pin_loss.near.add(weights.near_loss(row, overlap));
                 }
-                contact.disc_loss += weights.disc_loss[pair].value(row) * overlap;
+                touching.disc_loss += weights.disc_loss[pair].value(row) * overlap;
             }
             self.load += weights.stiffness_of(near) * overlap;
             self.slope += weights.stiffness_of(near);
@@ -242,7 +238,7 @@ impl Contact {
         *statuses = Default::default();
         let above = displacement - bracket.low;
         for pair in weights.pairs {
-            let all = |sum: fn(&PairSums) -> i128| float(sums.pools.iter().map(|pool| sum(&pool.pairs[*pair])).sum());
+            let all = |sum: fn(&PairSums) -> i128| float(sum(&sums.pairs[*pair]));
             let unit = weights.stiffness[*pair].unit();
             let status = &mut statuses[usize::from(status_of(*pair))];
             status.load +=
@@ -257,9 +253,8 @@ impl Contact {
     }
 
     /// Which kinds of pairs touch, by the sums and the near pairs that the balance was solved with.
-    pub fn touching(&self, sums: &Sums, near: &[NearPair]) -> [bool; StatusPair::COUNT] {
-        let mut touching =
-            std::array::from_fn(|pair| sums.pools.iter().any(|pool| pool.pairs[pair] != PairSums::default()));
+    pub fn touching_pairs(&self, sums: &Sums, near: &[NearPair]) -> [bool; StatusPair::COUNT] {
+        let mut touching = sums.pairs.map(|sums| sums != PairSums::default());
         for near in near.iter().take_while(|near| near.gap < self.displacement()) {
             touching[usize::from(near.pair)] = true;
         }
@@ -281,14 +276,14 @@ impl Contact {
         self.displacement.unwrap_or(0.0)
     }
 
-    /// By pool.
-    pub fn pools(&self) -> &[PoolContact] {
-        &self.pools
+    /// What touches, and what it loses.
+    pub fn touching(&self) -> &Touching {
+        &self.touching
     }
 
     /// Contact area Σ A over cells in contact, m².
     pub fn area(&self) -> f64 {
-        float(self.pools.iter().map(|pool| pool.area).sum()) * self.area_unit
+        float(self.touching.area) * self.area_unit
     }
 
     /// Σ p A, N.
@@ -330,7 +325,7 @@ impl Contact {
 fn load_at_low(weights: &RowWeights, sums: &Sums, bracket: &Bracket) -> (f64, f64, f64) {
     let (mut load, mut slope, mut squares) = (0.0, 0.0, 0.0);
     for pair in weights.pairs {
-        let all = |sum: fn(&PairSums) -> i128| float(sums.pools.iter().map(|pool| sum(&pool.pairs[*pair])).sum());
+        let all = |sum: fn(&PairSums) -> i128| float(sum(&sums.pairs[*pair]));
         let unit = weights.stiffness[*pair].unit();
         load += all(|sums| sums.load) * (unit * bracket.quantum.value());
         let stiffness = all(|sums| sums.stiffness) * unit;

@@ -3,23 +3,38 @@
 use std::fmt;
 
 use crate::engine::kernel::InstructionSet;
+use crate::engine::parts::Needs;
+use crate::model::parameters::{DebrisRule, Parameters};
 
 /// What takes the steps.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Engine {
-    /// Eight cells at a time, on any number of workers: one pass over the pin a step.
+    /// Eight cells at a time, on any number of workers: one pass over the pin a step. It has local debris (model 4L).
     #[default]
     Fast,
     /// The plain model, cell by cell ([`crate::model`]), on one worker: the same results but for rounding, slowly.
     Plain,
 }
 
-impl fmt::Display for Engine {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
+impl Engine {
+    /// Its name on the command line.
+    pub fn name(self) -> &'static str {
+        match self {
             Self::Fast => "fast",
             Self::Plain => "plain",
-        })
+        }
+    }
+
+    /// What takes the steps of a scene where this is asked for: the plain model where debris is pooled (model 4P).
+    pub fn of(self, parameters: &Parameters) -> Self {
+        let is_pooled = Needs::of(parameters).forms && parameters.plateaus.debris != DebrisRule::Local;
+        if is_pooled { Self::Plain } else { self }
+    }
+}
+
+impl fmt::Display for Engine {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
     }
 }
 

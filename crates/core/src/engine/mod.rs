@@ -8,30 +8,27 @@
 //! | `quantum`, `exact`, `sums` | sums as integers, so that the order of cells does not show |
 //! | `strips`, `pin_strips`, `presence`, `sector` | heights as the kernels read them, and which cells of the pin are there; the ring in sectors and bands |
 //! | [`parts`] | which parts of the model a scene needs |
-//! | `coefficients`, `wear`, `plateau`, `debris` | the rules, one for each file |
+//! | `coefficients`, `wear`, `debris` | the rules, one for each file |
 //! | `contact`, `forecast` | the displacement, and where it is expected next |
 //! | [`kernel`] | the loops over cells |
-//! | `history`, `filling` | what is added up over steps and cells to be reported |
-//! | `execution`, `checkpoint`, `error` | how the steps are taken, what is kept to go on later, and why it cannot go on |
+//! | `filling` | what is added up over cells to be reported |
+//! | `execution`, `memory` | how the steps are taken, and what is kept to go on later |
 //! | [`comm`] | what workers tell each other: one, threads, or ranks of an MPI job |
 //! | `worker`, `worker_threads` | the step that all workers take together, and the threads that take it |
 
-pub mod checkpoint;
 pub(crate) mod coefficients;
 pub mod comm;
 pub(crate) mod contact;
 pub(crate) mod debris;
-pub(crate) mod error;
 pub(crate) mod exact;
 pub(crate) mod execution;
 pub(crate) mod filling;
 pub(crate) mod forecast;
-pub(crate) mod history;
 pub mod kernel;
 pub(crate) mod lanes;
+pub(crate) mod memory;
 pub mod parts;
 pub(crate) mod pin_strips;
-pub(crate) mod plateau;
 pub(crate) mod presence;
 pub(crate) mod quantum;
 pub(crate) mod sector;

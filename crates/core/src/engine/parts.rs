@@ -22,14 +22,24 @@ pub struct Part {
 pub struct Needs {
     /// Build-up can exist and differs from what it lies on.
     pub distinct: bool,
+    /// It can break away.
+    pub breaks: bool,
     /// The disc can wear.
     pub disc_wears: bool,
     /// Plateaus can form.
     pub forms: bool,
-    /// They form of what wears ahead of them, and there is no pool.
-    pub local: bool,
-    /// Plateaus can fall.
-    pub destroys: bool,
+}
+
+/// What build-up asks of the kernels, which are compiled for each.
+pub mod build_up {
+    /// There is none: b = z everywhere, and substrates are not kept.
+    pub const NONE: u8 = 0;
+    /// It has the properties of what it lies on.
+    pub const ALIKE: u8 = 1;
+    /// The same, and it breaks away where it is pressed harder than its strength.
+    pub const BRITTLE: u8 = 2;
+    /// It has properties of its own, and may have a strength.
+    pub const DISTINCT: u8 = 3;
 }
 
 impl Needs {
@@ -42,12 +52,22 @@ impl Needs {
             distinct: forms
                 && (materials.pin_primary != materials.pin_secondary
                     || materials.disc_primary != materials.disc_secondary
+                    || materials.wears_by_counterface()
                     || parameters.friction.is_some_and(|friction| friction.primary != friction.secondary)),
+            breaks: forms && materials.strength.is_some(),
             disc_wears: materials.disc_primary.specific_wear_rate > 0.0
                 || (forms && materials.disc_secondary.specific_wear_rate > 0.0),
             forms,
-            local: forms && rules.debris == DebrisRule::Local,
-            destroys: forms && rules.destruction && rules.debris != DebrisRule::Local,
+        }
+    }
+
+    /// What build-up asks of the kernels.
+    pub fn build_up(self) -> u8 {
+        match self {
+            Self { forms: false, .. } => build_up::NONE,
+            Self { distinct: true, .. } => build_up::DISTINCT,
+            Self { breaks: true, .. } => build_up::BRITTLE,
+            _ => build_up::ALIKE,
         }
     }
 }
@@ -57,7 +77,9 @@ pub fn parts(parameters: &Parameters, pin_base: &[Base]) -> Vec<Part> {
     let materials = &parameters.materials;
     let mesh = &parameters.mesh;
     let has = |base| pin_base.iter().enumerate().any(|(cell, found)| *found == base && mesh.is_present(cell));
-    let Needs { distinct, disc_wears, forms, local, destroys } = Needs::of(parameters);
+    let Needs { distinct, breaks, disc_wears, forms } = Needs::of(parameters);
+    let pools = forms && parameters.plateaus.debris != DebrisRule::Local;
+    let destroys = pools && parameters.plateaus.destruction;
     let pin_wears = (has(Base::Primary) && materials.pin_primary.specific_wear_rate > 0.0)
         || (forms && materials.pin_secondary.specific_wear_rate > 0.0);
     let part = |name, needed, reason_needed, reason_left_out| Part {
@@ -90,12 +112,14 @@ pub fn parts(parameters: &Parameters, pin_base: &[Base]) -> Vec<Part> {
             "secondary materials or their friction differ from primary ones",
             "secondary materials equal primary ones, and so does their friction",
         ),
+        part("strength of build-up", breaks, "materials.pin_secondary.strength", "no strength is given"),
         part(
-            "debris pool",
-            forms && !local,
-            "debris = \"contact\" or \"track\"",
-            "debris = \"local\", or no formation",
+            "transport length",
+            forms && parameters.plateaus.transport_length.is_some(),
+            "plateaus.transport_length",
+            "no transport_length: debris goes from one cell to the next",
         ),
+        part("debris pool", pools, "debris = \"contact\" or \"track\"", "debris = \"local\", or no formation"),
         part(
             "one debris pool per track",
             parameters.plateaus.debris == DebrisRule::Track,

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use crate::engine::lanes::{Chunk, LANES};
 use crate::engine::parts::Needs;
-use crate::engine::presence::{Extent, Presence};
+use crate::engine::presence::Presence;
 use crate::engine::strips::{OUT_OF_REACH, Strips, strips};
 use crate::model::mesh::Mesh;
 use crate::model::state::Base;
@@ -22,7 +22,7 @@ pub struct PinStrips {
     resin: Vec<u8>,
     /// Which are plateaus at the start of the coming step: fibre or built up; follows from the heights.
     plateau: Vec<u8>,
-    /// With local debris: which touch in the coming step; from the last reading.
+    /// Which touch in the coming step; from the last reading.
     touches: Vec<u8>,
     /// Which cells are there; none where all are. The others are resin out of reach.
     presence: Option<Presence>,
@@ -40,7 +40,7 @@ pub struct PinStrip<'a> {
     pub resin: &'a [u8],
     /// Which rows are plateaus at the start of the coming step, one bit each.
     pub plateau: &'a mut [u8],
-    /// Which rows touch in the coming step, one bit each; empty but with local debris.
+    /// Which rows touch in the coming step, one bit each.
     pub touches: &'a mut [u8],
     /// Which rows are there, one bit each; empty where all are.
     pub present: &'a [u8],
@@ -68,16 +68,16 @@ impl PinStrips {
             strip[columns - 1] = u8::MAX;
         }
         let plateau = resin.iter().map(|resin| !resin).collect();
-        let touches = vec![0; if needs.local { resin.len() } else { 0 }];
+        let touches = vec![0; resin.len()];
         Self { substrate: needs.forms.then(|| height.clone()), height, resin, plateau, touches, presence, columns }
     }
 
-    /// What of a strip is there in some of its columns, counted from their first.
+    /// Those of some columns of a strip, counted from their first, outside of which no cell is there.
     #[inline]
-    pub fn extent(&self, strip: usize, columns: Range<usize>) -> Extent {
+    pub fn extent(&self, strip: usize, columns: Range<usize>) -> Range<usize> {
         match &self.presence {
             Some(presence) => presence.extent(strip, &columns),
-            None => Extent::all(columns.len()),
+            None => 0..columns.len(),
         }
     }
 
@@ -92,13 +92,13 @@ impl PinStrips {
         &self.resin[strip * self.columns..][..self.columns]
     }
 
-    /// Which rows of a strip touch in the coming step, column by column; only with local debris.
+    /// Which rows of a strip touch in the coming step, column by column.
     #[inline]
     pub fn touches(&self, strip: usize) -> &[u8] {
         &self.touches[strip * self.columns..][..self.columns]
     }
 
-    /// Notes that a cell touches in the coming step; only with local debris.
+    /// Notes that a cell touches in the coming step.
     pub fn note_touch(&mut self, row: usize, column: usize) {
         self.touches[row / LANES * self.columns + column] |= 1 << (row % LANES);
     }
@@ -117,7 +117,7 @@ impl PinStrips {
             present: self.presence.as_ref().map_or(&[], |presence| presence.cells(strip, &there)),
             resin: &self.resin[bytes.clone()],
             plateau: &mut self.plateau[bytes.clone()],
-            touches: if self.touches.is_empty() { &mut [] } else { &mut self.touches[bytes] },
+            touches: &mut self.touches[bytes],
         }
     }
 
@@ -162,15 +162,13 @@ impl PinStrips {
         (2 * LANES + 1) * strips(rows)
     }
 
-    /// Writes a column that crosses to another worker, and which cells of it and of the next are plateaus: the status of
-    /// the next column is all that the other worker needs of it.
+    /// Writes a column that crosses to another worker, and which cells of it are plateaus.
     pub fn write_crossing(&self, column: usize, words: &mut Vec<u64>) {
         let substrate = self.substrate();
         for strip in 0..self.height.strips() {
             words.extend_from_slice(&self.height.strip(strip)[column].0.map(f64::to_bits));
             words.extend_from_slice(&substrate.strip(strip)[column].0.map(f64::to_bits));
-            let plateau = &self.plateau[strip * self.columns + column..][..2];
-            words.push(u64::from(plateau[0]) | u64::from(plateau[1]) << 8);
+            words.push(u64::from(self.plateau[strip * self.columns + column]));
         }
     }
 
@@ -183,8 +181,7 @@ impl PinStrips {
             if let Some(substrate) = &mut self.substrate {
                 substrate.strip_mut(strip)[column] = heights(LANES);
             }
-            let plateau = &mut self.plateau[strip * self.columns + column..][..2];
-            plateau.copy_from_slice(&words[2 * LANES].to_le_bytes()[..2]);
+            self.plateau[strip * self.columns + column] = words[2 * LANES] as u8;
         }
     }
 }
@@ -203,17 +200,17 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_column_crosses_with_the_status_of_the_next() {
+    fn a_column_crosses_with_its_status() {
         let mesh = Mesh::new(11, 9, 3, 1.0, 2.0).unwrap();
         let heights: Vec<f64> = (0..33).map(f64::from).collect();
         let base = vec![Base::Resin; 33];
-        let needs = Needs { distinct: false, disc_wears: false, forms: true, local: false, destroys: false };
+        let needs = Needs { distinct: false, breaks: false, disc_wears: false, forms: true };
         let mut from = PinStrips::new(&mesh, 0..11, &heights, &base, needs);
         let mut to = from.clone();
         let plateau = |row: usize| row.is_multiple_of(3);
         from.height.set_column(1, &[7.0; 11]);
         for row in (0..11).filter(|row| plateau(*row)) {
-            from.strip_mut(row / LANES, 2..3).plateau[0] |= 1 << (row % LANES);
+            from.strip_mut(row / LANES, 1..2).plateau[0] |= 1 << (row % LANES);
         }
         let mut words = Vec::new();
         from.write_crossing(1, &mut words);
@@ -222,7 +219,7 @@ mod tests {
         assert!(to.height.column(1).eq([7.0; 11]));
         assert!(to.substrate().column(1).eq((11..22).map(f64::from)));
         let statuses: Vec<bool> =
-            (0..11).map(|row| to.strip_mut(row / LANES, 2..3).plateau[0] >> (row % LANES) & 1 == 1).collect();
+            (0..11).map(|row| to.strip_mut(row / LANES, 1..2).plateau[0] >> (row % LANES) & 1 == 1).collect();
         assert_eq!(statuses, (0..11).map(plateau).collect::<Vec<_>>());
     }
 }

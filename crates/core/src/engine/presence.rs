@@ -10,39 +10,13 @@ use crate::engine::lanes::LANES;
 use crate::engine::strips::strips;
 use crate::model::mesh::Mesh;
 
-/// Which columns of a strip have cells of the pin.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Extent {
-    /// Columns outside of which no cell is there.
-    pub some: Range<usize>,
-    /// Columns in which all cells are there, within `some`.
-    pub whole: Range<usize>,
-}
-
-impl Extent {
-    /// All of so many columns.
-    pub fn all(columns: usize) -> Self {
-        Self { some: 0..columns, whole: 0..columns }
-    }
-
-    /// The part of it in some columns, counted from their first.
-    fn within(&self, columns: &Range<usize>) -> Self {
-        let of = |range: &Range<usize>, bounds: Range<usize>| {
-            let count = |column: usize| column.clamp(columns.start, columns.end) - columns.start;
-            let start = count(range.start).clamp(bounds.start, bounds.end);
-            start..count(range.end).clamp(start, bounds.end)
-        };
-        let some = of(&self.some, 0..columns.len());
-        Self { whole: of(&self.whole, some.clone()), some }
-    }
-}
-
 /// The cells of the pin that are there.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Presence {
     /// Which rows of a strip are there, one bit each; rows that only fill up the last strip count as there.
     cells: Vec<u8>,
-    extents: Vec<Extent>,
+    /// Of each strip the columns outside of which no cell is there.
+    extents: Vec<Range<usize>>,
     columns: usize,
 }
 
@@ -57,18 +31,16 @@ impl Presence {
         let mut extents = Vec::with_capacity(strips(rows));
         for strip in 0..strips(rows) {
             let chords = (strip * LANES..rows.min((strip + 1) * LANES)).map(|row| mesh.chord(own.start + row));
-            let (mut some, mut whole) = (columns..0, 0..columns);
+            let mut some = columns..0;
             for (lane, chord) in chords.enumerate() {
                 for column in (0..columns).filter(|column| !chord.contains(column)) {
                     cells[strip * columns + column] &= !(1 << lane);
                 }
-                whole = whole.start.max(chord.start)..whole.end.min(chord.end);
                 if !chord.is_empty() {
                     some = some.start.min(chord.start)..some.end.max(chord.end);
                 }
             }
-            let some = if some.is_empty() { 0..0 } else { some };
-            extents.push(Extent { whole: if whole.is_empty() { some.end..some.end } else { whole }, some });
+            extents.push(if some.is_empty() { 0..0 } else { some });
         }
         Some(Self { cells, extents, columns })
     }
@@ -79,10 +51,12 @@ impl Presence {
         &self.cells[strip * self.columns..][..self.columns][columns.clone()]
     }
 
-    /// What of a strip is there in some of its columns, counted from their first.
+    /// Those of some columns of a strip, counted from their first, outside of which no cell is there.
     #[inline]
-    pub fn extent(&self, strip: usize, columns: &Range<usize>) -> Extent {
-        self.extents[strip].within(columns)
+    pub fn extent(&self, strip: usize, columns: &Range<usize>) -> Range<usize> {
+        let count = |column: usize| column.clamp(columns.start, columns.end) - columns.start;
+        let Range { start, end } = &self.extents[strip];
+        count(*start)..count(*end)
     }
 
     /// Whether a cell is there.
@@ -106,18 +80,13 @@ mod tests {
                 for column in 0..30 {
                     let is_there = mesh.is_present(column * 29 + of_mesh);
                     assert_eq!(presence.has(row, column), is_there);
-                    let Extent { some, .. } = presence.extent(row / LANES, &(0..30));
+                    let some = presence.extent(row / LANES, &(0..30));
                     assert!(some.contains(&column) || !is_there);
                 }
             }
             for strip in 0..strips(own.len()) {
-                let columns = 4..25;
-                let Extent { some, whole } = presence.extent(strip, &columns);
-                assert!(some.start <= whole.start && whole.end <= some.end && some.end <= 21);
-                let cells = presence.cells(strip, &columns);
-                assert!(cells[whole.clone()].iter().all(|cells| *cells == u8::MAX));
-                let edges = cells.iter().enumerate().filter(|(column, _)| !whole.contains(column));
-                assert!(edges.into_iter().all(|(_, cells)| *cells != u8::MAX));
+                let (some, of_all) = (presence.extent(strip, &(4..25)), presence.extent(strip, &(0..30)));
+                assert_eq!([some.start, some.end], [of_all.start, of_all.end].map(|column| column.clamp(4, 25) - 4));
             }
         }
     }
@@ -126,6 +95,5 @@ mod tests {
     fn a_rectangle_has_none() {
         let mesh = Mesh::new(29, 600, 30, 20e-3, 23e-3).unwrap();
         assert_eq!(Presence::of(&mesh, 0..29), None);
-        assert_eq!(Extent::all(7), Extent { some: 0..7, whole: 0..7 });
     }
 }

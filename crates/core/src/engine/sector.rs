@@ -60,28 +60,28 @@ impl Partition {
     /// The partition that keeps the most loaded worker's work least, on average over a revolution; with `bands`, the
     /// best one of so many bands, at most as many as there are workers and strips.
     ///
-    /// A sector has at least two columns; where the ring has too few for that, some workers get none.
-    pub fn new(mesh: &Mesh, workers: usize, bands: Option<usize>) -> Self {
+    /// A sector has at least `shortest` columns, two of them or more; where the ring has too few for that, some workers get none.
+    pub fn new(mesh: &Mesh, workers: usize, bands: Option<usize>, shortest: usize) -> Self {
         let most_bands = strips(mesh.rows()).min(workers);
         let possible = |count: &usize| workers.is_multiple_of(*count);
         let candidates: Vec<usize> = match bands {
             Some(bands) => (1..=bands.clamp(1, most_bands)).rev().find(possible).into_iter().collect(),
             None => (1..=most_bands).filter(possible).collect(),
         };
-        let partitions = candidates.into_iter().flat_map(|bands| Self::of_bands(mesh, workers, bands));
+        let partitions = candidates.into_iter().flat_map(|bands| Self::of_bands(mesh, workers, bands, shortest));
         let best = partitions.map(|each| (each.cost(), each)).min_by(|a, b| a.0.total_cmp(&b.0));
         best.map_or_else(|| Self::of_sectors(mesh, workers, 1, 1), |(_, partition)| partition)
     }
 
     /// Partitions into so many bands and different numbers of sectors.
-    fn of_bands(mesh: &Mesh, workers: usize, bands: usize) -> Vec<Self> {
+    fn of_bands(mesh: &Mesh, workers: usize, bands: usize, shortest: usize) -> Vec<Self> {
         let groups = workers / bands;
         if groups == 1 {
             return vec![Self::of_sectors(mesh, workers, bands, 1)];
         }
-        let most_rounds = mesh.disc_columns() / (2 * groups);
+        let most_rounds = mesh.disc_columns() / (shortest * groups);
         if most_rounds == 0 {
-            return vec![Self::of_sectors(mesh, workers, bands, (mesh.disc_columns() / 2).max(1))];
+            return vec![Self::of_sectors(mesh, workers, bands, (mesh.disc_columns() / shortest).max(1))];
         }
         let per_round = mesh.disc_columns().div_ceil(mesh.pin_columns());
         let rounds = 1..=most_rounds.min(4 * per_round);
@@ -232,7 +232,7 @@ mod tests {
             [(2764, 161, 2), (40, 40, 3), (17, 5, 8), (9, 9, 1), (30, 1, 5), (7, 4, 5)]
         {
             let mesh = mesh(disc_columns, pin_columns);
-            let partition = Partition::new(&mesh, workers, Some(1));
+            let partition = Partition::new(&mesh, workers, Some(1), 2);
             for step in 0..2 * disc_columns as u64 {
                 let mut next = 0;
                 for segment in partition.segments(mesh.disc_column(0, step)) {
@@ -258,7 +258,7 @@ mod tests {
     #[test]
     fn work_is_shared_evenly() {
         for workers in [2, 3, 4, 8] {
-            let partition = Partition::new(&mesh(2764, 161), workers, Some(1));
+            let partition = Partition::new(&mesh(2764, 161), workers, Some(1), 2);
             let even = 161.0 / workers as f64;
             let largest = partition.mean_largest_load();
             assert!(largest < even + 4.0, "{workers} workers: {largest} columns instead of {even}");
@@ -269,14 +269,14 @@ mod tests {
     fn bands_are_taken_where_the_rows_can_be_shared() {
         let paper = Mesh::new(80, 2764, 161, 20e-3, 24e-3).unwrap();
         let grid = |workers| {
-            let partition = Partition::new(&paper, workers, None);
+            let partition = Partition::new(&paper, workers, None, 2);
             (partition.bands(), partition.groups())
         };
         // Ten strips: halves and fifths are equal, thirds nearly so.
         assert_eq!([grid(1), grid(2), grid(3), grid(5)], [(1, 1), (2, 1), (3, 1), (5, 1)]);
-        let partition = Partition::new(&paper, 2, None);
+        let partition = Partition::new(&paper, 2, None, 2);
         assert_eq!([partition.rows_of(0), partition.rows_of(1)], [0..40, 40..80]);
         // One strip of rows cannot be shared.
-        assert_eq!(Partition::new(&mesh(100, 10), 4, None).bands(), 1);
+        assert_eq!(Partition::new(&mesh(100, 10), 4, None, 2).bands(), 1);
     }
 }

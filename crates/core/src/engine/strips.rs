@@ -8,11 +8,9 @@ use std::ops::Range;
 use crate::engine::lanes::{Chunk, LANES};
 use crate::model::mesh::Mesh;
 
-/// Height of pin cells that are there only to fill up the last strip, m, and depth of disc cells: out of reach of each other.
+/// Height of pin cells that are there only to fill up the last strip, m, and depth of disc cells: out of reach of each other
+/// at any displacement below [`crate::model::REACH`].
 pub(super) const OUT_OF_REACH: f64 = 1e200;
-
-/// Displacements up to this size leave what is out of reach apart, m.
-pub(super) const REACH: f64 = 1e199;
 
 /// Number of strips that hold `rows` rows.
 pub fn strips(rows: usize) -> usize {

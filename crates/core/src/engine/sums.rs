@@ -1,7 +1,7 @@
-//! What the load balance and the debris need to know of all cells: exact sums, pool by pool.
+//! What the load balance and the debris need to know of all cells: exact sums.
 //!
 //! What a pair carries and loses is proportional to its overlap, with a weight of its statuses and row. So a few
-//! weighted sums of the counts of a sweep stand for all its cells; and as they are integers, those of many workers add
+//! weighted sums of the counts of a pass stand for all its cells; and as they are integers, those of many workers add
 //! up to those of one.
 
 use std::ops::Range;
@@ -11,7 +11,7 @@ use crate::engine::exact::{ExactSum, RowIntegers, Unit, Weights, of_words, produ
 use crate::engine::kernel::{Bracket, Moved, NearPair, PLATEAU, Reading, told_apart};
 use crate::engine::parts::Needs;
 use crate::model::mesh::Mesh;
-use crate::model::parameters::{DebrisRule, Parameters};
+use crate::model::parameters::Parameters;
 use serde::{Deserialize, Serialize};
 
 /// The weights of every row, for what is summed.
@@ -36,8 +36,6 @@ pub struct RowWeights {
     /// How far the initial heights of pin and disc are apart from the lowest to the highest of each, m.
     pub relief: f64,
     pub needs: Needs,
-    rows: usize,
-    pools: usize,
     /// Rows of the worker.
     own: Range<usize>,
 }
@@ -64,32 +62,8 @@ impl RowWeights {
             disc_loss: by_area(&coefficients.disc),
             pairs: told_apart(needs.distinct),
             needs,
-            rows: mesh.rows(),
-            pools: match parameters.plateaus.debris {
-                DebrisRule::Local | DebrisRule::Contact => 1,
-                DebrisRule::Track => mesh.rows(),
-            },
             own,
         }
-    }
-
-    /// Number of pools.
-    pub fn pools(&self) -> usize {
-        self.pools
-    }
-
-    /// The rows that share a pool.
-    pub fn rows_of(&self, pool: usize) -> Range<usize> {
-        let rows = self.rows / self.pools;
-        pool * rows..(pool + 1) * rows
-    }
-
-    /// Those of the worker's rows that share a pool: as rows of the mesh, and as the worker counts them.
-    fn own_rows_of(&self, pool: usize) -> (Range<usize>, Range<usize>) {
-        let Range { start, end } = self.rows_of(pool);
-        let start = start.clamp(self.own.start, self.own.end);
-        let end = end.clamp(start, self.own.end);
-        (start..end, start - self.own.start..end - self.own.start)
     }
 
     /// k A of a pair, N/m.
@@ -100,11 +74,6 @@ impl RowWeights {
     /// Raw volume that a plateau of the pin loses that begins to touch within a bracket, where all have the same properties.
     pub fn near_loss(&self, row: usize, overlap: f64) -> ExactSum {
         self.raw.exact(self.pin_loss[PLATEAU].value(row) * overlap)
-    }
-
-    /// The pool of a row.
-    pub fn pool_of(&self, row: usize) -> usize {
-        row * self.pools / self.rows
     }
 }
 
@@ -137,23 +106,21 @@ pub struct PairSums {
     pub disc_loss_rate: i128,
 }
 
-/// Sums over the cells that share a pool.
+/// Sums over all cells.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct PoolSums {
+pub struct Sums {
     /// The pairs of the coming step.
     pub pairs: [PairSums; StatusPair::COUNT],
-    /// Volume compacted on the pin beyond the even deposit, in units and quanta of the deposits.
+    /// Volume compacted on the pin, in units and quanta of the deposits.
     pub deposited_pin: i128,
     /// The same on the disc.
     pub deposited_disc: i128,
-    /// Whether an open cell had no room for the whole share: else the pool is empty.
-    pub limited: bool,
     /// Volume that plateaus of the pin lost, in units and coarse and fine quanta of the losses; only where build-up has
     /// properties of its own.
     pub lost_pin: [i128; 2],
     /// The same of the disc.
     pub lost_disc: [i128; 2],
-    /// Volume of fallen build-up.
+    /// Volume of build-up that broke away.
     pub returned: ExactSum,
     /// Volume compacted on the pin of what resin ahead lost.
     pub deposited_pin_of_resin: ExactSum,
@@ -176,69 +143,50 @@ pub struct RawLoss {
     pub near: ExactSum,
 }
 
-/// The sums of every pool.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Sums {
-    /// By pool.
-    pub pools: Vec<PoolSums>,
-}
-
 impl Sums {
-    /// All 0.
-    pub fn new(pools: usize) -> Self {
-        Self { pools: vec![PoolSums::default(); pools] }
-    }
-
     /// Takes the sums of what was read against a bracket.
     pub fn take_reading(&mut self, weights: &RowWeights, reading: &Reading, bracket: &Bracket) {
         let split = bracket.quantum.split();
-        for (pool, sums) in self.pools.iter_mut().enumerate() {
-            let (rows, here) = weights.own_rows_of(pool);
-            for pair in weights.pairs {
-                let overlaps = reading.overlap[*pair].rows(here.clone());
-                // Statuses that touch nowhere, as resin mostly, cost nothing.
-                let touches = overlaps.iter().fold(0, |any, overlap| any | overlap) != 0;
-                sums.pairs[*pair] = if touches {
-                    weights.pair_sums(*pair, rows.clone(), overlaps, &split)
-                } else {
-                    PairSums::default()
-                };
-            }
+        for pair in weights.pairs {
+            let overlaps = reading.overlap[*pair].rows(0..weights.own.len());
+            // Statuses that touch nowhere, as resin mostly, cost nothing.
+            let touches = overlaps.iter().fold(0, |any, overlap| any | overlap) != 0;
+            self.pairs[*pair] = if touches {
+                weights.pair_sums(*pair, weights.own.clone(), overlaps, &split)
+            } else {
+                PairSums::default()
+            };
         }
     }
 
-    /// Takes the sums of what a sweep moved in a step that was read against a bracket and has this displacement (m).
+    /// Takes the sums of what a pass moved in a step that was read against a bracket and has this displacement (m).
     pub fn take_moved(&mut self, weights: &RowWeights, moved: &Moved, bracket: &Bracket, displacement: f64) {
-        for (pool, sums) in self.pools.iter_mut().enumerate() {
-            let (rows, here) = weights.own_rows_of(pool);
-            let sum = |counts: &RowIntegers| weights.area.sum(rows.clone(), counts.rows(here.clone()));
-            if weights.needs.forms {
-                sums.deposited_pin = sum(&moved.deposited_pin);
-                sums.deposited_disc = sum(&moved.deposited_disc);
-                sums.limited = moved.is_limited(here.clone());
-            }
-            if weights.needs.distinct {
-                sums.lost_pin = moved.lost_pin.each_ref().map(sum);
-                sums.lost_disc = moved.lost_disc.each_ref().map(sum);
-            }
-            sums.seldom().into_iter().for_each(|sum| *sum = ExactSum::default());
-            sums.raw_through = RawLoss::default();
+        let sum = |counts: &RowIntegers| weights.area.sum(weights.own.clone(), counts.rows(0..weights.own.len()));
+        if weights.needs.forms {
+            self.deposited_pin = sum(&moved.deposited_pin);
+            self.deposited_disc = sum(&moved.deposited_disc);
         }
+        if weights.needs.distinct {
+            self.lost_pin = moved.lost_pin.each_ref().map(sum);
+            self.lost_disc = moved.lost_disc.each_ref().map(sum);
+        }
+        self.seldom().into_iter().for_each(|sum| *sum = ExactSum::default());
+        self.raw_through = RawLoss::default();
         for event in &moved.seldom {
-            let sums = &mut self.pools[weights.pool_of(event.row as usize)];
-            let area = weights.area.value(event.row as usize);
-            sums.returned.add(weights.volume.exact(event.returned * area));
-            sums.deposited_pin_of_resin.add(weights.volume.exact(event.deposited[0] * area));
-            sums.deposited_disc_of_resin.add(weights.volume.exact(event.deposited[1] * area));
+            let row = event.row as usize;
+            let area = weights.area.value(row);
+            self.returned.add(weights.volume.exact(event.returned * area));
+            self.deposited_pin_of_resin.add(weights.volume.exact(event.deposited[0] * area));
+            self.deposited_disc_of_resin.add(weights.volume.exact(event.deposited[1] * area));
             if event.worn_through > 0.0 {
-                sums.worn_through.add(weights.volume.exact(event.worn_through * area));
+                self.worn_through.add(weights.volume.exact(event.worn_through * area));
                 // As the pair was read.
                 let overlap = bracket.quantum.count_difference(bracket.low, event.gap);
                 if overlap > 0 {
-                    sums.raw_through.low += product(weights.pin_loss[PLATEAU].row(event.row as usize), overlap);
-                    sums.raw_through.rate += i128::from(weights.pin_loss[PLATEAU].row(event.row as usize));
+                    self.raw_through.low += product(weights.pin_loss[PLATEAU].row(row), overlap);
+                    self.raw_through.rate += i128::from(weights.pin_loss[PLATEAU].row(row));
                 } else {
-                    sums.raw_through.near.add(weights.near_loss(event.row as usize, displacement - event.gap));
+                    self.raw_through.near.add(weights.near_loss(row, displacement - event.gap));
                 }
             }
         }
@@ -246,46 +194,36 @@ impl Sums {
 
     /// Adds what another worker sent of a reading.
     pub fn add_reading(&mut self, weights: &RowWeights, words: &mut impl Iterator<Item = u64>) {
-        for sums in &mut self.pools {
-            for pair in weights.pairs {
-                if words.next() == Some(1) {
-                    sums.pairs[*pair].each().into_iter().for_each(|sum| *sum += of_words(words));
-                }
+        for pair in weights.pairs {
+            if words.next() == Some(1) {
+                self.pairs[*pair].each().into_iter().for_each(|sum| *sum += of_words(words));
             }
         }
     }
 
-    /// Adds what another worker sent of a sweep.
+    /// Adds what another worker sent of a pass.
     pub fn add_moved(&mut self, words: &mut impl Iterator<Item = u64>) {
-        for sums in &mut self.pools {
-            sums.counted().into_iter().for_each(|sum| *sum += of_words(words));
-            sums.limited |= words.next() == Some(1);
-            sums.seldom().into_iter().for_each(|sum| sum.add(ExactSum::of_integer(of_words(words))));
-        }
+        self.counted().into_iter().for_each(|sum| *sum += of_words(words));
+        self.seldom().into_iter().for_each(|sum| sum.add(ExactSum::of_integer(of_words(words))));
     }
 
     /// Writes what was read, for other workers.
     pub fn write_reading(&self, weights: &RowWeights, message: &mut Vec<u64>) {
-        for sums in &self.pools {
-            for pair in weights.pairs {
-                let mut pair_sums = sums.pairs[*pair];
-                let touches = pair_sums != PairSums::default();
-                message.push(u64::from(touches));
-                if touches {
-                    pair_sums.each().into_iter().for_each(|sum| message.extend(words(*sum)));
-                }
+        for pair in weights.pairs {
+            let mut sums = self.pairs[*pair];
+            let touches = sums != PairSums::default();
+            message.push(u64::from(touches));
+            if touches {
+                sums.each().into_iter().for_each(|sum| message.extend(words(*sum)));
             }
         }
     }
 
     /// Writes what was moved, for other workers.
     pub fn write_moved(&self, message: &mut Vec<u64>) {
-        for sums in &self.pools {
-            let mut sums = *sums;
-            sums.counted().into_iter().for_each(|sum| message.extend(words(*sum)));
-            message.push(u64::from(sums.limited));
-            sums.seldom().into_iter().for_each(|sum| message.extend(words(sum.integer())));
-        }
+        let mut sums = *self;
+        sums.counted().into_iter().for_each(|sum| message.extend(words(*sum)));
+        sums.seldom().into_iter().for_each(|sum| message.extend(words(sum.integer())));
     }
 }
 
@@ -323,7 +261,7 @@ impl RowWeights {
     }
 }
 
-impl PoolSums {
+impl Sums {
     /// What happens in few cells.
     fn seldom(&mut self) -> [&mut ExactSum; 5] {
         let Self { returned, deposited_pin_of_resin, deposited_disc_of_resin, worn_through, raw_through, .. } = self;

@@ -7,12 +7,13 @@ use std::thread::JoinHandle;
 
 use crossbeam::channel::{Receiver, Sender, unbounded};
 
-use crate::engine::checkpoint::{Checkpoint, Memory};
 use crate::engine::comm::threads::Alarm;
 use crate::engine::comm::{CommError, Communicator};
-use crate::engine::error::SimulationError;
-use crate::engine::history::Course;
+use crate::engine::memory::EngineMemory;
 use crate::engine::worker::Worker;
+use crate::model::error::SimulationError;
+use crate::model::history::Course;
+use crate::model::memory::{Heights, Memory};
 use crate::observe::{Map, Sample, Snapshot};
 
 /// What all workers are to do together.
@@ -22,8 +23,8 @@ enum Order {
     AdvanceTo(u64, bool),
     /// Change the acceleration.
     Accelerate(f64),
-    /// Go on from a checkpoint.
-    Restore(Arc<Checkpoint>),
+    /// Take over a state.
+    Restore(Arc<(Heights, Memory, EngineMemory)>),
     /// Tell what all workers know alike.
     Memory,
     /// Take a sample.
@@ -36,7 +37,7 @@ enum Order {
 #[derive(Debug)]
 enum Answer {
     Course(Course),
-    Memory(Box<Memory>),
+    Memory(Box<(Memory, EngineMemory)>),
     Sample(Box<Sample>),
     Snapshot(Snapshot),
 }
@@ -114,13 +115,18 @@ impl WorkerThreads {
         Ok(())
     }
 
-    /// Goes on from a checkpoint.
-    pub fn restore(&mut self, checkpoint: &Checkpoint) -> Result<(), SimulationError> {
-        self.go(&Order::Restore(Arc::new(checkpoint.clone())))
+    /// Takes over a state.
+    pub fn restore(
+        &mut self,
+        heights: &Heights,
+        memory: &Memory,
+        engine: &EngineMemory,
+    ) -> Result<(), SimulationError> {
+        self.go(&Order::Restore(Arc::new((heights.clone(), memory.clone(), engine.clone()))))
     }
 
     /// What all workers know alike.
-    pub fn memory(&mut self) -> Result<Memory, SimulationError> {
+    pub fn memory(&mut self) -> Result<(Memory, EngineMemory), SimulationError> {
         match self.ask(&Order::Memory)? {
             Answer::Memory(memory) => Ok(*memory),
             answer => unreachable!("{answer:?} to an order for the memory"),
@@ -189,7 +195,10 @@ fn follow<C: Communicator>(worker: &mut Worker<C>, order: &Order) -> Result<Answ
     match order {
         Order::AdvanceTo(step, watched) => worker.advance_to(*step, *watched).map(|()| Answer::Course(worker.course())),
         Order::Accelerate(acceleration) => worker.accelerate(*acceleration).map(|()| Answer::Course(worker.course())),
-        Order::Restore(checkpoint) => worker.restore(checkpoint).map(|()| Answer::Course(worker.course())),
+        Order::Restore(state) => {
+            let (heights, memory, engine) = &**state;
+            worker.restore(heights, memory, engine).map(|()| Answer::Course(worker.course()))
+        }
         Order::Memory => Ok(Answer::Memory(Box::new(worker.memory()))),
         Order::Sample => worker.sample().map(|sample| Answer::Sample(Box::new(sample))),
         Order::Snapshot(maps) => worker.snapshot(maps).map(Answer::Snapshot),

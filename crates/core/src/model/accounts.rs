@@ -101,6 +101,11 @@ impl Accounts {
         self.state = state;
     }
 
+    /// μ of the last step; none before the first, or without friction.
+    pub fn friction_coefficient(&self) -> Option<f64> {
+        self.state.friction.as_ref().and_then(FrictionAccount::coefficient)
+    }
+
     /// f_κ, by which the wear rates of the pin's plateaus are multiplied in the coming step.
     pub fn wear_rate_factor(&self) -> f64 {
         self.state.heat.as_ref().map_or(1.0, |heat| heat.factors().wear_rate)

@@ -34,7 +34,7 @@ impl FirstContact {
         let mut pairs = pairs(parameters, surfaces);
         pairs.sort_unstable_by(|one, other| one.gap.total_cmp(&other.gap));
         let mut at = pairs.first()?.gap;
-        let (lowest, force) = (at, parameters.normal_force);
+        let (lowest, force) = (at, parameters.usual_load());
         let [mut load, mut slope, mut contact_area] = [0.0; 3];
         // Straight from one gap to the next: the load is piecewise linear in δ.
         for pair in &pairs {

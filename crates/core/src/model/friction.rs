@@ -119,6 +119,11 @@ impl FrictionAccount {
         Self { coefficient: None, work, load_work, forces: revolution(), loads: revolution() }
     }
 
+    /// μ of the last step; none before the first.
+    pub fn coefficient(&self) -> Option<f64> {
+        self.coefficient
+    }
+
     /// Adds a step with this μ and F̄ (N) over a distance (m) at the mean radius; its work, J.
     pub fn record(&mut self, coefficient: f64, load: f64, distance: f64) -> f64 {
         let work = coefficient * load * distance;

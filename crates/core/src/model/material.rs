@@ -45,6 +45,12 @@ pub struct Materials {
     pub pin_resin: Material,
     /// h_m, m: the height that resin loses in a step in which it touches (paper Eq. 7).
     pub wear_height: f64,
+    /// κ of fibres on compacted debris, 1/Pa, where that is another than on the coating (model 4.2).
+    pub pin_primary_against_secondary: Option<f64>,
+    /// κ of the pin's compacted debris on that of the disc, 1/Pa, where that is another than on the coating (model 4.2).
+    pub pin_secondary_against_secondary: Option<f64>,
+    /// σ_b, Pa: pressed harder, build-up on resin breaks away (model 4.2a); none where it never does.
+    pub strength: Option<f64>,
 }
 
 impl Materials {
@@ -60,6 +66,38 @@ impl Materials {
     /// Material of a disc cell, which is never resin.
     pub fn disc(&self, secondary: bool) -> &Material {
         if secondary { &self.disc_secondary } else { &self.disc_primary }
+    }
+
+    /// κ of a pin cell on a disc cell, 1/Pa; 0 for resin, which does not wear by Archard's law.
+    pub fn pin_wear_rate(&self, pin: Status, disc_secondary: bool) -> f64 {
+        let against_secondary = match pin {
+            Status::Resin => return 0.0,
+            Status::Primary => self.pin_primary_against_secondary,
+            Status::Secondary => self.pin_secondary_against_secondary,
+        };
+        against_secondary.filter(|_| disc_secondary).unwrap_or(self.pin(pin).specific_wear_rate)
+    }
+
+    /// Whether a pin cell wears in another way on compacted debris than on the coating.
+    pub fn wears_by_counterface(&self) -> bool {
+        [Status::Primary, Status::Secondary]
+            .into_iter()
+            .any(|pin| self.pin_wear_rate(pin, true) != self.pin_wear_rate(pin, false))
+    }
+
+    /// The same with the wear rates of the pin's plateaus multiplied by a factor.
+    pub fn with_wear_rate_factor(&self, factor: f64) -> Self {
+        let mut materials = *self;
+        let Self { pin_primary, pin_secondary, pin_primary_against_secondary, pin_secondary_against_secondary, .. } =
+            &mut materials;
+        for rate in [&mut pin_primary.specific_wear_rate, &mut pin_secondary.specific_wear_rate]
+            .into_iter()
+            .chain(pin_primary_against_secondary)
+            .chain(pin_secondary_against_secondary)
+        {
+            *rate *= factor;
+        }
+        materials
     }
 
     /// E*, Pa: combined modulus of a pair, 1/E* = (1−ν_p²)/E_p + (1−ν_d²)/E_d (paper Eq. 5).
@@ -83,6 +121,9 @@ mod tests {
             pin_secondary: steel,
             pin_resin: Material { youngs_modulus: 1e5, ..steel },
             wear_height: 5e-6,
+            pin_primary_against_secondary: None,
+            pin_secondary_against_secondary: None,
+            strength: None,
         };
         let expected = 2e11 / (2.0 * (1.0 - 0.09));
         assert!((materials.combined_modulus(Status::Primary, false) / expected - 1.0).abs() < 1e-15);

@@ -92,7 +92,7 @@ pub struct Mesh {
     chords: Vec<Range<usize>>,
 }
 
-/// Rows and columns for which the exact sums of the engine have room: docs/stability.md has the bounds of each.
+/// Rows and columns for which the exact sums of the engine have room: docs/evidence/stability.md has the bounds of each.
 const MOST_ROWS: usize = 1 << 22;
 const MOST_COLUMNS: usize = 1 << 24;
 

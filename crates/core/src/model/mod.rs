@@ -8,7 +8,9 @@
 //! | 1, 2 | which cells face each other, and their statuses | [`step::pairs`] |
 //! | 4.1 | the displacement that carries the load | [`step::balance`] |
 //! | 4.2 | wear, build-up first | [`step::wear`] |
+//! | 4.2a | strength of build-up | [`step::break_away`] |
 //! | 4L | local debris: what wears ahead fills the gap behind it | [`step::deposit_locally`] |
+//! | 4L | the same over a transport length | [`step::deposit_over`] |
 //! | 4P | loss of support | [`step::destroy`] |
 //! | 4P | pooled debris fills open cells | [`step::form`] |
 //! | 4P | what is in a pool | [`step::pool`] |
@@ -22,10 +24,13 @@ pub mod accounts;
 pub mod clock;
 pub mod cycle;
 pub mod emission;
+pub mod error;
 pub mod first_contact;
 pub mod friction;
 pub mod heat;
+pub mod history;
 pub mod material;
+pub mod memory;
 pub mod mesh;
 pub mod outline;
 pub mod parameters;
@@ -33,6 +38,7 @@ pub(crate) mod revolution;
 pub(crate) mod running_sum;
 pub mod state;
 pub mod step;
+pub mod totals;
 mod volumes;
 
 use thiserror::Error;
@@ -79,6 +85,9 @@ impl State {
         }
     }
 }
+
+/// Displacements from this size on are out of the range of the model, m.
+pub const REACH: f64 = 1e199;
 
 /// Why no displacement carries the load.
 #[derive(Debug, Clone, PartialEq, Error)]

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use crate::model::clock::{Clock, StepOperation};
 use crate::model::cycle::Cycle;
 use crate::model::emission::Emission;
+use crate::model::error::SimulationError;
 use crate::model::friction::Friction;
 use crate::model::heat::Thermal;
 use crate::model::material::Materials;
@@ -45,6 +46,9 @@ pub struct PlateauRules {
     pub formation: bool,
     /// Whether unsupported plateaus of the pin go back to their pool; pools only.
     pub destruction: bool,
+    /// ℓ, m: over which length debris is gathered and spread; local debris only, which without it goes from one cell to the
+    /// next.
+    pub transport_length: Option<f64>,
 }
 
 impl PlateauRules {
@@ -56,6 +60,7 @@ impl PlateauRules {
         pad_share: 0.0,
         formation: true,
         destruction: false,
+        transport_length: None,
     };
 
     /// One pool for the whole contact with this captured fraction; half of a deposit goes to the pin where it can.
@@ -69,13 +74,18 @@ impl PlateauRules {
     }
 }
 
+/// Coefficient of friction below which a braking torque asks for too large a load (model 9).
+pub const LEAST_FRICTION: f64 = 0.01;
+
 /// Parameters of one simulation, in SI units.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Parameters {
     /// Ring mesh.
     pub mesh: Mesh,
-    /// F_N, N; where there is a cycle, that takes its place.
+    /// F_N, N, or where the brake is told its torque, that, N m; where there is a cycle, that takes its place.
     pub normal_force: f64,
+    /// Whether load is a braking torque, N m, that friction has to give (model 9); it needs friction.
+    pub by_torque: bool,
     /// ω, rad/s; where there is a cycle, that takes its place.
     pub angular_velocity: f64,
     /// Load and speed that change with time (model 9).
@@ -101,11 +111,7 @@ pub struct Parameters {
 impl Parameters {
     /// The same with the wear rates of the pin's plateaus multiplied by f_κ (model 11, feedback).
     pub fn with_wear_rate_factor(&self, factor: f64) -> Self {
-        let mut parameters = self.clone();
-        for material in [&mut parameters.materials.pin_primary, &mut parameters.materials.pin_secondary] {
-            material.specific_wear_rate *= factor;
-        }
-        parameters
+        Self { materials: self.materials.with_wear_rate_factor(factor), ..self.clone() }
     }
 
     /// Π with the wear rates of the temperature with which a run begins.
@@ -132,7 +138,30 @@ impl Parameters {
         }
     }
 
-    /// Load and time of a step, counted from 1, by a clock of constant operation.
+    /// L: columns over which debris is gathered and spread (model 4L); none where it goes from one cell to the next.
+    pub fn transport_columns(&self) -> Option<usize> {
+        let column = self.mesh.mean_radius() * self.mesh.column_angle();
+        self.plateaus.transport_length.map(|length| (length / column).round().max(1.0) as usize)
+    }
+
+    /// F̄ of a step, N, in whose place there may be a braking torque, with the coefficient of friction of the step before;
+    /// before the first its ceiling.
+    ///
+    /// # Errors
+    /// [`SimulationError::NoFriction`] where friction is too little to brake.
+    pub fn load_by(&self, given: f64, coefficient: Option<f64>, step: u64) -> Result<f64, SimulationError> {
+        if !self.by_torque {
+            return Ok(given);
+        }
+        let ceiling = self.friction.map_or(f64::NAN, |friction| friction.maximum);
+        let coefficient = coefficient.unwrap_or(ceiling);
+        if coefficient >= LEAST_FRICTION {
+            return Ok(given / (self.mesh.mean_radius() * coefficient));
+        }
+        Err(SimulationError::NoFriction { step, coefficient })
+    }
+
+    /// Load and time of a step, counted from 1, by a clock of constant operation. A braking torque stands for the load.
     pub fn operation_of(&self, step: u64, clock: &Clock) -> StepOperation {
         match &self.cycle {
             Some(cycle) => cycle.step(step, self.step_angle()),
@@ -165,7 +194,7 @@ impl Parameters {
         if self.cycle.is_some() { steps as f64 * self.step_angle() } else { time * self.angular_velocity }
     }
 
-    /// The load of a step, counted from 1, N.
+    /// The load of a step, counted from 1, N; or its braking torque, N m.
     pub fn load_of(&self, step: u64) -> f64 {
         self.operation_of(step, &self.clock()).load
     }
@@ -176,9 +205,15 @@ impl Parameters {
         self.cycle.as_ref().map_or(self.normal_force, |cycle| cycle.step(1, steps as f64 * self.step_angle()).load)
     }
 
-    /// The largest load of any step, N.
+    /// F_N, N; of a braking torque the load that it asks for where friction is at its ceiling, as in the first step.
+    pub fn usual_load(&self) -> f64 {
+        self.load_by(self.normal_force, None, 1).unwrap_or(f64::NAN)
+    }
+
+    /// What no load of any step is above, N.
     pub fn largest_load(&self) -> f64 {
-        self.cycle.as_ref().map_or(self.normal_force, |cycle| cycle.largest_force())
+        let largest = self.cycle.as_ref().map_or(self.normal_force, |cycle| cycle.largest_force());
+        if self.by_torque { largest / (self.mesh.mean_radius() * LEAST_FRICTION) } else { largest }
     }
 
     /// Π = κ k m r Δθ at the outer radius for the fastest wearing pair: above 1 the explicit rule overshoots, above 2
@@ -190,8 +225,7 @@ impl Parameters {
         let mut largest = 0.0_f64;
         for pin in [Primary, Secondary] {
             for disc in [false, true] {
-                let wear_rate =
-                    self.materials.pin(pin).specific_wear_rate + self.materials.disc(disc).specific_wear_rate;
+                let wear_rate = self.materials.pin_wear_rate(pin, disc) + self.materials.disc(disc).specific_wear_rate;
                 let stiffness = self.materials.combined_modulus(pin, disc) / self.foundation_height;
                 largest = largest.max(wear_rate * stiffness * sliding);
             }

@@ -3,7 +3,9 @@
 //! Fields are column by column: the pin cell in row i and column j is number j · rows + i, and its neighbour in the sliding
 //! direction is number (j + 1) · rows + i. Pairs are in the same order; a cell beyond the pin's outline has none.
 
-use super::{ContactError, State, Step, Volumes};
+use std::iter::successors;
+
+use super::{ContactError, REACH, State, Step, Volumes};
 use crate::model::material::Status;
 use crate::model::parameters::{DebrisRule, Integrator, Parameters};
 use crate::model::state::disc_status;
@@ -42,19 +44,31 @@ pub struct Loss {
     pub resin: f64,
     /// Δh_d.
     pub disc: f64,
+    /// Build-up of the pin that broke away, m.
+    pub returned: f64,
 }
 
-/// One step: every rule sees the statuses, gaps and contact of its start.
+/// One step under the load of the operation, which is no braking torque.
 ///
 /// # Errors
 /// [`ContactError`] when no displacement carries the load.
 pub fn advance(parameters: &Parameters, state: &mut State) -> Result<Step, ContactError> {
+    advance_under(parameters.load_of(state.steps + 1), parameters, state)
+}
+
+/// One step under a load, N: every rule sees the statuses, gaps and contact of its start.
+///
+/// # Errors
+/// [`ContactError`] when no displacement carries the load.
+pub fn advance_under(load: f64, parameters: &Parameters, state: &mut State) -> Result<Step, ContactError> {
     let pairs = pairs(parameters, state);
-    let load = parameters.load_of(state.steps + 1);
     let displacement = balance(load, &pairs)?;
     let overlaps: Vec<f64> = pairs.iter().map(|pair| (displacement - pair.gap).max(0.0)).collect();
-    let losses: Vec<Loss> =
+    let mut losses: Vec<Loss> =
         pairs.iter().zip(&overlaps).map(|(pair, overlap)| wear(parameters, state, pair, *overlap)).collect();
+    for ((pair, overlap), loss) in pairs.iter().zip(&overlaps).zip(&mut losses) {
+        loss.returned = break_away(parameters, state, pair, *overlap);
+    }
     let cells = parameters.mesh.pin_cells();
     let mut step = Step {
         load,
@@ -63,7 +77,10 @@ pub fn advance(parameters: &Parameters, state: &mut State) -> Result<Step, Conta
         contact: vec![false; cells],
         pin_status: vec![Status::Resin; cells],
         moved: match parameters.plateaus.debris {
-            DebrisRule::Local => deposit_locally(parameters, state, &pairs, displacement, &losses),
+            DebrisRule::Local => match parameters.transport_columns() {
+                None => deposit_locally(parameters, state, &pairs, displacement, &losses),
+                Some(columns) => deposit_over(columns, parameters, state, &pairs, displacement, &losses),
+            },
             DebrisRule::Contact | DebrisRule::Track => pool(parameters, state, &pairs, displacement, &losses),
         },
     };
@@ -110,7 +127,8 @@ pub fn pairs(parameters: &Parameters, state: &State) -> Vec<Pair> {
 /// piece on which it lies.
 ///
 /// # Errors
-/// [`ContactError::NotFinite`] when heights, stiffness or load are not finite.
+/// [`ContactError::NotFinite`] when heights, stiffness or load leave the range of numbers, [`ContactError::NotCarried`] when
+/// rounding leaves no overlap.
 pub fn balance(normal_force: f64, pairs: &[Pair]) -> Result<f64, ContactError> {
     let mut in_order: Vec<&Pair> = pairs.iter().collect();
     in_order.sort_by(|a, b| a.gap.total_cmp(&b.gap));
@@ -126,8 +144,11 @@ pub fn balance(normal_force: f64, pairs: &[Pair]) -> Result<f64, ContactError> {
             break;
         }
     }
-    if !(displacement.is_finite() && normal_force.is_finite()) {
+    if !(displacement.abs() < REACH && normal_force.is_finite()) {
         return Err(ContactError::NotFinite { displacement, load: slope * (displacement - lowest), normal_force });
+    }
+    if displacement <= lowest {
+        return Err(ContactError::NotCarried { displacement, normal_force });
     }
     Ok(displacement)
 }
@@ -151,14 +172,12 @@ pub fn wear(parameters: &Parameters, state: &mut State, pair: &Pair, overlap: f6
     };
     let State { disc, pin, .. } = state;
     let on_resin = pin.base[cell].is_resin();
-    let rate_of_disc = materials.disc(pair.disc_status == Status::Secondary).specific_wear_rate;
-    let rate_of_pin = match pair.pin_status {
-        Status::Resin => 0.0,
-        plateau => materials.pin(plateau).specific_wear_rate,
-    };
+    let on_secondary = pair.disc_status == Status::Secondary;
+    let rate_of_disc = materials.disc(on_secondary).specific_wear_rate;
+    let rate_of_pin = materials.pin_wear_rate(pair.pin_status, on_secondary);
 
     let build_up = pin.substrate[cell] - pin.height[cell];
-    let fibre = if on_resin { 0.0 } else { raw(materials.pin_primary.specific_wear_rate, rate_of_disc) };
+    let fibre = if on_resin { 0.0 } else { raw(materials.pin_wear_rate(Status::Primary, on_secondary), rate_of_disc) };
     let of_pin = match pair.pin_status {
         Status::Resin => [0.0, materials.wear_height],
         _ => build_up_first(build_up, raw(rate_of_pin, rate_of_disc), fibre),
@@ -173,7 +192,23 @@ pub fn wear(parameters: &Parameters, state: &mut State, pair: &Pair, overlap: f6
     disc.substrate[pair.disc] = disc.substrate[pair.disc].min(disc.height[pair.disc]);
 
     let [pin, disc] = [of_pin, of_disc].map(|[build_up, substrate]| build_up + substrate);
-    if pair.pin_status == Status::Resin { Loss { resin: pin, disc, pin: 0.0 } } else { Loss { pin, disc, resin: 0.0 } }
+    match pair.pin_status {
+        Status::Resin => Loss { resin: pin, disc, ..Loss::default() },
+        _ => Loss { pin, disc, ..Loss::default() },
+    }
+}
+
+/// Model 4.2a: build-up on resin that is pressed harder than its strength breaks away; what wear left of it, m.
+pub fn break_away(parameters: &Parameters, state: &mut State, pair: &Pair, overlap: f64) -> f64 {
+    let Some(strength) = parameters.materials.strength else { return 0.0 };
+    let (pin, cell) = (&mut state.pin, pair.pin);
+    let is_pressed = overlap > 0.0 && pair.stiffness * overlap > strength;
+    if !(is_pressed && pair.pin_status == Status::Secondary && pin.base[cell].is_resin()) {
+        return 0.0;
+    }
+    let build_up = pin.substrate[cell] - pin.height[cell];
+    pin.height[cell] = pin.substrate[cell];
+    build_up
 }
 
 /// What a cell loses of its build-up t and of its substrate, m: t first, then (1 − t/Δh) of the substrate's own raw loss.
@@ -201,9 +236,10 @@ fn captured(parameters: &Parameters, loss: &Loss) -> f64 {
     rules.captured_fraction * (loss.pin + loss.disc) + rules.captured_of_resin() * loss.resin
 }
 
-/// Σ A Δh over some pairs, by what wore, m³.
+/// Σ A Δh over some pairs, by what wore, and what broke away, m³.
 fn worn<'a>(worn: impl Iterator<Item = (&'a Pair, &'a Loss)>) -> Volumes {
     worn.fold(Volumes::default(), |sum, (pair, loss)| Volumes {
+        returned: sum.returned + pair.area * loss.returned,
         worn_pin: sum.worn_pin + pair.area * loss.pin,
         worn_resin: sum.worn_resin + pair.area * loss.resin,
         worn_disc: sum.worn_disc + pair.area * loss.disc,
@@ -219,30 +255,82 @@ pub fn deposit_locally(
     displacement: f64,
     losses: &[Loss],
 ) -> Volumes {
-    let State { disc, pin, reference_height, .. } = state;
     let mut moved = worn(pairs.iter().zip(losses));
     for pair in pairs {
         // The neighbour's own deposit comes after: pairs are in order, so its height is that after wear.
         let touches = displacement > pair.gap;
         let Some(ahead) = pair.ahead.filter(|_| parameters.plateaus.formation && !touches) else { continue };
-        let (z_p, z_d) = (pin.height[pair.pin], disc.height[pair.disc]);
-        let clearance = z_p - z_d - displacement;
-        let to_plateau = if pair.plateau_ahead { (z_p - pin.height[pairs[ahead].pin]).max(0.0) } else { 0.0 };
-        let to_reference = (*reference_height - z_d).max(0.0);
-        let deposit = clearance.min(to_plateau + to_reference).min(captured(parameters, &losses[ahead]));
-        let on_pin = deposit.min(to_plateau);
-        pin.height[pair.pin] -= on_pin;
-        disc.height[pair.disc] += deposit - on_pin;
-        moved.deposited_pin += pair.area * on_pin;
-        moved.deposited_disc += pair.area * (deposit - on_pin);
+        let plateau = pair.plateau_ahead.then(|| state.pin.height[pairs[ahead].pin]);
+        compact(captured(parameters, &losses[ahead]), pair, plateau, displacement, state, &mut moved);
     }
-    moved.emitted = moved.worn_pin + moved.worn_resin + moved.worn_disc - moved.deposited_pin - moved.deposited_disc;
+    moved.emitted = emitted(&moved);
+    moved
+}
+
+/// Fills the gap of an open pair with what is caught of debris, m: first the pin, up to the height of the plateau ahead if there is
+/// one, then the disc, up to its highest initial height.
+fn compact(caught: f64, pair: &Pair, plateau: Option<f64>, displacement: f64, state: &mut State, moved: &mut Volumes) {
+    let State { disc, pin, reference_height, .. } = state;
+    let (z_p, z_d) = (pin.height[pair.pin], disc.height[pair.disc]);
+    let clearance = z_p - z_d - displacement;
+    let to_plateau = plateau.map_or(0.0, |plateau| (z_p - plateau).max(0.0));
+    let to_reference = (*reference_height - z_d).max(0.0);
+    let deposit = clearance.min(to_plateau + to_reference).min(caught).max(0.0);
+    let on_pin = deposit.min(to_plateau);
+    pin.height[pair.pin] -= on_pin;
+    disc.height[pair.disc] += deposit - on_pin;
+    moved.deposited_pin += pair.area * on_pin;
+    moved.deposited_disc += pair.area * (deposit - on_pin);
+}
+
+/// What finds no room leaves the contact, m³.
+fn emitted(moved: &Volumes) -> f64 {
+    let Volumes { worn_pin, worn_resin, worn_disc, returned, deposited_pin, deposited_disc, .. } = moved;
+    worn_pin + worn_resin + worn_disc + returned - deposited_pin - deposited_disc
+}
+
+/// Model 4L with a transport length of so many columns: what plateaus lose within that length ahead of an edge fills the open
+/// cells within that length behind it, and the rest leaves the contact.
+pub fn deposit_over(
+    columns: usize,
+    parameters: &Parameters,
+    state: &mut State,
+    pairs: &[Pair],
+    displacement: f64,
+    losses: &[Loss],
+) -> Volumes {
+    let mut moved = worn(pairs.iter().zip(losses));
+    // Room on the pin is that beside the neighbour before any deposit of this step.
+    let height_worn = state.pin.height.clone();
+    let touches = |place: usize| displacement > pairs[place].gap;
+    // The place of the pair behind another.
+    let mut behind = vec![None; pairs.len()];
+    for (place, pair) in pairs.iter().enumerate() {
+        pair.ahead.into_iter().for_each(|ahead| behind[ahead] = Some(place));
+    }
+    let is_edge = |place: &usize| !touches(*place) && pairs[*place].ahead.is_some_and(touches);
+    for edge in (0..pairs.len()).filter(|place| parameters.plateaus.formation && is_edge(place)) {
+        let gathered = successors(pairs[edge].ahead, |place| pairs[*place].ahead).take_while(|place| touches(*place));
+        let lost = |place: usize| match pairs[place].pin_status {
+            Status::Resin => 0.0,
+            _ => losses[place].pin + losses[place].disc,
+        };
+        let sum: f64 = gathered.take(columns).map(lost).sum();
+        let share = parameters.plateaus.captured_fraction * sum / columns as f64;
+        let open = successors(Some(edge), |place| behind[*place]).take_while(|place| !touches(*place));
+        for pair in open.take(columns).map(|place| &pairs[place]) {
+            let ahead = pair.ahead.filter(|_| pair.plateau_ahead);
+            let plateau = ahead.map(|ahead| height_worn[pairs[ahead].pin]);
+            compact(share, pair, plateau, displacement, state, &mut moved);
+        }
+    }
+    moved.emitted = emitted(&moved);
     moved
 }
 
 /// Model 4P, pooled debris: destruction, formation and balance of each pool.
 pub fn pool(parameters: &Parameters, state: &mut State, pairs: &[Pair], displacement: f64, losses: &[Loss]) -> Volumes {
-    let mut all = Volumes::default();
+    let (mut all, rules) = (Volumes::default(), &parameters.plateaus);
     for pool in 0..state.pools.len() {
         let is_of_pool = |row| parameters.plateaus.debris == DebrisRule::Contact || row == pool;
         let of_pool = || pairs.iter().zip(losses).filter(|(pair, _)| is_of_pool(pair.row));
@@ -250,7 +338,7 @@ pub fn pool(parameters: &Parameters, state: &mut State, pairs: &[Pair], displace
         let captured = of_pool().map(|(pair, loss)| pair.area * captured(parameters, loss)).sum::<f64>();
         let pairs: Vec<&Pair> = of_pool().map(|(pair, _)| pair).collect();
         if parameters.plateaus.destruction {
-            moved.returned = destroy(state, &pairs);
+            moved.returned += destroy(state, &pairs);
         }
         let mut is_emptied = false;
         if parameters.plateaus.formation {
@@ -260,7 +348,10 @@ pub fn pool(parameters: &Parameters, state: &mut State, pairs: &[Pair], displace
         }
         let rest = if is_emptied { 0.0 } else { state.pools[pool] - moved.deposited_pin - moved.deposited_disc };
         state.pools[pool] = rest + captured + moved.returned;
-        moved.emitted = moved.worn_pin + moved.worn_resin + moved.worn_disc - captured;
+        // Not what remains of the captured volume: with η = 1 nothing is emitted, not even what rounding leaves.
+        let [of_plateaus, of_resin] =
+            [rules.captured_fraction, rules.captured_of_resin()].map(|captured| 1.0 - captured);
+        moved.emitted = of_plateaus * (moved.worn_pin + moved.worn_disc) + of_resin * moved.worn_resin;
         all = all + moved;
     }
     all

@@ -16,7 +16,7 @@ pub fn pulse_time(parameters: &Parameters, base: &[Base]) -> Option<f64> {
     let (materials, mesh) = (&parameters.materials, &parameters.mesh);
     let fibre_area = fibre_fraction(base, mesh) * mesh.pin_area();
     let sliding_speed = parameters.angular_velocity * mesh.mean_radius();
-    let worn_per_second = materials.pin_primary.specific_wear_rate * parameters.normal_force * sliding_speed;
+    let worn_per_second = materials.pin_primary.specific_wear_rate * parameters.usual_load() * sliding_speed;
     let time = materials.wear_height * fibre_area / worn_per_second;
     (time > 0.0 && time.is_finite()).then_some(time)
 }

@@ -1,5 +1,6 @@
 //! A pin on a disc, from its first step to its last (model section 4).
 
+pub mod checkpoint;
 mod observation;
 mod plain;
 mod workers;
@@ -8,15 +9,14 @@ use std::sync::Arc;
 
 use self::checkpoint::{Checkpoint, LastContact};
 use self::workers::Workers;
-pub use crate::engine::checkpoint;
 #[cfg(feature = "mpi")]
 use crate::engine::comm::{Communicator as _, mpi::Mpi};
-pub use crate::engine::error::SimulationError;
 pub use crate::engine::execution::{Engine, Execution};
-pub use crate::engine::history::Course;
 #[cfg(feature = "mpi")]
 use crate::engine::kernel::InstructionSet;
 use crate::model::accounts::Resting;
+pub use crate::model::error::SimulationError;
+pub use crate::model::history::Course;
 use crate::model::mesh::Mesh;
 use crate::model::parameters::Parameters;
 use crate::model::state::{Base, InitialSurfaces};
@@ -77,6 +77,7 @@ impl Simulation {
     ) -> Result<Self, SimulationError> {
         let mesh = &parameters.mesh;
         check(mesh, &surfaces)?;
+        execution.engine = execution.engine.of(&parameters);
         // A sector has at least two columns.
         let most = if execution.engine == Engine::Plain { 1 } else { (mesh.disc_columns() / 2).max(1) };
         execution.workers = execution.workers.clamp(1, most);
@@ -91,7 +92,7 @@ impl Simulation {
     /// sectors, the last ones have no cells and only keep pace.
     ///
     /// # Errors
-    /// [`SimulationError`] as [`Simulation::new`].
+    /// [`SimulationError`] as [`Simulation::new`]; [`SimulationError::PlainOnRanks`] where debris is pooled.
     #[cfg(feature = "mpi")]
     pub fn on_ranks(
         parameters: Parameters,
@@ -100,6 +101,9 @@ impl Simulation {
         communicator: Mpi,
     ) -> Result<Self, SimulationError> {
         check(&parameters.mesh, &surfaces)?;
+        if Engine::Fast.of(&parameters) == Engine::Plain {
+            return Err(SimulationError::PlainOnRanks { ranks: communicator.size() });
+        }
         let parameters = Arc::new(parameters);
         let execution = Execution { workers: communicator.size(), instructions, ..Execution::default() };
         let workers = Workers::on_ranks(&parameters, &surfaces, execution, communicator);
@@ -150,7 +154,12 @@ impl Simulation {
     /// [`SimulationError::Worker`] when a worker failed.
     pub fn restore(&mut self, checkpoint: &Checkpoint) -> Result<(), SimulationError> {
         checkpoint.check(&self.parameters.mesh)?;
-        if let Some(what) = checkpoint.memory.misfit(&self.workers.memory()?) {
+        let (found, expected) = (checkpoint.engine().name(), self.execution.engine.name());
+        if found != expected {
+            return Err(SimulationError::OtherEngine { found, expected });
+        }
+        let (memory, engine) = self.workers.memory()?;
+        if let Some(what) = checkpoint.misfit(&memory, engine.as_ref()) {
             return Err(SimulationError::OtherState { what });
         }
         self.workers.restore(checkpoint)?;

@@ -1,13 +1,14 @@
 //! What a simulation is like between two steps: samples, maps, surfaces, checkpoints.
 
+use super::checkpoint::{Checkpoint, LastContact};
 use super::{LastMoment, Simulation};
-use crate::engine::checkpoint::{Checkpoint, LastContact};
-use crate::engine::error::SimulationError;
-use crate::engine::history::Course;
 use crate::model::accounts::{AccountsReport, Resting};
 use crate::model::cycle::Kind;
+use crate::model::error::SimulationError;
 use crate::model::heat::account::HeatModel;
 use crate::model::heat::map;
+use crate::model::history::Course;
+use crate::model::memory::Heights;
 use crate::model::state::{Disc, Pin};
 use crate::observe::extra::Extra;
 use crate::observe::schedule::Moment;
@@ -259,7 +260,7 @@ impl Simulation {
     pub fn checkpoint(&mut self) -> Result<Checkpoint, SimulationError> {
         let [disc_height, disc_substrate] = self.fields([Map::DiscHeight, Map::DiscSubstrate])?;
         let [pin_height, pin_substrate] = self.fields([Map::PinHeight, Map::PinSubstrate])?;
-        let memory = self.workers.memory()?;
+        let (memory, engine) = self.workers.memory()?;
         let rows = self.parameters.mesh.rows();
         let fields = [
             ("height of the disc", &disc_height),
@@ -272,7 +273,8 @@ impl Simulation {
             self.refuse_not_finite(values.iter().copied(), name)?;
         }
         let contact = self.last_contact().cloned();
-        Ok(Checkpoint { disc_height, disc_substrate, pin_height, pin_substrate, contact, memory })
+        let heights = Heights { disc_height, disc_substrate, pin_height, pin_substrate };
+        Ok(Checkpoint { heights, contact, memory, engine })
     }
 
     /// Looks at all heights: one that is no number is followed by others, and shows in no series for a while.

@@ -2,17 +2,16 @@
 
 use std::sync::Arc;
 
-use crate::engine::checkpoint::{Checkpoint, Memory};
-use crate::engine::debris::{Account, Totals};
-use crate::engine::error::SimulationError;
-use crate::engine::execution::Engine;
-use crate::engine::history::{Course, History};
 use crate::model::accounts::{Accounts, AccountsReport, StepFacts};
 use crate::model::clock::Clock;
+use crate::model::error::SimulationError;
+use crate::model::history::{Course, History};
 use crate::model::material::Status;
+use crate::model::memory::{Heights, Memory};
 use crate::model::parameters::Parameters;
 use crate::model::running_sum::RunningSum;
 use crate::model::state::InitialSurfaces;
+use crate::model::totals::{Account, Totals};
 use crate::model::{State, Step, step};
 use crate::observe::{Map, MapValues, Sample, Snapshot};
 
@@ -67,14 +66,17 @@ impl Plain {
                 accounts.begin(self.course.steps + 1, self.parameters.step_angle());
                 self.wear_as_accounted();
             }
-            let taken = step::advance(&self.worn_with, &mut self.state)
+            let mut operation = self.parameters.operation_of(self.course.steps + 1, &self.clock);
+            let friction = self.accounts.as_ref().and_then(Accounts::friction_coefficient);
+            operation.load = self.parameters.load_by(operation.load, friction, self.course.steps + 1)?;
+            let taken = step::advance_under(operation.load, &self.worn_with, &mut self.state)
                 .map_err(|source| SimulationError::Contact { step: self.course.steps + 1, source })?;
             let area = self.parameters.mesh.area().iter().cycle();
             let cells = taken.contact.iter().zip(area);
             self.course.contact_area = cells.filter(|(touches, _)| **touches).map(|(_, area)| area).sum();
             self.course.largest_load_residual = self.course.largest_load_residual.max(self.load_residual(&taken));
             self.course.steps += 1;
-            let operation = self.parameters.operation_of(self.course.steps, &self.clock);
+            self.course.load = operation.load;
             self.history.record(self.course.contact_area, &operation);
             self.course.time = operation.end;
             self.totals.add(&taken.moved);
@@ -131,20 +133,16 @@ impl Plain {
             account: Account { pools: self.state.pools.iter().map(pool).collect(), totals: self.totals },
             history: self.history.clone(),
             accounts: self.accounts.as_ref().map(|accounts| accounts.state().clone()),
-            engine: None,
         }
     }
 
     /// Takes over the state of a plain simulation of the same parameters and surfaces.
-    pub fn restore(&mut self, checkpoint: &Checkpoint) -> Result<(), SimulationError> {
-        let Memory { course, clock, time_acceleration, account, history, accounts, engine } = checkpoint.memory.clone();
-        if engine.is_some() {
-            return Err(SimulationError::OtherEngine { found: Engine::Fast, expected: Engine::Plain });
-        }
+    pub fn restore(&mut self, heights: &Heights, memory: &Memory) {
+        let Memory { course, clock, time_acceleration, account, history, accounts } = memory.clone();
         self.parameters = Arc::new(Parameters { time_acceleration, ..Parameters::clone(&self.parameters) });
         let State { disc, pin, pools, steps, .. } = &mut self.state;
-        (disc.height, disc.substrate) = (checkpoint.disc_height.clone(), checkpoint.disc_substrate.clone());
-        (pin.height, pin.substrate) = (checkpoint.pin_height.clone(), checkpoint.pin_substrate.clone());
+        (disc.height, disc.substrate) = (heights.disc_height.clone(), heights.disc_substrate.clone());
+        (pin.height, pin.substrate) = (heights.pin_height.clone(), heights.pin_substrate.clone());
         *pools = account.pools.iter().map(RunningSum::value).collect();
         *steps = course.steps;
         (self.course, self.clock, self.history, self.totals) = (course, clock, history, account.totals);
@@ -153,7 +151,6 @@ impl Plain {
             own.restore(state);
         }
         self.wear_as_accounted();
-        Ok(())
     }
 
     /// The last step, for those who report its pressures; none before the first.

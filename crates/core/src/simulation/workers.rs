@@ -2,20 +2,23 @@
 
 use std::sync::Arc;
 
+use super::checkpoint::Checkpoint;
 use super::plain::Plain;
-use crate::engine::checkpoint::{Checkpoint, Memory};
 #[cfg(feature = "mpi")]
 use crate::engine::comm::mpi::Mpi;
 use crate::engine::comm::single::Single;
 use crate::engine::comm::threads::Threads;
-use crate::engine::error::SimulationError;
 use crate::engine::execution::{Engine, Execution};
-use crate::engine::history::Course;
+use crate::engine::kernel::transport_columns;
+use crate::engine::memory::EngineMemory;
 use crate::engine::parts::Needs;
 use crate::engine::sector::Partition;
-use crate::engine::worker::{Worker, halo_words};
+use crate::engine::worker::{Worker, halo_words, waiting_columns};
 use crate::engine::worker_threads::WorkerThreads;
 use crate::model::accounts::Accounts;
+use crate::model::error::SimulationError;
+use crate::model::history::Course;
+use crate::model::memory::Memory;
 use crate::model::parameters::Parameters;
 use crate::model::state::InitialSurfaces;
 use crate::observe::{Map, Sample, Snapshot};
@@ -58,12 +61,14 @@ impl Workers {
         if execution.engine == Engine::Plain {
             return Ok(Self::Plain(Box::new(Plain::new(parameters.clone(), surfaces, turned))));
         }
-        let partition = Arc::new(Partition::new(&parameters.mesh, execution.workers, execution.bands));
+        let shortest = waiting_columns(transport_columns(parameters)) + 1;
+        let partition = Arc::new(Partition::new(&parameters.mesh, execution.workers, execution.bands, shortest));
         if execution.workers == 1 {
             let worker = Worker::new(parameters.clone(), &surfaces, partition, execution, turned, Single);
             return Ok(Self::One(Box::new(worker)));
         }
-        let halo_words = halo_words(parameters.mesh.rows(), Needs::of(parameters).local);
+        let transport = transport_columns(parameters);
+        let halo_words = halo_words(parameters.mesh.rows(), Needs::of(parameters).forms, transport);
         let boundaries = if partition.groups() > 1 { partition.sectors() * partition.bands() } else { 0 };
         let worker = |end: Threads| {
             let alarm = end.alarm();
@@ -83,7 +88,8 @@ impl Workers {
         execution: Execution,
         communicator: Mpi,
     ) -> Self {
-        let partition = Arc::new(Partition::new(&parameters.mesh, execution.workers, execution.bands));
+        let shortest = waiting_columns(transport_columns(parameters)) + 1;
+        let partition = Arc::new(Partition::new(&parameters.mesh, execution.workers, execution.bands, shortest));
         Self::Rank(Box::new(Worker::new(parameters.clone(), surfaces, partition, execution, 0, communicator)))
     }
 
@@ -98,28 +104,40 @@ impl Workers {
     }
 
     /// What is kept beside the surfaces.
-    pub fn memory(&mut self) -> Result<Memory, SimulationError> {
-        match self {
-            Self::One(worker) => Ok(worker.memory()),
-            Self::Threads(threads) => threads.memory(),
+    pub fn memory(&mut self) -> Result<(Memory, Option<EngineMemory>), SimulationError> {
+        let (memory, engine) = match self {
+            Self::One(worker) => worker.memory(),
+            Self::Threads(threads) => threads.memory()?,
             #[cfg(feature = "mpi")]
-            Self::Rank(worker) => Ok(worker.memory()),
-            Self::Plain(plain) => Ok(plain.memory()),
-        }
+            Self::Rank(worker) => worker.memory(),
+            Self::Plain(plain) => return Ok((plain.memory(), None)),
+        };
+        Ok((memory, Some(engine)))
     }
 
     /// The accounts of friction, heat and emission, where the scene asks for any.
     pub fn accounts(&mut self, parameters: &Parameters) -> Result<Option<Accounts>, SimulationError> {
-        let state = self.memory()?.accounts;
+        let state = self.memory()?.0.accounts;
         Ok(Accounts::of(parameters).zip(state).map(|(mut accounts, state)| {
             accounts.restore(state);
             accounts
         }))
     }
 
-    /// Takes over the state of a simulation of the same parameters and surfaces.
+    /// Takes over the state of a simulation of the same parameters and surfaces, of the same engine.
     pub fn restore(&mut self, checkpoint: &Checkpoint) -> Result<(), SimulationError> {
-        call!(self, worker => worker.restore(checkpoint))
+        let Checkpoint { heights, memory, engine, .. } = checkpoint;
+        match (self, engine) {
+            (Self::One(worker), Some(engine)) => worker.restore(heights, memory, engine),
+            (Self::Threads(threads), Some(engine)) => threads.restore(heights, memory, engine),
+            #[cfg(feature = "mpi")]
+            (Self::Rank(worker), Some(engine)) => worker.restore(heights, memory, engine),
+            (Self::Plain(plain), None) => {
+                plain.restore(heights, memory);
+                Ok(())
+            }
+            _ => Err(SimulationError::OtherState { what: "an engine" }),
+        }
     }
 
     /// The reported quantities after the last step.

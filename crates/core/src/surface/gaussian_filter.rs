@@ -1,14 +1,22 @@
-//! The areal linear Gaussian filter.
+//! The areal linear Gaussian filter, and lines continued by their mirror image.
 
 use std::f64::consts::{LN_2, PI};
 
 use rayon::prelude::*;
 
 use super::level::rms;
-use super::mirrored::mirrored;
 use super::preparation_error::PreparationError;
 use super::report::change;
 use super::{Length, Patch};
+
+/// Index of the point that lies `at` - `reach` points after the first of `count`, mirrored at either end: the end points
+/// come twice, so that the mirror stands half a pitch beyond them.
+pub(super) fn mirrored(at: usize, reach: usize, count: usize) -> usize {
+    // A whole number of periods is added so that the difference is not negative.
+    let period = 2 * count;
+    let place = (at + reach.div_ceil(period) * period - reach) % period;
+    place.min(period - 1 - place)
+}
 
 /// Weights smaller than this, by the one in the middle, are left out.
 const SMALLEST_WEIGHT: f64 = 1e-16;
@@ -118,4 +126,15 @@ fn filtered(heights: &[f64], length: usize, weights: &[f64], closed: bool) -> Ve
 /// Lines of so many points exchanged with what stands across them.
 fn transposed(heights: &[f64], length: usize) -> Vec<f64> {
     (0..length).flat_map(|at| heights.iter().skip(at).step_by(length)).copied().collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::mirrored;
+
+    #[test]
+    fn mirrors_at_the_edges() {
+        let places: Vec<usize> = (0..13).map(|at| mirrored(at, 5, 3)).collect();
+        assert_eq!(places, [1, 2, 2, 1, 0, 0, 1, 2, 2, 1, 0, 0, 1]);
+    }
 }

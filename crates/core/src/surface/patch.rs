@@ -1,4 +1,42 @@
-//! Heights on a rectangular grid, as an instrument gives them.
+//! Heights on a rectangular grid, as an instrument gives them, and lengths in messages.
+
+use std::fmt;
+
+/// A length in m, printed with four digits in the unit that suits it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Length(pub f64);
+
+impl fmt::Display for Length {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let size = self.0.abs();
+        let (per_metre, unit) = if size == 0.0 || !size.is_finite() {
+            (1.0, "m")
+        } else if size < 0.9995e-6 {
+            (1e9, "nm")
+        } else if size < 0.9995e-3 {
+            (1e6, "um")
+        } else if size < 0.9995 {
+            (1e3, "mm")
+        } else {
+            (1.0, "m")
+        };
+        let value = self.0 * per_metre;
+        if value.is_finite() && size != 0.0 && !(1e-3..1e6).contains(&value.abs()) {
+            return write!(f, "{value:.3e} {unit}");
+        }
+        // Four significant digits, without the zeros that would pretend more.
+        let digits = match value.abs() {
+            v if v >= 1000.0 => 0,
+            v if v >= 100.0 => 1,
+            v if v >= 10.0 => 2,
+            v if v >= 1.0 => 3,
+            _ => 6,
+        };
+        let text = format!("{value:.digits$}");
+        let text = if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { &text };
+        write!(f, "{text} {unit}")
+    }
+}
 
 /// Heights on a rectangular grid with x along the sliding direction and y outward.
 ///
@@ -31,5 +69,28 @@ impl Patch {
     /// Extent along y, m.
     pub fn height(&self) -> f64 {
         self.rows as f64 * self.row_pitch
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Length;
+
+    #[test]
+    fn chooses_the_unit() {
+        for (metres, text) in [
+            (0.0, "0 m"),
+            (1.953125e-9, "1.953 nm"),
+            (1e-300, "1.000e-291 nm"),
+            (-2e-13, "-2.000e-4 nm"),
+            (1e308, "1.000e308 m"),
+            (5e-5, "50 um"),
+            (-3e-6, "-3 um"),
+            (0.13823, "138.2 mm"),
+            (1e-3, "1 mm"),
+            (12.5, "12.5 m"),
+        ] {
+            assert_eq!(Length(metres).to_string(), text);
+        }
     }
 }

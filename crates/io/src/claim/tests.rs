@@ -207,12 +207,12 @@ fn what_was_left_while_a_right_was_taken_goes_too() {
     ended.wait().unwrap();
     let unfinished = |target: &Path| {
         let name = target.file_name().unwrap().to_string_lossy().into_owned();
-        format!(".{name}.plateau-{process}-{}.tmp", random::word())
+        format!(".{name}.plateau-{process}-{}.tmp", temporary::unique_word())
     };
-    for name in [unfinished(&right), unfinished(&right_to(&right, &random::word()))] {
+    for name in [unfinished(&right), unfinished(&right_to(&right, &temporary::unique_word()))] {
         fs::write(folder.path().join(name), "").unwrap();
     }
-    let notes = format!(".run.h5.lock.notes.plateau-{process}-{}.tmp", random::word());
+    let notes = format!(".run.h5.lock.notes.plateau-{process}-{}.tmp", temporary::unique_word());
     fs::write(folder.path().join(&notes), "").unwrap();
     drop(Claim::of(&path).unwrap());
     assert_eq!(names(folder.path()), [notes]);

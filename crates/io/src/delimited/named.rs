@@ -5,10 +5,7 @@
 
 use std::borrow::Cow;
 
-use super::block::{Kind, starts};
-use super::decimal::Decimal;
-use super::lines::{lines, stated_separator};
-use super::separator::{Separator, unquoted};
+use super::dialect::{Decimal, Kind, Separator, lines, starts, stated_separator, unquoted};
 use crate::text::short;
 
 /// A table.
@@ -31,13 +28,13 @@ pub(crate) struct Line<'a> {
 
 /// A cell of a line.
 pub(crate) struct Cell<'a> {
-    /// What stands in it, without quotation marks; numbers with a decimal point.
+    /// Its text, without quotation marks; numbers with a decimal point.
     pub(crate) text: Cow<'a, str>,
     /// The byte of the line at which it begins.
     at: usize,
 }
 
-/// What is wrong with a table; line and column of the text count from 1.
+/// Problem with a table; line and column of the text count from 1.
 #[derive(Debug, PartialEq, Eq)]
 pub(crate) struct Fault {
     pub(crate) line: usize,
@@ -108,7 +105,7 @@ impl<'a> Named<'a> {
 }
 
 impl Line<'_> {
-    /// What is wrong with a cell, or at the end of the line where there is no such cell.
+    /// Problem with a cell, or at the end of the line where there is no such cell.
     pub(crate) fn fault(&self, place: usize, message: String) -> Fault {
         Fault { line: self.number, column: self.column(place), message }
     }
@@ -136,7 +133,7 @@ fn line(number: usize, text: &str, separator: char, terminated: bool) -> Result<
     Ok(line)
 }
 
-/// What parts the columns of these names: semicolons only where there are more of them than commas, for names may have one.
+/// Character that parts the columns of these names: semicolons only where there are more of them than commas, for names may have one.
 fn separator(names: &str) -> char {
     let count = |mark: char| names.matches(mark).count();
     match (count('\t'), count(';') > count(',')) {

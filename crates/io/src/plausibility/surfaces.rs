@@ -1,18 +1,19 @@
-//! What a scene and its surfaces say together: what a cutoff cuts, and what the first step will meet.
+//! Rules of the initial surfaces, and of the samples that a run recorded.
 
 use plateau_core::model::first_contact::FirstContact;
+use plateau_core::model::material::Status;
+use plateau_core::model::parameters::Parameters;
+use plateau_core::observe::Sample;
 use plateau_core::surface::Length;
 
-use super::words::number;
-use super::{Finding, Rule, apply, softest_plateau, too_much_overlap, too_much_pressure};
-use crate::scene::Warning;
-use crate::scene::{HeightSettings, HeightSource, Scene};
+use super::rule::{Finding, Rule, apply, number, softest_plateau, too_much_overlap, too_much_pressure};
+use crate::scene::{HeightSettings, HeightSource, Scene, Warning};
 use crate::surface::Loaded;
 
 /// Fraction of the points that a cutoff takes off peaks alone: from here on it is in the valleys.
 const HALF: f64 = 0.5;
 
-/// What the rules look at.
+/// Subject of the rules.
 struct Beginning {
     disc_cutoff: Option<Cutoff>,
     pin_cutoff: Option<Cutoff>,
@@ -36,7 +37,7 @@ const RULES: &[Rule<Beginning>] = &[
     Rule { key: "contact.foundation_height", look: overlap_of_the_first_step },
 ];
 
-/// What cannot be meant, now that the surfaces are known, of keys that `scene.warnings` does not name yet.
+/// Values that cannot be meant, now that the surfaces are known, of keys that `scene.warnings` does not name yet.
 pub fn of_surfaces(scene: &Scene, loaded: &Loaded) -> Vec<Warning> {
     let parameters = &scene.parameters;
     // Where heights are flat nothing can be cut, and whoever tries a flat disc in a scene need not take its cutoff away.
@@ -83,4 +84,99 @@ fn pressure_of_the_first_step(beginning: &Beginning) -> Option<Finding> {
 fn overlap_of_the_first_step(beginning: &Beginning) -> Option<Finding> {
     let overlap = beginning.contact?.largest_overlap;
     too_much_overlap(overlap, beginning.foundation_height, "in the first step an overlap of")
+}
+
+/// Extent to which a filled fraction may leave 0 to 1: a disc that wears opens a little before the first debris fills it.
+const SLACK: f64 = 1e-3;
+
+/// A number and when it was reached, s.
+#[derive(Debug, Clone, Copy)]
+struct Reached {
+    value: f64,
+    time: f64,
+}
+
+/// The extremes of what a run recorded.
+#[derive(Debug)]
+pub struct Recorded {
+    parameters: Parameters,
+    mean_pressure: Reached,
+    /// m: what the largest pressure takes in the stiffest pair that there is. A softer pair overlaps more.
+    overlap: Reached,
+    /// The one furthest outside of 0 to 1, if any is outside by more than [`SLACK`].
+    filled_fraction: Option<Reached>,
+}
+
+const RECORDED_RULES: &[Rule<Recorded>] = &[
+    Rule { key: "operation.normal_force", look: pressure },
+    Rule { key: "contact.foundation_height", look: overlap },
+    Rule { key: "materials.disc_primary.specific_wear_rate", look: filled_fraction },
+];
+
+impl Recorded {
+    /// Nothing recorded yet of a run with these parameters.
+    pub fn new(parameters: &Parameters) -> Self {
+        let none = Reached { value: 0.0, time: 0.0 };
+        Self { parameters: parameters.clone(), mean_pressure: none, overlap: none, filled_fraction: None }
+    }
+
+    /// Takes note of a sample.
+    pub fn add(&mut self, sample: &Sample) {
+        let reached = |value| Reached { value, time: sample.time };
+        if sample.mean_pressure > self.mean_pressure.value {
+            self.mean_pressure = reached(sample.mean_pressure);
+        }
+        let overlap = sample.max_pressure / largest_stiffness(&self.parameters, sample);
+        if overlap > self.overlap.value {
+            self.overlap = reached(overlap);
+        }
+        let beyond = |fraction: f64| (-fraction).max(fraction - 1.0);
+        let so_far = self.filled_fraction.map_or(SLACK, |filled| beyond(filled.value));
+        if beyond(sample.filled_fraction) > so_far {
+            self.filled_fraction = Some(reached(sample.filled_fraction));
+        }
+    }
+
+    /// Values that cannot be meant, of keys that `scene.warnings` does not name yet.
+    pub fn warnings(&self, scene: &Scene) -> Vec<Warning> {
+        apply(RECORDED_RULES, self, scene)
+    }
+}
+
+/// k of the stiffest pair whose statuses a sample has, Pa/m.
+fn largest_stiffness(parameters: &Parameters, sample: &Sample) -> f64 {
+    let pin = [
+        (Status::Resin, sample.pin_none),
+        (Status::Primary, sample.pin_primary),
+        (Status::Secondary, sample.pin_secondary),
+    ];
+    let disc = [(false, 1.0 - sample.disc_secondary), (true, sample.disc_secondary)];
+    let mut largest = 0.0_f64;
+    for (pin, _) in pin.into_iter().filter(|(_, area)| *area > 0.0) {
+        for (disc_secondary, _) in disc.into_iter().filter(|(_, area)| *area > 0.0) {
+            largest = largest.max(parameters.materials.combined_modulus(pin, disc_secondary));
+        }
+    }
+    largest / parameters.foundation_height
+}
+
+fn pressure(recorded: &Recorded) -> Option<Finding> {
+    let Reached { value, time } = recorded.mean_pressure;
+    let what = format!("at {} s a mean contact pressure of", number(time));
+    too_much_pressure(value, softest_plateau(&recorded.parameters.materials), &what)
+}
+
+fn overlap(recorded: &Recorded) -> Option<Finding> {
+    let Reached { value, time } = recorded.overlap;
+    let what = format!("at {} s an overlap of at least", number(time));
+    too_much_overlap(value, recorded.parameters.foundation_height, &what)
+}
+
+fn filled_fraction(recorded: &Recorded) -> Option<Finding> {
+    let Reached { value, time } = recorded.filled_fraction?;
+    Some(Finding {
+        found: format!("at {} s a filled fraction of {}", number(time), number(value)),
+        bound: format!("outside of 0 to 1 by more than {SLACK}"),
+        advice: "the disc wears deeper than its lowlands were: check the wear rate, or do not use the filled fraction",
+    })
 }

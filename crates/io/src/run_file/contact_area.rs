@@ -11,19 +11,19 @@ use thiserror::Error;
 use super::{ReadError, RunFile};
 use crate::scene;
 
-/// What the contact area of a run was at its end.
+/// Contact area of a run at its end.
 #[derive(Debug, Clone, Copy)]
 pub struct ContactArea {
     /// The mean over the last tenth of the run, m², as far as it is recorded: see [`last_tenth`]. Of a run with a cycle over the time
     /// in contact.
     pub last_tenth: Option<WindowMean>,
-    /// What the mean changed by in the second half of the run, or why that is not told.
+    /// Change of the mean in the second half of the run, or why that is not told.
     pub drift: Result<Drift, NoDrift>,
-    /// When it has come to 90 % of its value at the end, s, or why that is not defined. Of a run with a cycle over the time in contact.
+    /// Time at which it has come to 90 % of its value at the end, s, or why that is not defined. Of a run with a cycle over the time in contact.
     pub running_in: Result<f64, NotDefined>,
 }
 
-/// Why it is not told whether a run is still running in.
+/// Reason why it is not told whether a run is still running in.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
 pub enum NoDrift {
     /// The contact area follows load and speed.

@@ -1,9 +1,14 @@
-//! Makes a run file: its groups, datasets and attributes before the first step, or with all that a run has written.
+//! Creation of a run file: its groups, datasets and attributes before the first step, or with all that a run has written; and the last
+//! that is written to it: the end of the run, its wall time, and the digests of the content.
 
-use std::time::SystemTime;
+use std::fs;
+use std::io::{self, Write as _};
+use std::path::Path;
+use std::time::{Duration, SystemTime};
 
 use hdf5::plist::file_create::LinkCreationOrder;
 use hdf5::{Dataset, Datatype, Extent, File, SimpleExtents};
+use plateau_core::acceleration::Chosen;
 use plateau_core::model::mesh::Mesh;
 use plateau_core::observe::event::{EventRecord, event_quantities};
 use plateau_core::observe::extra::Extra;
@@ -11,15 +16,17 @@ use plateau_core::observe::operation::CYCLE;
 use plateau_core::observe::{Map, quantities};
 
 use super::digest::{self, DIGEST, Digests};
-use super::dimension::Dimensions;
+use super::error::{failed, not_anew};
 use super::layout::{
-    CONVENTIONS, EVENT, EVENT_GROUP, FORMAT_VERSION, MAP_TIME, PIN_BASE, STATUS_TYPE, TIME, event_path, map_long_name,
-    map_path, map_unit, series_path,
+    ACCELERATION, CONVENTIONS, EVENT, EVENT_GROUP, FORMAT_VERSION, MAP_TIME, PIN_BASE, STATUS_TYPE, Statuses, TIME,
+    TIME_OF_SERIES, copy_map, event_path, map_chunk, map_long_name, map_path, map_unit, series_chunk, series_path,
+    stored_base,
 };
-use super::status::{Statuses, stored_base};
-use super::storage::{copy_map, map_chunk, series_chunk};
-use super::{Header, State};
-use crate::hdf5_file::writing::{write_number, write_text};
+use super::output::Output;
+use super::{End, Header, RunFileError, State};
+use crate::hdf5_file;
+use crate::hdf5_file::writing::{Dimensions, EMPTY_FILE, open_for_writing, write_number, write_text};
+use crate::input::sha256_of;
 use crate::timestamp::iso_8601;
 
 const REFERENCES: &str = "G. Riva, G. Perricone, J. Wahlström, Simulation of Contact Area and Pressure Dependence of \
@@ -49,12 +56,12 @@ pub(super) fn lay_out(file: &File, header: &Header, start: SystemTime, source: O
     layout.dimensions.finish()
 }
 
-/// What the file of a run that has ended is made of.
+/// Source of the file of a run that has ended.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Source<'a> {
     /// The file as it was while the run went on.
     pub file: &'a File,
-    /// What happened in the events of the cycle.
+    /// Records of the events of the cycle.
     pub events: &'a [EventRecord],
     /// Digests of what the file holds.
     pub digests: &'a Digests,
@@ -189,7 +196,7 @@ impl<'a> Layout<'a> {
         self.dimensions.attach(&dataset, &dimensions)?;
         let bytes = stored_base(self.mesh, &header.pin_base);
         Statuses::of(self.mesh).write_base(&dataset, &bytes, self.mesh.rows())?;
-        write_text(&dataset, DIGEST, &digest::of_bytes(&bytes))?;
+        write_text(&dataset, DIGEST, &sha256_of(&bytes))?;
         self.file.flush()
     }
 
@@ -266,4 +273,80 @@ impl<'a> Layout<'a> {
 fn fixed(dataset: &Dataset, values: &[f64]) -> hdf5::Result<()> {
     dataset.write_raw(values)?;
     write_text(dataset, DIGEST, &digest::of_floats(values))
+}
+
+/// More bytes than the attributes of the end take but for the digests of maps, and for one of these.
+const ROOM: [usize; 2] = [128 * 1024, 128];
+
+/// End of a run file: state, wall time, digests, events, acceleration.
+pub(super) struct Seal<'a> {
+    pub(super) header: &'a Header,
+    pub(super) start_time: SystemTime,
+    pub(super) end: &'a End,
+    pub(super) end_time: SystemTime,
+    pub(super) wall_time: Duration,
+    pub(super) digests: Digests,
+    pub(super) events: &'a [EventRecord],
+    pub(super) acceleration: Option<Chosen>,
+}
+
+impl Seal<'_> {
+    /// Puts it on a file that is closed.
+    ///
+    /// The file is made anew, series compressed and nothing left over, and takes the place of the old one when it is complete:
+    /// killed at whatever moment, the program leaves a file that can be read. Where there is no room for a second file, it is
+    /// put on the file itself, if there is room for that; such a file has no events.
+    pub(super) fn put_on(&self, path: &Path) -> Result<(), RunFileError> {
+        let anew = Output::prepare(path, true, EMPTY_FILE).and_then(|place| {
+            self.make(path, &place).map_err(not_anew(path))?;
+            place.publish_durably()
+        });
+        if anew.is_ok() {
+            return Ok(());
+        }
+        self.check_room(path).map_err(|error| RunFileError::Write { path: path.into(), reason: error.to_string() })?;
+        // A file that readers follow takes no new attributes, so it is opened once more without them.
+        open_for_writing(path).and_then(|file| self.write(file)).map_err(failed(path))?;
+        let synced = fs::File::open(path).and_then(|file| file.sync_all());
+        synced.map_err(|error| RunFileError::Write { path: path.into(), reason: error.to_string() })
+    }
+
+    /// Makes the file of a run that has ended, at `place`, of the one that was written while it went on.
+    pub(super) fn make(&self, path: &Path, place: &Output) -> hdf5::Result<()> {
+        let old = hdf5_file::open(path).map_err(|error| hdf5::Error::from(error.to_string()))?;
+        let new = open_for_writing(place.temporary())?;
+        let source = Source { file: &old, events: self.events, digests: &self.digests };
+        lay_out(&new, self.header, self.start_time, Some(source))?;
+        self.write(new)
+    }
+
+    fn write(&self, file: File) -> hdf5::Result<()> {
+        write_text(&file, "end_time", &iso_8601(self.end_time))?;
+        write_number(&file, "wall_time", self.wall_time.as_secs_f64())?;
+        if let End::Failed(message) = self.end {
+            write_text(&file, "error", message)?;
+        }
+        if let Some(chosen) = &self.acceleration {
+            let text = serde_json::to_string(chosen).map_err(|error| hdf5::Error::from(error.to_string()))?;
+            write_text(&file, ACCELERATION, &text)?;
+        }
+        write_text(&file, "state", self.end.state().name())?;
+        file.link_soft(&format!("/{TIME}"), TIME_OF_SERIES)?;
+        self.digests.write(&file)?;
+        digest::write_attribute_digests(&file)?;
+        file.flush()?;
+        file.close()
+    }
+
+    /// Checks that all this will find room behind the end of the file.
+    ///
+    /// A file in which the library could write only half of it would be damaged; like this it stays as it is.
+    fn check_room(&self, path: &Path) -> io::Result<()> {
+        let room = ROOM[0] + self.digests.maps() * ROOM[1];
+        let mut file = fs::OpenOptions::new().append(true).open(path)?;
+        let length = file.metadata()?.len();
+        let written = file.write_all(&vec![0; room]);
+        file.set_len(length)?;
+        written
+    }
 }

@@ -1,17 +1,32 @@
-//! Digests of what a run file holds, by which anyone can tell whether it is still what was written: SHA-256, 64 hexadecimal
+//! Digests of the content of a run file, by which anyone can tell whether it is still what was written: SHA-256, 64 hexadecimal
 //! digits.
 //!
 //! Every dataset has the attribute `sha256`, the digest of its values as they lie in memory, the least byte first; a map
-//! has one for each moment. The root has digests of all attributes: see [`super::attribute_digests`].
+//! has one for each moment. Digests of the attributes are attributes of the root:
+//!
+//! | attribute | of | held by |
+//! |---|---|---|
+//! | `attributes_sha256` | texts, which scales a dataset has, and the order in groups | |
+//! | `numbers_sha256` | every other attribute: numbers, texts of a fixed length | `attributes_sha256`, being a text |
+//! | `execution_sha256` | the attributes of the root that differ between runs of equal results | there wherever `numbers_sha256` is |
+//!
+//! The first alone is in files of before there were the others; such a file holds as it did then.
+//!
+//! Each is the SHA-256 of lines, in the order of their bytes. What has a line break in it takes more lines; a link has the lines
+//! of what it leads to, with its own path.
 
 use std::collections::BTreeMap;
 use std::str::FromStr;
 
-use hdf5::File;
-use hdf5::types::VarLenUnicode;
+use hdf5::types::{TypeDescriptor, VarLenArray, VarLenAscii, VarLenUnicode};
+use hdf5::{
+    Attribute, File, Group, IndexType, IterationOrder, Location, LocationType, ObjectReference1, ReferencedObject,
+};
 use sha2::{Digest, Sha256};
 
+use crate::hdf5_file::text_of;
 use crate::hdf5_file::writing::write_text;
+use crate::input::sha256_of;
 
 /// Attribute of a dataset.
 pub(super) const DIGEST: &str = "sha256";
@@ -36,12 +51,12 @@ impl Digests {
         self.maps.entry(path).or_default().push(digest);
     }
 
-    /// How many maps there are.
+    /// Number of maps.
     pub(super) fn maps(&self) -> usize {
         self.maps.values().map(Vec::len).sum()
     }
 
-    /// Whether a map was the same at every one of several moments.
+    /// Tells whether a map was the same at every one of several moments.
     pub(super) fn is_constant(&self, path: &str) -> bool {
         let digests = self.maps.get(path).map_or(&[][..], Vec::as_slice);
         digests.len() > 1 && digests.iter().all(|digest| *digest == digests[0])
@@ -68,15 +83,162 @@ pub(super) fn of_floats(values: &[f64]) -> String {
     format!("{:x}", hasher.finalize())
 }
 
-/// Digest of statuses.
-pub(super) fn of_bytes(bytes: &[u8]) -> String {
-    format!("{:x}", Sha256::digest(bytes))
-}
-
 /// Takes floating-point values as they lie in memory, the least byte first.
 fn update(hasher: &mut Sha256, values: &[f64]) {
     for values in values.chunks(512) {
         let bytes: Vec<u8> = values.iter().flat_map(|value| value.to_le_bytes()).collect();
         hasher.update(bytes);
+    }
+}
+
+/// Attribute of the root: digest of the texts.
+pub(super) const ATTRIBUTES_DIGEST: &str = "attributes_sha256";
+/// Attribute of the root: digest of numbers, and of all else that is no text of any length.
+pub(super) const NUMBERS_DIGEST: &str = "numbers_sha256";
+/// Attribute of the root: digest of what tells how the run was carried out. It is of a kind that `attributes_sha256` passes over,
+/// so that this is equal where the results are.
+pub(super) const EXECUTION_DIGEST: &str = "execution_sha256";
+
+/// Attributes of the root that differ between runs of equal results, and have a digest of their own, so that the others do not
+/// differ.
+const OF_THE_EXECUTION: [&str; 6] = ["host", "instruction_set", "start_time", "end_time", "workers", "wall_time"];
+
+/// Writes the digests of the attributes that are there. No attribute may be written afterwards.
+pub(super) fn write_attribute_digests(file: &File) -> hdf5::Result<()> {
+    let execution =
+        VarLenAscii::from_ascii(&of_execution(file)?).map_err(|error| hdf5::Error::from(error.to_string()))?;
+    file.new_attr::<VarLenAscii>().create(EXECUTION_DIGEST)?.write_scalar(&execution)?;
+    write_text(file, NUMBERS_DIGEST, &of_numbers(file)?)?;
+    write_text(file, ATTRIBUTES_DIGEST, &of_texts(file)?)
+}
+
+/// Digest of the texts among the attributes, of the scales of datasets, and of what is in groups: of one line
+/// `path@attribute=text` or `path: members` for each. A dataset's scales are the paths in `DIMENSION_LIST`; several texts, paths
+/// or members, these as they were made, are separated by commas. What tells of the execution is left out.
+pub(super) fn of_texts(file: &File) -> hdf5::Result<String> {
+    let mut lines = lines_of_attributes(file, |path, name, attribute| {
+        // What is left out must be readable all the same.
+        let texts = texts(file, attribute)?.filter(|_| !OF_THE_EXECUTION.contains(&name) && name != ATTRIBUTES_DIGEST);
+        Ok(texts.map(|texts| format!("{path}@{name}={}\n", texts.join(","))))
+    })?;
+    let mut groups = vec![file.as_group()?];
+    while let Some(group) = groups.pop() {
+        lines.push(format!("{}: {}\n", group.name(), members(&group)?.join(",")));
+        groups.extend(group.groups()?);
+    }
+    Ok(digest(lines))
+}
+
+/// Digest of all other attributes: of one line `path@attribute=values` for each, several values separated by commas. A whole
+/// number has its decimal digits, any other number the 16 hexadecimal digits of its 64 bits as IEEE 754 has them, of whatever width
+/// the file keeps them. A text is as it is. Of anything else, such as references, the line ends behind the name.
+pub(super) fn of_numbers(file: &File) -> hdf5::Result<String> {
+    let lines = lines_of_attributes(file, |path, name, attribute| {
+        let is_left_out = path == "/" && (OF_THE_EXECUTION.contains(&name) || name == EXECUTION_DIGEST);
+        let is_number = !is_left_out && texts(file, attribute)?.is_none();
+        is_number.then(|| line(file, path, name, attribute)).transpose()
+    })?;
+    Ok(digest(lines))
+}
+
+/// Digest of the attributes of the root that tell how the run was carried out, texts and numbers, each with a line as in
+/// [`of_numbers`].
+pub(super) fn of_execution(file: &File) -> hdf5::Result<String> {
+    let names = file.attr_names()?.into_iter().filter(|name| OF_THE_EXECUTION.contains(&name.as_str()));
+    let lines = names.map(|name| line(file, "/", &name, &file.attr(&name)?)).collect::<hdf5::Result<_>>()?;
+    Ok(digest(lines))
+}
+
+/// The lines of the attributes of all groups, datasets and named types, of which `line` is given path, name and attribute.
+fn lines_of_attributes(
+    file: &File,
+    line: impl Fn(&str, &str, &Attribute) -> hdf5::Result<Option<String>>,
+) -> hdf5::Result<Vec<String>> {
+    let mut lines = Vec::new();
+    let mut add = |path: &str, location: &Location| -> hdf5::Result<()> {
+        for name in location.attr_names()? {
+            lines.extend(line(path, &name, &location.attr(&name)?)?);
+        }
+        Ok(())
+    };
+    let mut groups = vec![file.as_group()?];
+    while let Some(group) = groups.pop() {
+        add(&group.name(), &group)?;
+        for member in members(&group)? {
+            if group.loc_type_by_name(&member)? == LocationType::Dataset {
+                let path = format!("{}/{member}", group.name().trim_end_matches('/'));
+                add(&path, &*group.dataset(&member)?)?;
+            }
+        }
+        for datatype in group.committed_datatypes()? {
+            add(&datatype.name(), &datatype)?;
+        }
+        groups.extend(group.groups()?);
+    }
+    Ok(lines)
+}
+
+/// Members of a group, in the order in which they were made.
+fn members(group: &Group) -> hdf5::Result<Vec<String>> {
+    group.member_names_by(IndexType::CreationOrder, IterationOrder::Increasing)
+}
+
+fn digest(mut lines: Vec<String>) -> String {
+    lines.sort();
+    sha256_of(lines.concat().as_bytes())
+}
+
+/// The line of an attribute of whatever kind.
+fn line(file: &File, path: &str, name: &str, attribute: &Attribute) -> hdf5::Result<String> {
+    let values = values(file, attribute)?.map_or_else(String::new, |values| format!("={}", values.join(",")));
+    Ok(format!("{path}@{name}{values}\n"))
+}
+
+/// Values of an attribute, if it is of texts or numbers.
+fn values(file: &File, attribute: &Attribute) -> hdf5::Result<Option<Vec<String>>> {
+    // What an empty one is said to hold is whatever the memory held before.
+    if attribute.space()?.is_null() {
+        return Ok(None);
+    }
+    Ok(match attribute.dtype()?.to_descriptor()? {
+        TypeDescriptor::Integer(_) => Some(attribute.read_raw::<i64>()?.iter().map(i64::to_string).collect()),
+        TypeDescriptor::Unsigned(_) => Some(attribute.read_raw::<u64>()?.iter().map(u64::to_string).collect()),
+        TypeDescriptor::Float(_) => {
+            Some(attribute.read_raw::<f64>()?.iter().map(|number| format!("{:016x}", number.to_bits())).collect())
+        }
+        TypeDescriptor::VarLenAscii | TypeDescriptor::FixedAscii(_) | TypeDescriptor::FixedUnicode(_) => {
+            text_of(attribute)?.map(|text| vec![text])
+        }
+        _ => texts(file, attribute)?,
+    })
+}
+
+/// Texts of an attribute, if it is of a kind for which the library keeps no checksum.
+pub(super) fn texts(file: &File, attribute: &Attribute) -> hdf5::Result<Option<Vec<String>>> {
+    // What an empty one is said to hold is whatever the memory held before.
+    if attribute.space()?.is_null() {
+        return Ok(None);
+    }
+    let texts = match attribute.dtype()?.to_descriptor()? {
+        TypeDescriptor::VarLenUnicode => {
+            let texts = attribute.read_raw::<VarLenUnicode>()?;
+            // The bytes of a damaged file may be no text.
+            texts.iter().map(|text| String::from_utf8_lossy(text.as_bytes()).into_owned()).collect()
+        }
+        TypeDescriptor::VarLenArray(_) => {
+            let scales = attribute.read_raw::<VarLenArray<ObjectReference1>>()?;
+            let scales = scales.iter().flat_map(|scales| scales.iter());
+            scales.map(|scale| path_of(file, scale)).collect::<hdf5::Result<_>>()?
+        }
+        _ => return Ok(None),
+    };
+    Ok(Some(texts))
+}
+
+/// Path of the dataset that a reference means.
+fn path_of(file: &File, reference: &ObjectReference1) -> hdf5::Result<String> {
+    match file.dereference(reference)? {
+        ReferencedObject::Dataset(dataset) => Ok(dataset.name()),
+        _ => Err("a reference to something else than a dataset".into()),
     }
 }

@@ -1,14 +1,14 @@
-//! What can go wrong with a run file, when it is written and when it is read.
+//! Errors of run files, when they are written and when they are read.
 
 use std::io;
 use std::path::{Path, PathBuf};
 
 use thiserror::Error;
 
-use crate::checkpoint;
+use super::checkpoint;
 use crate::text::shown_problem;
 
-/// Why a run file cannot be made or written.
+/// Reason why a run file cannot be made or written.
 ///
 /// The errors of [`RunWriter::create`](super::RunWriter::create) but for [`RunFileError::SetUp`], [`RunFileError::NoThread`] and
 /// [`RunFileError::Write`] mean that an input is wrong and that nothing was touched; these mean that the run failed.
@@ -20,7 +20,7 @@ pub enum RunFileError {
         /// The output path.
         path: PathBuf,
     },
-    /// What is at the output path is a directory, a device or the like.
+    /// The output path is a directory, a device or the like.
     #[error("the output {} is a folder or another thing that is not a regular file, and is not replaced; name a file with -o FILE", path.display())]
     NotAFile {
         /// The output path.
@@ -31,7 +31,7 @@ pub enum RunFileError {
     LinkToNothing {
         /// The output path.
         path: PathBuf,
-        /// What it points to.
+        /// Target of the link.
         to: PathBuf,
     },
     /// The directory of the output file does not exist or is no directory.
@@ -56,7 +56,7 @@ pub enum RunFileError {
     Directory {
         /// The directory.
         directory: PathBuf,
-        /// What the system said.
+        /// Message of the system.
         reason: String,
     },
     /// A field does not have the size that the mesh asks for.
@@ -80,7 +80,7 @@ pub enum RunFileError {
     SetUp {
         /// The run file.
         path: PathBuf,
-        /// What the HDF5 library or the system said.
+        /// Message of the HDF5 library or of the system.
         reason: String,
     },
     /// A file that was to take the place of another could not be made; that one is as it was.
@@ -88,7 +88,7 @@ pub enum RunFileError {
     Anew {
         /// The run file.
         path: PathBuf,
-        /// What the HDF5 library or the system said.
+        /// Message of the HDF5 library or of the system.
         reason: String,
     },
     /// The file of a run that was stopped cannot be gone on with; it is as it was.
@@ -96,7 +96,7 @@ pub enum RunFileError {
     Earlier {
         /// The run file.
         path: PathBuf,
-        /// What is wrong with it.
+        /// Its problem.
         reason: String,
     },
     /// Writing failed; what was written before can be read.
@@ -104,7 +104,7 @@ pub enum RunFileError {
     Write {
         /// The run file.
         path: PathBuf,
-        /// What the HDF5 library or the system said.
+        /// Message of the HDF5 library or of the system.
         reason: String,
     },
     /// The system gives no more file handles.
@@ -115,7 +115,7 @@ pub enum RunFileError {
     NoHandle {
         /// The file.
         path: PathBuf,
-        /// What the system says.
+        /// Message of the system.
         reason: String,
     },
     /// The system gives no more threads.
@@ -126,7 +126,7 @@ pub enum RunFileError {
     NoThread {
         /// The file.
         path: PathBuf,
-        /// What the system says.
+        /// Message of the system.
         reason: String,
     },
     /// The writer ended without saying why: a defect of the program.
@@ -135,7 +135,7 @@ pub enum RunFileError {
     /// The run file was moved or replaced by another program while the run went on.
     #[error("{} was moved, removed or replaced while the run went on, which ends it; what is there now is not touched", path.display())]
     Moved {
-        /// Where the run file should be.
+        /// Path that the run file should have.
         path: PathBuf,
     },
 }
@@ -147,7 +147,7 @@ impl RunFileError {
     }
 }
 
-/// What else is left of a run that could not write its file, and what to do. Before the first checkpoint there is none.
+/// Remainder of a run that could not write its file, and what to do. Before the first checkpoint there is none.
 fn what_else_is_safe(path: &Path) -> &'static str {
     if checkpoint::paths(path).iter().any(|checkpoint| checkpoint.is_file()) {
         ", and so is the last checkpoint: free space and go on with --resume, or close the file with `plateau repair`"
@@ -190,7 +190,7 @@ pub(super) fn hdf5_reason(error: &hdf5::Error) -> String {
     system.map_or(message.as_str(), |(system, _)| system).to_owned()
 }
 
-/// Why a run file cannot be read.
+/// Reason why a run file cannot be read.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum ReadError {
     /// The system does not give the file.
@@ -198,7 +198,7 @@ pub enum ReadError {
     System {
         /// The file.
         path: PathBuf,
-        /// What the system said.
+        /// Message of the system.
         reason: String,
         /// Its number of the error.
         number: Option<i32>,
@@ -208,7 +208,7 @@ pub enum ReadError {
     NotHdf5 {
         /// The file.
         path: PathBuf,
-        /// What is expected in its place, and which command makes it.
+        /// Content that is expected in its place, and which command makes it.
         expected: String,
     },
     /// It is an HDF5 file that no run wrote.
@@ -216,7 +216,7 @@ pub enum ReadError {
     Foreign {
         /// The file.
         path: PathBuf,
-        /// What every run file has.
+        /// Part that every run file has.
         missing: String,
     },
     /// It was written by a later program.
@@ -236,7 +236,7 @@ pub enum ReadError {
     Elsewhere {
         /// The file.
         path: PathBuf,
-        /// What is where.
+        /// The parts that are elsewhere, and their files.
         reason: String,
     },
     /// The system gives no more file handles.
@@ -247,7 +247,7 @@ pub enum ReadError {
     Handles {
         /// The file.
         path: PathBuf,
-        /// What the system says.
+        /// Message of the system.
         reason: String,
     },
     /// A part of it is missing, cut off or changed.
@@ -255,7 +255,7 @@ pub enum ReadError {
     Damaged {
         /// The file.
         path: PathBuf,
-        /// What is wrong.
+        /// The problem.
         reason: String,
     },
 }

@@ -1,4 +1,4 @@
-//! What a run file says about its run: before the first step, and how it ended.
+//! State of a run, and the header of its file: what is known before the first step, and how the run ended.
 
 use std::io;
 use std::path::Path;
@@ -10,10 +10,43 @@ use plateau_core::observe::Map;
 use plateau_core::observe::extra::Extra;
 use serde::{Deserialize, Serialize};
 
-use super::{RunFileError, State};
-use crate::regular::sha256;
+use super::RunFileError;
+use crate::input::sha256;
 
-/// What is fixed before the first step of a run: its mesh, the maps it records, and where it comes from.
+/// State of a run, as its file says.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum State {
+    /// The run goes on, or it was killed.
+    Running,
+    /// All steps are done.
+    Finished,
+    /// The user stopped the run.
+    Interrupted,
+    /// The run failed; the attribute `error` says why.
+    Failed,
+}
+
+impl State {
+    /// Its name in run files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Running => "running",
+            Self::Finished => "finished",
+            Self::Interrupted => "interrupted",
+            Self::Failed => "failed",
+        }
+    }
+
+    /// All of them.
+    pub(super) const ALL: [Self; 4] = [Self::Running, Self::Finished, Self::Interrupted, Self::Failed];
+
+    /// The one of that name.
+    pub(super) fn of(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|state| state.name() == name)
+    }
+}
+
+/// Header of a run: all that is fixed before its first step: its mesh, the maps it records, and where it comes from.
 #[derive(Debug, Clone)]
 pub struct Header {
     /// Title of the scene.
@@ -44,12 +77,12 @@ pub struct Header {
     pub seeds: Vec<(String, u64)>,
     /// Every file that was read.
     pub inputs: Vec<InputFile>,
-    /// What was read, made and done for the initial surfaces, one step a line.
+    /// Steps of reading and making the initial surfaces, one a line.
     pub surfaces: Vec<String>,
 }
 
 impl Header {
-    /// Whether the fields fit the mesh.
+    /// Tells whether the fields fit the mesh.
     pub(super) fn check(&self) -> Result<(), RunFileError> {
         let (found, expected) = (self.pin_base.len(), self.mesh.pin_cells());
         if found == expected { Ok(()) } else { Err(RunFileError::Size { name: "pin base", found, expected }) }
@@ -75,7 +108,7 @@ impl InputFile {
     }
 }
 
-/// What a run file holds of a run that goes on.
+/// Content of the run file of a run that is continued.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Earlier {
     /// Samples.
@@ -86,7 +119,7 @@ pub struct Earlier {
     pub wall_time: Duration,
 }
 
-/// How a run ended: the `state` of its run file.
+/// End of a run: the `state` of its run file.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum End {
     /// All steps are done.
@@ -98,7 +131,7 @@ pub enum End {
 }
 
 impl End {
-    /// What the run file says of it.
+    /// State that the run file gives it.
     pub(super) fn state(&self) -> State {
         match self {
             Self::Finished => State::Finished,

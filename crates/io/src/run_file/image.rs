@@ -1,4 +1,4 @@
-//! What a run file was organised like at a checkpoint, so that a loss of power afterwards does it no harm.
+//! Image: the organisation of a run file at a checkpoint, so that a loss of power afterwards does it no harm.
 //!
 //! A series or map that is on the disk is only appended to, but what says where its parts are is written again and again. After a
 //! loss of power some of that may be new and some old, and then nothing can be read. So a checkpoint keeps all of the file that is
@@ -15,8 +15,8 @@ use hdf5::Dataset;
 use memchr::memmem;
 use serde::{Deserialize, Serialize};
 
+use crate::input;
 use crate::process::Process;
-use crate::regular;
 use crate::temporary::Temporary;
 
 /// Attribute of the root of a run file that is being written: a word that no other file has. It tells which file an image is of.
@@ -27,17 +27,17 @@ const SHORT: usize = 64;
 /// All of a run file but the values of its series and maps, as it was at a checkpoint.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Image {
-    /// Who was writing the file.
+    /// Process that was writing the file.
     pub writer: Process,
     /// Length of the file, bytes.
     length: u64,
     /// See [`MARK`].
     mark: String,
-    /// Where it is in the file.
+    /// Its place in the file, bytes.
     mark_at: u64,
-    /// Where pieces of the file begin, and their bytes.
+    /// Pieces of the file: their beginnings and bytes.
     pieces: Vec<(u64, Vec<u8>)>,
-    /// Where zeros begin that are in no piece, and how many they are.
+    /// Zeros that are in no piece: their beginnings and numbers.
     zeros: Vec<(u64, u64)>,
 }
 
@@ -93,10 +93,10 @@ impl Image {
         }
     }
 
-    /// Whether a file is the one that this is an image of, and still has what it had then.
+    /// Tells whether a file is the one that this is an image of, and still has what it had then.
     pub fn is_of(&self, path: &Path) -> bool {
         let mut mark = vec![0; self.mark.len()];
-        let there = regular::open(path).and_then(|file| {
+        let there = input::open(path).and_then(|file| {
             file.read_exact_at(&mut mark, self.mark_at)?;
             file.metadata()
         });
@@ -108,7 +108,7 @@ impl Image {
         let (temporary, mut copy) = Temporary::create(path)?;
         // Who may not read the file may not read its copy.
         temporary.permit_as(path);
-        io::copy(&mut regular::open(path)?.take(self.length), &mut copy)?;
+        io::copy(&mut input::open(path)?.take(self.length), &mut copy)?;
         for (at, bytes) in &self.pieces {
             self.check(*at, bytes.len() as u64)?;
             copy.write_all_at(bytes, *at)?;
@@ -129,10 +129,10 @@ impl Image {
     }
 }
 
-/// Where the values of series and maps are in a file.
+/// Extents of the values of series and maps in a file.
 #[derive(Debug, Default)]
 pub(super) struct Values {
-    /// Where each extent begins, and where it ends. None touches another.
+    /// Beginning of each extent, and where it ends. None touches another.
     extents: BTreeMap<u64, u64>,
     /// Chunks of each dataset that are in it: they come in their order, and stay where they are.
     chunks: Vec<usize>,

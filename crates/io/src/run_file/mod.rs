@@ -17,45 +17,28 @@
 //!
 //! Every dataset is chunked and filtered with shuffle and deflate, which any HDF5 reader understands; what grows only when the
 //! run has ended and the file is made anew, with fixed dimensions.
-mod attribute_digests;
+pub mod checkpoint;
 mod contact_area;
 mod creation;
-mod datasets;
 mod digest;
-pub(crate) mod dimension;
 mod error;
 mod header;
 mod image;
-mod kept;
 pub(crate) mod layout;
-mod opening;
-mod place;
+mod output;
 mod reader;
-mod recorded;
 mod repair;
-mod restored;
-mod seal;
-mod state;
-mod status;
-mod storage;
 mod store;
 mod verify;
 mod writer;
-mod writer_queue;
-mod writer_thread;
 
 pub use contact_area::{ContactArea, NoDrift};
 pub use error::{ReadError, RunFileError};
-pub use header::{Earlier, End, Header, InputFile};
+pub use header::{Earlier, End, Header, InputFile, State};
 pub use image::Image;
-pub use kept::{KeepError, keep};
-pub use layout::map_path;
-pub use opening::Series;
-pub use place::{check_place, resolve};
-pub use reader::RunFile;
+pub use layout::{image_estimate, map_path, size_estimate};
+pub use output::{KeepError, check_output, keep, resolve};
+pub use reader::{RunFile, Series};
 pub use repair::{LeftOut, Repair, RepairError, is_healthy, last_writer, repair};
-pub use state::State;
-pub use storage::{image_estimate, size_estimate};
 pub use verify::{Damage, Verification, verify};
-pub use writer::{RunWriter, WriterReport};
-pub use writer_queue::Synced;
+pub use writer::{RunWriter, Synced, WriterReport};

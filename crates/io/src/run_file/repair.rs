@@ -7,53 +7,51 @@ use std::time::SystemTime;
 use plateau_core::observe::quantities;
 use thiserror::Error;
 
-use super::dimension::EMPTY_FILE;
+use super::checkpoint::{self, RunState};
+use super::creation::Seal;
 use super::error::not_anew;
-use super::kept::{KeepError, keep};
-use super::place::{Place, resolve};
-use super::restored::Restored;
-use super::seal::Seal;
-use super::store::set_up;
+use super::output::{KeepError, Output, keep, resolve};
+use super::store::{Restored, set_up};
 use super::{Earlier, End, Header, Image, ReadError, RunFile, RunFileError, State};
-use crate::checkpoint::{self, RunState};
 use crate::claim::{Claim, ClaimError};
+use crate::hdf5_file::writing::EMPTY_FILE;
 use crate::process::Process;
 use crate::temporary::Temporary;
 use crate::text::short;
-use crate::{hdf5_file, random};
+use crate::{hdf5_file, temporary};
 
-/// What became of a file.
+/// Outcome of a repair.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Repair {
     /// It was closed in good order; nothing was done.
     Healthy,
     /// It is closed now, with all samples and maps that were complete.
     Repaired {
-        /// What was there before.
+        /// Copy of the file of before.
         copy: PathBuf,
         /// Samples.
         samples: usize,
         /// Moments of which there are maps.
         moments: usize,
-        /// What it does not hold, or may hold and should not.
+        /// Parts that it does not hold, or may hold and should not.
         left_out: LeftOut,
     },
 }
 
-/// What may be missing in a file that was repaired.
+/// Part that may be missing in a file that was repaired.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum LeftOut {
     /// Nothing: the machine that wrote it goes on, or another one did.
     Nothing,
-    /// What came after the last checkpoint, for the file could not be read: it is as it was then.
+    /// The part after the last checkpoint, for the file could not be read: it is as it was then.
     Unreadable,
-    /// What came after the last checkpoint, for the machine was started anew since and not all of it may have come to the disk.
+    /// The part after the last checkpoint, for the machine was started anew since and not all of it may have come to the disk.
     NotOnDisk,
     /// Nothing, though the machine was started anew since: there is no checkpoint that tells what had come to the disk.
     Doubtful,
 }
 
-/// Why a file is not repaired; it is as it was.
+/// Reason why a file is not repaired; it is as it was.
 #[derive(Debug, Error)]
 pub enum RepairError {
     /// It cannot be read.
@@ -69,18 +67,18 @@ pub enum RepairError {
         path: PathBuf,
         /// The series.
         name: String,
-        /// What wrote it.
+        /// Program that wrote it.
         program: String,
     },
     /// The repaired file cannot be written.
     #[error(transparent)]
     Write(#[from] RunFileError),
-    /// What is there cannot be kept.
+    /// The file that is there cannot be kept.
     #[error(transparent)]
     Keep(#[from] KeepError),
 }
 
-/// Whether a run file was closed in good order.
+/// Tells whether a run file was closed in good order.
 ///
 /// # Errors
 /// [`ReadError`].
@@ -91,7 +89,7 @@ pub fn is_healthy(path: &Path) -> Result<bool, ReadError> {
     Ok(run.state() != State::Running && !marked)
 }
 
-/// Who wrote a file that was not closed, and the scene of its run, as the checkpoint beside it says; nothing if there is none.
+/// Process that wrote a file that was not closed, and the scene of its run, as the checkpoint beside it says; nothing if there is none.
 pub fn last_writer(path: &Path) -> Option<(Process, String)> {
     checkpoint_of(path).map(|(state, image)| (image.writer, state.scene))
 }
@@ -162,12 +160,13 @@ fn make(path: &Path, old: Restored, holds: [usize; 2], left_out: LeftOut) -> Res
         let program = short(&run.attribute("program").unwrap_or_default()).into_owned();
         return Err(RepairError::Unknown { path: path.into(), name: short(&unknown.name).into_owned(), program });
     }
-    let place = Place::prepare(path, true, EMPTY_FILE)?;
+    let place = Output::prepare(path, true, EMPTY_FILE)?;
     // The run ended when it was last heard of.
     let end_time = fs::metadata(path).and_then(|file| file.modified()).unwrap_or_else(|_| SystemTime::now());
     let start_time = run.start_time().unwrap_or(end_time);
     let wall_time = end_time.duration_since(start_time).unwrap_or_default();
-    let (file, mut datasets) = set_up(&place, &header, start_time, &random::word()).map_err(not_anew(path))?;
+    let (file, mut datasets) =
+        set_up(&place, &header, start_time, &temporary::unique_word()).map_err(not_anew(path))?;
     datasets.copy(&file, run, Earlier { samples, snapshots: moments, wall_time })?;
     file.flush().map_err(not_anew(path))?;
     let digests = datasets.into_digests();
@@ -181,7 +180,7 @@ fn make(path: &Path, old: Restored, holds: [usize; 2], left_out: LeftOut) -> Res
         events: &[],
         acceleration: None,
     };
-    let sealed = Place::prepare(path, true, EMPTY_FILE)?;
+    let sealed = Output::prepare(path, true, EMPTY_FILE)?;
     let closed = file.close().and_then(|()| seal.make(place.temporary(), &sealed));
     closed.map_err(not_anew(path))?;
     drop(old);

@@ -1,26 +1,209 @@
-//! The open run file: how it is made and what is appended to it.
+//! Run file that is open for writing: datasets that grow, its start, its continuation from a checkpoint, and its end.
 
 use std::fs;
 use std::os::unix::fs::MetadataExt;
 use std::path::{Path, PathBuf};
 use std::time::{Instant, SystemTime};
 
-use hdf5::File;
+use hdf5::{Dataset, File, H5Type};
+use ndarray::{ArrayView2, s};
 use plateau_core::acceleration::Chosen;
 use plateau_core::observe::event::EventRecord;
-use plateau_core::observe::{Sample, Snapshot};
+use plateau_core::observe::{Map, MapValues, Quantity, Sample, Snapshot, quantities};
 
-use super::creation::lay_out;
-use super::datasets::Datasets;
-use super::dimension::EMPTY_FILE;
+use super::creation::{Seal, lay_out};
+use super::digest::{self, Digests};
 use super::error::{failed, hdf5_reason, not_anew};
 use super::image::{Image, MARK, Values};
-use super::place::Place;
-use super::restored::Restored;
-use super::seal::Seal;
-use super::{Earlier, End, Header, RunFileError};
-use crate::hdf5_file::writing::{open_for_writing, write_text};
-use crate::random;
+use super::layout::{MAP_TIME, Statuses, TIME, map_path, series_path};
+use super::output::Output;
+use super::{Earlier, End, Header, ReadError, RunFile, RunFileError, State};
+use crate::hdf5_file::writing::{EMPTY_FILE, open_for_writing, write_text};
+use crate::input::sha256_of;
+use crate::temporary::{self, Temporary};
+
+/// The datasets that grow, and the digests of what they hold.
+pub(super) struct Datasets {
+    time: Dataset,
+    series: Vec<(&'static Quantity, Dataset)>,
+    /// Present where there are maps.
+    map_time: Option<Dataset>,
+    maps: Vec<(Map, Dataset)>,
+    rows: usize,
+    statuses: Statuses,
+    digests: Digests,
+    pub(super) samples: usize,
+    pub(super) snapshots: usize,
+}
+
+impl Datasets {
+    pub(super) fn open(file: &File, header: &Header) -> hdf5::Result<Self> {
+        let mut digests = Digests::default();
+        for quantity in quantities(&header.extras) {
+            digests.append(&series_path(quantity.name), &[]);
+        }
+        for path in [TIME, MAP_TIME].into_iter().take(if header.maps.is_empty() { 1 } else { 2 }) {
+            digests.append(path, &[]);
+        }
+        let maps = Map::ALL.into_iter().filter(|map| header.maps.contains(map));
+        Ok(Self {
+            time: file.dataset(TIME)?,
+            series: quantities(&header.extras)
+                .map(|quantity| Ok((quantity, file.dataset(&series_path(quantity.name))?)))
+                .collect::<hdf5::Result<_>>()?,
+            map_time: if header.maps.is_empty() { None } else { Some(file.dataset(MAP_TIME)?) },
+            maps: maps.map(|map| Ok((map, file.dataset(map_path(map))?))).collect::<hdf5::Result<_>>()?,
+            rows: header.mesh.rows(),
+            statuses: Statuses::of(&header.mesh),
+            digests,
+            samples: 0,
+            snapshots: 0,
+        })
+    }
+
+    pub(super) fn into_digests(self) -> Digests {
+        self.digests
+    }
+
+    /// All of them.
+    pub(super) fn all(&self) -> impl Iterator<Item = &Dataset> {
+        let series = self.series.iter().map(|(_, dataset)| dataset);
+        let maps = self.maps.iter().map(|(_, dataset)| dataset);
+        [&self.time].into_iter().chain(series).chain(&self.map_time).chain(maps)
+    }
+
+    /// Appends samples and makes them visible to readers.
+    pub(super) fn append_samples(&mut self, file: &File, batch: &[Sample]) -> hdf5::Result<()> {
+        let columns = self
+            .series
+            .iter()
+            .map(|(quantity, _)| batch.iter().map(|sample| quantity.value(sample)).collect())
+            .collect();
+        self.append(file, columns, batch.iter().map(|sample| sample.time).collect())
+    }
+
+    /// Appends the first samples and maps of another run file, of which it is known that it has them.
+    pub(super) fn copy(&mut self, file: &File, other: &RunFile, earlier: Earlier) -> Result<(), RunFileError> {
+        let path = other.path();
+        let unreadable = |error: ReadError| RunFileError::Earlier { path: path.into(), reason: error.to_string() };
+        let missing = |name: &str| RunFileError::Earlier { path: path.into(), reason: format!("it has no {name}") };
+        let columns = self.series.iter().map(|(quantity, _)| {
+            let values = other.first_values(quantity.name, earlier.samples).map_err(unreadable)?;
+            values.ok_or_else(|| missing(quantity.name))
+        });
+        let columns = columns.collect::<Result<_, RunFileError>>()?;
+        self.append(file, columns, other.time()[..earlier.samples].to_vec()).map_err(not_anew(path))?;
+        for (level, &time) in other.map_time()[..earlier.snapshots].iter().enumerate() {
+            let maps = self.maps.iter().map(|(map, _)| {
+                let values = other.map(*map, level).map_err(unreadable)?;
+                Ok((*map, values.ok_or_else(|| missing(map.name()))?))
+            });
+            let maps = maps.collect::<Result<_, RunFileError>>()?;
+            self.append_snapshot(file, &Snapshot { time, maps }).map_err(not_anew(path))?;
+        }
+        Ok(())
+    }
+
+    /// One column for each series; the times after the flush tell readers that they are there.
+    fn append(&mut self, file: &File, columns: Vec<Vec<f64>>, time: Vec<f64>) -> hdf5::Result<()> {
+        let (old, new) = (self.samples, self.samples + time.len());
+        let append = |dataset: &Dataset, values: &[f64]| {
+            dataset.resize(new)?;
+            dataset.write_slice(values, s![old..new])
+        };
+        for ((quantity, series), values) in self.series.iter().zip(&columns) {
+            append(series, values)?;
+            self.digests.append(&series_path(quantity.name), values);
+        }
+        file.flush()?;
+        append(&self.time, &time)?;
+        self.digests.append(TIME, &time);
+        publish(&self.time, file)?;
+        self.samples = new;
+        Ok(())
+    }
+
+    /// Appends the maps of one moment and makes them visible to readers.
+    pub(super) fn append_snapshot(&mut self, file: &File, snapshot: &Snapshot) -> hdf5::Result<()> {
+        let Some(map_time) = &self.map_time else { return Ok(()) };
+        let level = self.snapshots;
+        for (map, dataset) in &self.maps {
+            let digest = match snapshot.maps.iter().find(|(name, _)| name == map) {
+                Some((_, MapValues::Float(values))) => {
+                    write_level(dataset, level, values, self.rows)?;
+                    digest::of_floats(values)
+                }
+                Some((_, MapValues::Status(values))) => {
+                    dataset.resize((level + 1, values.len() / self.rows, self.rows))?;
+                    self.statuses.write_level(dataset, level, values, self.rows)?;
+                    sha256_of(values)
+                }
+                None => return Err(format!("the snapshot lacks {}", map.name()).into()),
+            };
+            self.digests.append_map(map_path(*map), digest);
+        }
+        file.flush()?;
+        map_time.resize(level + 1)?;
+        map_time.write_slice(&[snapshot.time], s![level..=level])?;
+        self.digests.append(MAP_TIME, &[snapshot.time]);
+        publish(map_time, file)?;
+        self.snapshots = level + 1;
+        Ok(())
+    }
+}
+
+/// Shows readers times that were appended. The times themselves come first: a flush of the file goes on to say that there are
+/// more of them when it could not write them.
+fn publish(times: &Dataset, file: &File) -> hdf5::Result<()> {
+    times.flush()?;
+    file.flush()
+}
+
+/// Writes one map, given column by column, as the last level of its dataset.
+fn write_level<T: H5Type>(dataset: &Dataset, level: usize, values: &[T], rows: usize) -> hdf5::Result<()> {
+    let columns = values.len() / rows;
+    let values = ArrayView2::from_shape((columns, rows), values)?;
+    dataset.resize((level + 1, columns, rows))?;
+    dataset.write_slice(values, s![level, .., ..])
+}
+
+/// A run file that is read, or a copy of it as it was at a checkpoint.
+pub(super) struct Restored {
+    pub(super) run: RunFile,
+    /// It goes with its copy.
+    _copy: Option<Temporary>,
+}
+
+impl Restored {
+    /// Opens a file as it is.
+    pub(super) fn as_it_is(path: &Path) -> Result<Self, ReadError> {
+        Ok(Self { run: RunFile::open(path)?, _copy: None })
+    }
+
+    /// Opens a file as it was when an image of it was taken.
+    ///
+    /// # Errors
+    /// [`RunFileError::Anew`] when there is no room for its copy, [`RunFileError::Earlier`] when that is no run file.
+    pub(super) fn as_it_was(path: &Path, image: &Image) -> Result<Self, RunFileError> {
+        let copy =
+            image.restore(path).map_err(|error| RunFileError::Anew { path: path.into(), reason: error.to_string() })?;
+        let run = RunFile::open(copy.path())
+            .map_err(|error| RunFileError::Earlier { path: path.into(), reason: error.to_string() })?;
+        Ok(Self { run: run.known_as(path), _copy: Some(copy) })
+    }
+
+    /// Opens the file of a run that is gone on with. One that was not closed may be torn by a loss of power, which does not always
+    /// show; as it was at the checkpoint it is whole.
+    fn to_go_on(path: &Path, images: &[Image]) -> Result<Self, RunFileError> {
+        match (Self::as_it_is(path), images.iter().find(|image| image.is_of(path))) {
+            (Ok(there), _) if there.run.state() != State::Running => Ok(there),
+            (_, Some(image)) => Self::as_it_was(path, image),
+            (there, None) => {
+                there.map_err(|error| RunFileError::Earlier { path: path.into(), reason: error.to_string() })
+            }
+        }
+    }
+}
 
 /// A run file while it is written. Only one thread uses it.
 pub(super) struct Store {
@@ -32,12 +215,12 @@ pub(super) struct Store {
     started: Instant,
     file: File,
     datasets: Datasets,
-    /// What tells this file from others.
+    /// Mark of this file, which no other has.
     mark: String,
     values: Values,
 }
 
-/// How much a run file holds.
+/// Extent of a run file.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Written {
     pub(super) samples: usize,
@@ -50,8 +233,8 @@ impl Store {
     pub(super) fn create(path: &Path, overwrite: bool, header: &Header) -> Result<Self, RunFileError> {
         header.check()?;
         let (started, start_time) = (Instant::now(), SystemTime::now());
-        let place = Place::prepare(path, overwrite, EMPTY_FILE)?;
-        let mark = random::word();
+        let place = Output::prepare(path, overwrite, EMPTY_FILE)?;
+        let mark = temporary::unique_word();
         let set_up = set_up(&place, header, start_time, &mark);
         let (file, datasets) = set_up.map_err(|error| RunFileError::not_made(path.to_owned(), hdf5_reason(&error)))?;
         let identity = identity(place.temporary());
@@ -71,7 +254,7 @@ impl Store {
     ) -> Result<Self, RunFileError> {
         header.check()?;
         let started = Instant::now().checked_sub(earlier.wall_time).unwrap_or_else(Instant::now);
-        let place = Place::prepare(path, true, EMPTY_FILE)?;
+        let place = Output::prepare(path, true, EMPTY_FILE)?;
         let restored = Restored::to_go_on(path, images)?;
         let old = &restored.run;
         let there = [old.time().len(), old.map_time().len()];
@@ -83,7 +266,7 @@ impl Store {
             return Err(RunFileError::Earlier { path: path.into(), reason });
         }
         let start_time = old.start_time().unwrap_or_else(SystemTime::now);
-        let (mark, mut values) = (random::word(), Values::default());
+        let (mark, mut values) = (temporary::unique_word(), Values::default());
         let (file, mut datasets) = set_up(&place, header, start_time, &mark).map_err(not_anew(path))?;
         datasets.copy(&file, old, earlier)?;
         drop(restored);
@@ -117,7 +300,7 @@ impl Store {
         })
     }
 
-    /// Whether the path still means this file.
+    /// Tells whether the path still means this file.
     fn check_identity(&self) -> Result<(), RunFileError> {
         if identity(&self.path) == self.identity {
             Ok(())
@@ -166,7 +349,7 @@ impl Store {
 }
 
 /// Makes a file at a place, complete but for samples and maps, which readers can follow.
-pub(super) fn set_up(place: &Place, header: &Header, start: SystemTime, mark: &str) -> hdf5::Result<(File, Datasets)> {
+pub(super) fn set_up(place: &Output, header: &Header, start: SystemTime, mark: &str) -> hdf5::Result<(File, Datasets)> {
     let file = open_for_writing(place.temporary())?;
     write_text(&file, MARK, mark)?;
     lay_out(&file, header, start, None)?;

@@ -1,4 +1,4 @@
-//! Whether a run file still holds what was written.
+//! Tells whether a run file still holds what was written.
 
 use std::path::Path;
 
@@ -6,19 +6,19 @@ use hdf5::Dataset;
 use plateau_core::observe::event::EVENT_QUANTITIES;
 use plateau_core::observe::{Map, MapValues};
 
-use super::attribute_digests::{
-    ATTRIBUTES_DIGEST, EXECUTION_DIGEST, NUMBERS_DIGEST, of_execution, of_numbers, of_texts, texts,
+use super::digest::{
+    ATTRIBUTES_DIGEST, DIGEST, EXECUTION_DIGEST, NUMBERS_DIGEST, of_execution, of_floats, of_numbers, of_texts, texts,
 };
-use super::digest::{DIGEST, of_bytes, of_floats};
 use super::layout::{EVENT, MAP_TIME, PIN_BASE, TIME, event_path, map_path, series_path};
-use super::opening::reason;
+use super::reader::reason;
 use super::{ReadError, RunFile, State};
 use crate::hdf5_file;
+use crate::input::sha256_of;
 
-/// What was found of a run file that can be opened.
+/// Result of verifying a run file that can be opened.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Verification {
-    /// How its run ended.
+    /// State of its run.
     pub state: State,
     /// Samples.
     pub samples: usize,
@@ -26,21 +26,21 @@ pub struct Verification {
     pub moments: usize,
     /// Digests that hold.
     pub intact: usize,
-    /// Whether it has digests: not before it is closed.
+    /// Tells whether it has digests: not before it is closed.
     pub digested: bool,
-    /// Whether its digests are of all that it holds: those of earlier programs leave out what is no text among the attributes, and
+    /// Tells whether its digests are of all that it holds: those of earlier programs leave out what is no text among the attributes, and
     /// what tells how the run was carried out.
     pub covers_numbers: bool,
-    /// What is no longer what was written.
+    /// Parts that are no longer what was written.
     pub damage: Vec<Damage>,
 }
 
 /// A part of a run file that is damaged.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Damage {
-    /// Where it is, such as `/disc/height at 500 s`.
+    /// Its place, such as `/disc/height at 500 s`.
     pub place: String,
-    /// How it shows.
+    /// The sign of it.
     pub problem: String,
 }
 
@@ -107,7 +107,7 @@ impl Check<'_> {
 
     fn pin_base(&mut self) {
         let base = self.run.pin_base().map(Option::unwrap_or_default).map_err(in_short);
-        self.compare(PIN_BASE, base.map(|base| of_bytes(&base)));
+        self.compare(PIN_BASE, base.map(|base| sha256_of(&base)));
     }
 
     /// Every moment has its own digest.
@@ -120,7 +120,7 @@ impl Check<'_> {
         for (moment, time) in self.run.map_time().iter().enumerate() {
             let found = match self.run.map(map, moment) {
                 Ok(Some(MapValues::Float(values))) => Ok(of_floats(&values)),
-                Ok(Some(MapValues::Status(values))) => Ok(of_bytes(&values)),
+                Ok(Some(MapValues::Status(values))) => Ok(sha256_of(&values)),
                 Ok(None) => Err("it is not there".to_owned()),
                 Err(error) => Err(in_short(error)),
             };
@@ -203,7 +203,7 @@ impl Check<'_> {
     }
 }
 
-/// What is wrong with a part of a file, without what is said of the file.
+/// Problem with a part of a file, without what is said of the file.
 fn in_short(error: ReadError) -> String {
     match error {
         ReadError::Damaged { reason, .. } => reason,

@@ -1,18 +1,16 @@
-//! Writes a run file while a simulation goes on: what a simulation calls.
+//! Writer of a run file while a simulation goes on: the calls of the simulation, the queues, and the thread that writes.
 
 use std::path::Path;
 use std::thread::{self, JoinHandle};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
-use crossbeam::channel::{self, Sender};
+use crossbeam::channel::{self, Receiver, Sender, TrySendError};
 use plateau_core::acceleration::Chosen;
 use plateau_core::model::mesh::Mesh;
 use plateau_core::observe::event::EventRecord;
 use plateau_core::observe::{Map, MapValues, Sample, Snapshot};
 
 use super::store::Store;
-use super::writer_queue::{Queues, Synced, send};
-use super::writer_thread::write;
 use super::{Earlier, End, Header, Image, RunFileError};
 
 /// Samples in the queue, at most: 3 MB, as many as come while a batch is written.
@@ -34,10 +32,10 @@ pub struct RunWriter {
     waited: Duration,
 }
 
-/// What a finished run file holds and what writing it cost.
+/// Content of a finished run file, and the cost of writing it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct WriterReport {
-    /// How long the simulation waited for the queue, in all.
+    /// Time for which the simulation waited for the queue, in all.
     pub waited: Duration,
     /// Samples in the file.
     pub samples: usize,
@@ -74,7 +72,7 @@ impl RunWriter {
         let work = move || {
             let _life: Sender<()> = life;
             // Nobody gives a file that could not be made.
-            write(given.recv().map_err(|_| RunFileError::Stopped)?, &samples, &snapshots, &syncs)
+            append_until_closed(given.recv().map_err(|_| RunFileError::Stopped)?, &samples, &snapshots, &syncs)
         };
         let thread = thread::Builder::new().name("run file".into()).spawn(work);
         let thread = thread.map_err(|error| RunFileError::NoThread { path: path.into(), reason: error.to_string() })?;
@@ -106,7 +104,7 @@ impl RunWriter {
         Self::start(path, header, || Store::resume(path, header, earlier, images, keep))
     }
 
-    /// Whether the writer still takes what is sent.
+    /// Tells whether the writer still takes what is sent.
     ///
     /// # Errors
     /// The error with which it has ended.
@@ -167,7 +165,7 @@ impl RunWriter {
         })
     }
 
-    /// Whether a snapshot holds the maps of the header on its mesh.
+    /// Tells whether a snapshot holds the maps of the header on its mesh.
     fn check_maps(&self, snapshot: &Snapshot) -> Result<(), RunFileError> {
         for &map in &self.maps {
             let name = map.name();
@@ -212,5 +210,154 @@ impl Drop for RunWriter {
         {
             let _ = store.seal(&End::Failed("the program stopped before the run was done".into()), &[], None);
         }
+    }
+}
+
+/// Queues from a simulation to the thread that writes.
+#[derive(Debug)]
+struct Queues {
+    pub(super) samples: Sender<Sample>,
+    pub(super) snapshots: Sender<Snapshot>,
+    pub(super) syncs: Sender<Sender<Vec<Image>>>,
+    /// See [`Synced`].
+    pub(super) alive: Receiver<()>,
+}
+
+/// Sends and adds to `waited` how long that took if the queue was full; false when nobody receives any more.
+pub(super) fn send<T>(queue: &Sender<T>, value: T, waited: &mut Duration) -> bool {
+    match queue.try_send(value) {
+        Ok(()) => true,
+        Err(TrySendError::Disconnected(_)) => false,
+        Err(TrySendError::Full(value)) => {
+            let start = Instant::now();
+            let sent = queue.send(value).is_ok();
+            *waited += start.elapsed();
+            sent
+        }
+    }
+}
+
+/// An answer that a writer owes: whether what was sent to it is on the disk.
+#[derive(Debug)]
+pub struct Synced {
+    answers: Receiver<Vec<Image>>,
+    /// Closed when the writer has ended. A question that it has not taken then stays in its queue, and is never answered.
+    alive: Receiver<()>,
+}
+
+impl Synced {
+    /// The answer to a question that was put to a writer, for as long as that is alive.
+    pub(super) fn new(answers: Receiver<Vec<Image>>, alive: Receiver<()>) -> Self {
+        Self { answers, alive }
+    }
+
+    /// For a run file that is complete on the disk.
+    pub fn already() -> Self {
+        let (answer, answers) = channel::bounded(1);
+        // There is room for it.
+        let _ = answer.send(Vec::new());
+        Self { answers, alive: channel::never() }
+    }
+
+    /// Waits for the answer: the image of the file as it is on the disk, if it is there; none of a file that is closed.
+    pub fn wait(&self) -> Option<Vec<Image>> {
+        crossbeam::select! {
+            recv(self.answers) -> answer => answer.ok(),
+            recv(self.alive) -> _ => self.answers.try_recv().ok(),
+        }
+    }
+}
+
+/// Samples written at once, at most: 2 MB.
+const BATCH: usize = 8 * 1024;
+/// Time for which a sample waits for others before it is written.
+const LATENCY: Duration = Duration::from_millis(500);
+/// Time for which samples gather in the queue before they are taken out, at least.
+const PAUSE: Duration = Duration::from_millis(2);
+
+/// Body of the thread: appends what arrives until both queues are closed and empty.
+fn append_until_closed(
+    mut store: Store,
+    samples: &Receiver<Sample>,
+    snapshots: &Receiver<Snapshot>,
+    syncs: &Receiver<Sender<Vec<Image>>>,
+) -> Result<Store, RunFileError> {
+    match append_all(&mut store, samples, snapshots, syncs) {
+        Ok(()) => Ok(store),
+        Err(error) => {
+            store.abandon();
+            Err(error)
+        }
+    }
+}
+
+fn append_all(
+    store: &mut Store,
+    samples: &Receiver<Sample>,
+    snapshots: &Receiver<Snapshot>,
+    syncs: &Receiver<Sender<Vec<Image>>>,
+) -> Result<(), RunFileError> {
+    let mut batch: Vec<Sample> = Vec::new();
+    let mut due = channel::never();
+    loop {
+        crossbeam::select! {
+            recv(samples) -> sample => {
+                let Ok(sample) = sample else { break };
+                if batch.is_empty() {
+                    due = channel::after(LATENCY);
+                }
+                batch.push(sample);
+                // Not to be woken by every sample of a run that sends many makes sending one cheap.
+                thread::sleep(PAUSE);
+                batch.extend(samples.try_iter().take(BATCH - batch.len()));
+            }
+            recv(snapshots) -> snapshot => {
+                let Ok(snapshot) = snapshot else { break };
+                store.append_snapshot(&snapshot)?;
+            }
+            recv(syncs) -> answer => {
+                let Ok(answer) = answer else { break };
+                batch.extend(samples.try_iter());
+                for snapshot in snapshots.try_iter() {
+                    store.append_snapshot(&snapshot)?;
+                }
+                store.append_samples(&batch)?;
+                batch.clear();
+                due = channel::never();
+                // Who asked may have given up.
+                let _ = answer.send(store.sync()?.into_iter().collect());
+            }
+            recv(due) -> _ => {
+                store.append_samples(&batch)?;
+                batch.clear();
+                due = channel::never();
+            }
+        }
+        if batch.len() == BATCH {
+            store.append_samples(&batch)?;
+            batch.clear();
+            due = channel::never();
+        }
+    }
+    batch.extend(samples.try_iter());
+    for snapshot in snapshots.try_iter() {
+        store.append_snapshot(&snapshot)?;
+    }
+    if batch.is_empty() { Ok(()) } else { store.append_samples(&batch) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_question_that_nobody_takes_is_answered_with_no() {
+        let (questions, taken) = channel::bounded(1);
+        let (life, alive) = channel::bounded(0);
+        let (answer, answers) = channel::bounded(1);
+        questions.send(answer).unwrap();
+        drop((taken, life));
+        assert_eq!(Synced::new(answers, alive).wait(), None);
+        assert_eq!(Synced::already().wait(), Some(Vec::new()));
     }
 }

@@ -1,29 +1,33 @@
-//! From checked keys to a [`Scene`]: what several keys say together.
+//! From checked keys to a [`Scene`]: what several keys say together. Mesh, materials, length of the run, friction, heat and emission
+//! (docs/drive.md), output.
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use plateau_core::acceleration::Adaptive;
+use plateau_core::model::emission::Emission;
+use plateau_core::model::friction::{Friction, FrictionLaw};
+use plateau_core::model::heat::{Coating, Disc, Pin, Substance, Thermal};
 use plateau_core::model::material::{Material, Materials};
 use plateau_core::model::mesh::Mesh;
-use plateau_core::model::parameters::{Parameters, PlateauRules};
+use plateau_core::model::parameters::{DebrisRule, Parameters, PlateauRules};
 use plateau_core::observe::dissipation::CONTACT_TEMPERATURE;
 use plateau_core::observe::extra::Extra;
 use plateau_core::observe::schedule::SampleEvery;
 use plateau_core::observe::{Map, requested};
 
-use super::contents::{OperationCycle, OutputSettings, Scene, Workers};
-use super::cycle::{constants_without_effect, operation, refuse_choice, road_alone, short_events};
+use super::contents::{self, OperationCycle, OutputSettings, Scene, Workers};
+use super::cycle::{ConstantLoad, constants_without_effect, operation, refuse_choice, road_alone, short_events};
 use super::error::{Origin, Problem};
 use super::interpret::Setting;
-use super::length::{Length, length};
 use super::mesh::{Geometry, Refused};
-use super::schema::choices::Shape;
-use super::schema::{ACCELERATION, choices, join};
+use super::schema::choices::{self, Shape};
+use super::schema::{ACCELERATION, join};
 use super::settings::Settings;
 use super::surfaces::{base, heights};
-use super::{Warning, dissipation, memory, resolved};
+use super::{Warning, resolved};
 use crate::memory::refuse_beyond;
-use crate::{brief, number};
+use crate::{number, text};
 
 /// Makes the scene; `files` are the scene file and those it extends.
 pub(super) fn build(mut settings: Settings, mut files: Vec<(PathBuf, String)>, path: &Path) -> Result<Scene, Problem> {
@@ -90,7 +94,7 @@ fn address(count: u64) -> usize {
     usize::try_from(count).unwrap_or(usize::MAX)
 }
 
-/// How the run chooses its acceleration, if it does.
+/// Choice of the acceleration by the run, if it chooses it.
 fn adaptive(settings: &Settings) -> Result<Option<Adaptive>, Problem> {
     let [tolerance, max] = ["tolerance", "max"].map(|name| join(ACCELERATION, name));
     let Some(tolerance) = settings.optional_number(&tolerance)? else { return Ok(None) };
@@ -101,7 +105,7 @@ fn adaptive(settings: &Settings) -> Result<Option<Adaptive>, Problem> {
     Ok(Some(Adaptive { tolerance, largest: settings.number(&max)? }))
 }
 
-/// What a simulation is told, and the cycle, if there is one; one that never changes load and speed is operation as ever.
+/// Parameters of a simulation, and the cycle, if there is one; one that never changes load and speed is operation as ever.
 fn parameters(settings: &Settings) -> Result<(Parameters, Option<OperationCycle>), Problem> {
     let mesh = mesh(settings)?;
     let sliding_speed = settings.optional_number("operation.sliding_speed")?;
@@ -110,20 +114,29 @@ fn parameters(settings: &Settings) -> Result<(Parameters, Option<OperationCycle>
         Some(speed) => Some(speed / mesh.mean_radius()),
         None => settings.optional_number(speed_key)?,
     };
-    let force = settings.optional_number("operation.normal_force")?;
-    let operation = operation(settings, &mesh, force, speed)?;
+    let torque = settings.optional_number("operation.braking_torque")?;
+    let constant = ConstantLoad {
+        value: torque.map_or_else(|| settings.optional_number("operation.normal_force"), |torque| Ok(Some(torque)))?,
+        by_torque: torque.is_some(),
+    };
+    let operation = operation(settings, &mesh, constant, speed)?;
+    let by_torque = operation.as_ref().map_or(constant.by_torque, |operation| operation.by_torque);
     let (normal_force, angular_velocity) = match &operation {
         // What is reckoned before the first step is on the safe side with the largest load, and right in the mean with the
         // mean speed.
         Some(OperationCycle { cycle, .. }) => cycle
             .constant()
             .unwrap_or_else(|| (cycle.largest_force(), cycle.angle_at(cycle.duration()) / cycle.active_time())),
-        None => (settings.number("operation.normal_force")?, speed.map_or_else(|| settings.number(speed_key), Ok)?),
+        None => (
+            constant.value.map_or_else(|| settings.number("operation.normal_force"), Ok)?,
+            speed.map_or_else(|| settings.number(speed_key), Ok)?,
+        ),
     };
     let cycle = operation.as_ref().map(|operation| operation.cycle.clone());
     let mut parameters = Parameters {
         mesh,
         normal_force,
+        by_torque,
         angular_velocity,
         cycle: cycle.filter(|cycle| cycle.constant().is_none()),
         foundation_height: settings.number("contact.foundation_height")?,
@@ -135,7 +148,7 @@ fn parameters(settings: &Settings) -> Result<(Parameters, Option<OperationCycle>
         thermal: None,
         emission: None,
     };
-    dissipation::add(settings, &mut parameters)?;
+    add_dissipation(settings, &mut parameters)?;
     if !parameters.step_time().is_normal() {
         let message = format!("a step would last {} s, which cannot be computed with", parameters.step_time());
         return Err(Problem::new(&settings.origin(speed_key), speed_key, message));
@@ -163,7 +176,7 @@ fn mesh(settings: &Settings) -> Result<Mesh, Problem> {
             Some(Setting::Maps(maps)) => maps.as_slice(),
             _ => &[],
         };
-        let needed = memory::estimate(cells.counts, maps, &extras(settings)?, adaptive(settings)?.is_some());
+        let needed = contents::estimate(cells.counts, maps, &extras(settings)?, adaptive(settings)?.is_some());
         if let Err(no_room) = refuse_beyond(needed) {
             let message = format!(
                 "{rows} rows and {disc_columns} columns need {no_room}; make the mesh smaller, or allow more memory"
@@ -203,6 +216,10 @@ fn materials(settings: &Settings) -> Result<Materials, Problem> {
         pin_secondary: material("pin_secondary")?,
         pin_resin: material("pin_resin")?,
         wear_height: settings.number("materials.pin_resin.wear_height")?,
+        pin_primary_against_secondary: settings.optional_number("materials.pin_primary.wear_rate_against_secondary")?,
+        pin_secondary_against_secondary: settings
+            .optional_number("materials.pin_secondary.wear_rate_against_secondary")?,
+        strength: settings.optional_number("materials.pin_secondary.strength")?,
     })
 }
 
@@ -219,13 +236,33 @@ fn debris_by_default(settings: &Settings, scene: &Path) -> Option<Warning> {
     })
 }
 
+/// Full path of the key of ℓ.
+const TRANSPORT_LENGTH: &str = "plateaus.transport_length";
+
 fn plateaus(settings: &Settings) -> Result<PlateauRules, Problem> {
+    let debris = settings.choice("plateaus.debris", &choices::DEBRIS)?;
+    let transport_length = settings.optional_number(TRANSPORT_LENGTH)?;
+    let refused = |reason: &str| {
+        let message = format!("{reason}; leave one of them out");
+        Err(Problem::new(&settings.origin(TRANSPORT_LENGTH), TRANSPORT_LENGTH, message))
+    };
+    if transport_length.is_some() {
+        if debris != DebrisRule::Local {
+            return refused("it is of local debris, and debris is pooled: write debris = \"local\"");
+        }
+        if settings.get("plateaus.captured_resin_fraction").is_some() {
+            return refused(
+                "with it only what plateaus lose is compacted, so that captured_resin_fraction has no meaning beside it",
+            );
+        }
+    }
     Ok(PlateauRules {
         captured_fraction: settings.number("plateaus.captured_fraction")?,
         captured_resin_fraction: settings.optional_number("plateaus.captured_resin_fraction")?,
         // Local debris has neither.
         pad_share: settings.optional_number("plateaus.pad_share")?.unwrap_or(0.0),
-        debris: settings.choice("plateaus.debris", &choices::DEBRIS)?,
+        debris,
+        transport_length,
         formation: settings.bool("plateaus.formation")?,
         destruction: settings.get("plateaus.destruction").is_some() && settings.bool("plateaus.destruction")?,
     })
@@ -275,7 +312,7 @@ fn map_times(settings: &mut Settings, end: f64, warnings: &mut Vec<Warning>) -> 
         warnings.push(Warning {
             place: origin.clone(),
             key: key.to_owned(),
-            found: format!("maps at {}", brief::list(beyond, ", ")),
+            found: format!("maps at {}", text::list(beyond, ", ")),
             // In words for people: the last digits of a time that is a sum of steps say nothing.
             bound: format!("after the run, which ends at {} s", number::to_nine_digits(end)),
             advice: "they are not taken: give earlier times, or a longer operation.duration".to_owned(),
@@ -283,4 +320,195 @@ fn map_times(settings: &mut Settings, end: f64, warnings: &mut Vec<Warning>) -> 
     }
     settings.insert(key, Setting::Numbers(kept.clone()), &origin);
     kept
+}
+
+/// More steps than this cannot be counted one by one in a double (2^53), and the time of a step would be wrong.
+const MOST_STEPS: u64 = 1 << f64::MANTISSA_DIGITS;
+
+/// Steps and duration.
+pub(super) struct Length {
+    pub steps: u64,
+    /// Physical time, s.
+    pub duration: f64,
+}
+
+/// The steps and the time that the keys say.
+pub(super) fn length(
+    settings: &Settings,
+    parameters: &Parameters,
+    operation: Option<&OperationCycle>,
+) -> Result<Length, Problem> {
+    let duration = settings.optional_number("operation.duration")?;
+    let given = settings.get("operation.steps").map(|_| settings.integer("operation.steps")).transpose()?;
+    let key = match (duration, given) {
+        (Some(_), _) => "operation.duration",
+        (None, Some(_)) => "operation.steps",
+        (None, None) => ACCELERATION,
+    };
+    let problem = |message: String| Problem::new(&settings.origin(key), key, message);
+    let length = match (operation, duration, given) {
+        (Some(OperationCycle { cycle, .. }), _, _) => {
+            let angle = parameters.step_angle();
+            let duration = match (duration, given) {
+                (Some(duration), _) => duration,
+                (None, Some(steps)) if steps <= cycle.steps_done(cycle.duration(), angle) => cycle.end_of(steps, angle),
+                (None, Some(_)) => f64::INFINITY,
+                (None, None) => cycle.duration(),
+            };
+            if duration > cycle.duration() * (1.0 + 1e-12) {
+                let (end, steps) = (cycle.duration(), cycle.steps_done(cycle.duration(), angle));
+                return Err(problem(format!(
+                    "the cycle ends after {end} s and {steps} steps, expected no more; write duration = \"{end} s\" in [operation], also \
+                     where a scene that is extended gives another one, or raise operation.cycle.repeat to play it again"
+                )));
+            }
+            // Also one that never changes: no step goes beyond the end.
+            let steps = cycle.steps_done(duration, angle);
+            if steps == 0 {
+                let [duration, turned, step] = [duration, cycle.angle_at(duration), angle].map(number::plain);
+                return Err(problem(format!(
+                    "until {duration} s the cycle turns the disc by {turned} rad, less than a step of {step} rad, so nothing would \
+                     happen; a longer duration, faster speeds or a smaller numerics.time_acceleration help"
+                )));
+            }
+            Length { steps, duration }
+        }
+        (None, Some(duration), _) => Length { steps: parameters.steps_of(duration), duration },
+        (None, None, _) => {
+            let steps = settings.integer("operation.steps")?;
+            Length { steps, duration: parameters.clock().time_at(steps) }
+        }
+    };
+    if length.steps > MOST_STEPS {
+        let message =
+            format!("these are more than {MOST_STEPS} steps, which cannot be counted exactly; shorten the run");
+        return Err(problem(message));
+    }
+    Ok(length)
+}
+
+/// Puts the parts that a scene asks for into its parameters.
+fn add_dissipation(settings: &Settings, parameters: &mut Parameters) -> Result<(), Problem> {
+    parameters.friction = if settings.has_table("friction") { Some(friction(settings)?) } else { None };
+    parameters.thermal = if settings.has_table("thermal") { Some(Arc::new(thermal(settings)?)) } else { None };
+    parameters.emission = if settings.has_table("emission") { Some(emission(settings)?) } else { None };
+    let problem = |key: &str, message: &str| Err(Problem::new(&settings.origin(key), key, message));
+    if parameters.thermal.is_some() && parameters.friction.is_none() {
+        return problem(
+            "thermal.ambient",
+            "heat comes of friction, and there is no [friction]: give it, or leave [thermal] out",
+        );
+    }
+    if parameters.by_torque {
+        let key = ["operation.braking_torque", "operation.cycle.points", "operation.cycle.file"]
+            .into_iter()
+            .find(|key| settings.get(key).is_some())
+            .unwrap_or("operation.braking_torque");
+        match parameters.friction {
+            None => {
+                return problem(
+                    key,
+                    "a braking torque comes of friction, and there is no [friction]: give it, or give a load",
+                );
+            }
+            Some(friction) if friction.maximum.is_infinite() => {
+                return problem(
+                    key,
+                    "before the first step friction is at its ceiling, and friction.maximum is not given: give it, 0.6 for example",
+                );
+            }
+            Some(_) => {}
+        }
+    }
+    if parameters.thermal.is_none() {
+        if settings.get("emission.number_factor").is_some() {
+            return problem(
+                "emission.number_factor",
+                "there is no [thermal], so the temperature of the contact is not known: give it, or leave this key out",
+            );
+        }
+        if settings.get("output.contact_temperature").is_some() && settings.bool("output.contact_temperature")? {
+            return problem(
+                "output.contact_temperature",
+                "there is no [thermal], so no temperature is reckoned: give it, or leave this key out",
+            );
+        }
+    }
+    Ok(())
+}
+
+fn friction(settings: &Settings) -> Result<Friction, Problem> {
+    let law = |table: &str| {
+        let number = |key: &str| settings.number(&format!("{table}.{key}"));
+        let [pressure_coefficient, shear_strength] = ["pressure_coefficient", "shear_strength"].map(number);
+        Ok::<_, Problem>(FrictionLaw { pressure_coefficient: pressure_coefficient?, shear_strength: shear_strength? })
+    };
+    let primary = law("friction")?;
+    let is_given = |table: &str| {
+        ["pressure_coefficient", "shear_strength"]
+            .iter()
+            .any(|key| settings.origin(&format!("{table}.{key}")) != Origin::Default)
+    };
+    if !["friction", "friction.secondary", "friction.resin"].into_iter().any(is_given) {
+        let message = "this table gives no coefficient of friction: expected pressure_coefficient = 0.33, \
+                       shear_strength = \"0.75 MPa\" or both, for example; or leave [friction] out";
+        return Err(Problem::new(&settings.origin("friction"), "friction", message));
+    }
+    let other = |table: &str| if settings.has_table(table) { law(table) } else { Ok(primary) };
+    Ok(Friction {
+        primary,
+        secondary: other("friction.secondary")?,
+        resin: other("friction.resin")?,
+        maximum: settings.optional_number("friction.maximum")?.unwrap_or(f64::INFINITY),
+    })
+}
+
+fn thermal(settings: &Settings) -> Result<Thermal, Problem> {
+    let number = |key: &str| settings.number(key);
+    let substance = |table: &str| {
+        let [conductivity, density, specific_heat] =
+            ["conductivity", "density", "specific_heat"].map(|key| settings.number(&format!("{table}.{key}")));
+        Ok::<_, Problem>(Substance { conductivity: conductivity?, density: density?, specific_heat: specific_heat? })
+    };
+    let coating = |table: &str| {
+        Ok::<_, Problem>(Coating { thickness: number(&format!("{table}.thickness"))?, substance: substance(table)? })
+    };
+    let table = "thermal.disc.coating";
+    Ok(Thermal {
+        ambient: number("thermal.ambient")?,
+        disc: Disc {
+            substance: substance("thermal.disc")?,
+            area: number("thermal.disc.area")?,
+            thickness: number("thermal.disc.thickness")?,
+            cooling: number("thermal.disc.cooling")?,
+            cooling_per_speed: number("thermal.disc.cooling_per_speed")?,
+            coating: settings.has_table(table).then(|| coating(table)).transpose()?,
+        },
+        pin: Pin {
+            substance: substance("thermal.pin")?,
+            area: number("thermal.pin.area")?,
+            length: number("thermal.pin.length")?,
+            cooling: number("thermal.pin.cooling")?,
+        },
+        wear_rate_factor: settings.factor("thermal.wear_rate_factor")?,
+        friction_factor: settings.factor("thermal.friction_factor")?,
+    })
+}
+
+fn emission(settings: &Settings) -> Result<Emission, Problem> {
+    let number = |key: &str| settings.number(&format!("emission.{key}"));
+    let (pm10_fraction, pm25_fraction) = (number("pm10_fraction")?, number("pm25_fraction")?);
+    if pm25_fraction > pm10_fraction {
+        let key = "emission.pm25_fraction";
+        let message = format!("{pm25_fraction} is more than pm10_fraction = {pm10_fraction}, of which it is a part");
+        return Err(Problem::new(&settings.origin(key), key, message));
+    }
+    Ok(Emission {
+        pm10_fraction,
+        pm25_fraction,
+        number_per_mass: number("number_per_mass")?,
+        pin_density: number("pin_density")?,
+        disc_density: number("disc_density")?,
+        number_factor: settings.factor("emission.number_factor")?,
+    })
 }

@@ -1,4 +1,4 @@
-//! What a scene asks for, in SI units: the typed result of reading it.
+//! Scene in SI units, the typed result of reading it, and the memory that its run takes.
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -13,10 +13,10 @@ use plateau_core::observe::operation::{CYCLE, ROAD};
 use plateau_core::observe::schedule::{End, SampleEvery, Schedule};
 use plateau_core::observe::{ACCELERATION, Map};
 use plateau_core::surface::micrograph::Micrograph;
-use plateau_core::surface::{FibreSynthesis, HeightSynthesis, Preparation};
+use plateau_core::surface::{Body, FibreSynthesis, HeightSynthesis, Preparation};
 
-use super::{Origin, Warning};
-use crate::surface::ReadOptions;
+use super::error::{Origin, Warning};
+use crate::delimited::Decimal;
 
 /// A scene, read, checked and resolved.
 #[derive(Debug, Clone)]
@@ -33,7 +33,7 @@ pub struct Scene {
     pub load_tolerance: f64,
     /// Load and speed over time, if they are given as a cycle.
     pub cycle: Option<OperationCycle>,
-    /// How the run chooses its acceleration, if it does.
+    /// Choice of the acceleration by the run, if it chooses it.
     pub adaptive: Option<Adaptive>,
     /// Physical time that is to be simulated, s; the last step ends there, or up to one step later.
     pub duration: f64,
@@ -49,7 +49,7 @@ pub struct Scene {
     pub pin_base_mirror: bool,
     /// Threads.
     pub workers: Workers,
-    /// What is written, where and when.
+    /// Output: files, series, maps, and their times.
     pub output: OutputSettings,
     /// Seeds of the scene as (key path, seed), for the run file's provenance.
     pub seeds: Vec<(String, u64)>,
@@ -60,12 +60,12 @@ pub struct Scene {
     pub files: Vec<(PathBuf, String)>,
     /// Things worth telling the user that are no errors (for instance a map time beyond the end).
     pub warnings: Vec<Warning>,
-    /// Where every key that has a value was given, by its full path.
+    /// Origin of every key that has a value, by its full path.
     pub places: BTreeMap<String, Origin>,
 }
 
 impl Scene {
-    /// When samples and maps are due.
+    /// Time at which samples and maps are due.
     pub fn schedule(&self) -> Schedule {
         let OutputSettings { sample_every, maps_at, .. } = &self.output;
         Schedule::new(&self.parameters, self.end(), *sample_every, maps_at)
@@ -77,7 +77,7 @@ impl Scene {
         let has_road = self.cycle.as_ref().is_some_and(|operation| operation.has_road);
         let Parameters { friction, thermal, emission, .. } = &self.parameters;
         let others = [
-            (self.cycle.is_some(), &CYCLE),
+            (self.cycle.is_some() || self.parameters.by_torque, &CYCLE),
             (has_road, &ROAD),
             (friction.is_some(), &FRICTION),
             (thermal.is_some(), &HEAT),
@@ -87,7 +87,7 @@ impl Scene {
         self.output.extras.iter().copied().chain(acceleration).chain(others).collect()
     }
 
-    /// When the run is over.
+    /// Time at which the run is over.
     fn end(&self) -> End {
         // The time of a step is rounded, so a number of steps is the better end where it does not change; a cycle may end in
         // a pause.
@@ -101,13 +101,15 @@ impl Scene {
 pub struct OperationCycle {
     /// Load and speed over time. Where they never change, the parameters of the scene have no cycle.
     pub cycle: Arc<Cycle>,
-    /// Whether it has a load of its own, in place of the constant one.
+    /// Tells whether its load is a braking torque.
+    pub by_torque: bool,
+    /// Tells whether it has a load of its own, in place of the constant one.
     pub has_load: bool,
-    /// Whether it has a speed of its own.
+    /// Tells whether it has a speed of its own.
     pub has_speed: bool,
-    /// Whether it says how fast the vehicle is.
+    /// Tells whether it says how fast the vehicle is.
     pub has_road: bool,
-    /// Whether the vehicle changes its speed, while the disc turns at one speed.
+    /// Tells whether the vehicle changes its speed, while the disc turns at one speed.
     pub is_road_alone: bool,
     /// The file of its rows, if they are not in the scene, with the SHA-256 of what was read of it.
     pub file: Option<(PathBuf, String)>,
@@ -116,7 +118,7 @@ pub struct OperationCycle {
 /// Heights and how they are prepared.
 #[derive(Debug, Clone, PartialEq)]
 pub struct HeightSettings {
-    /// Where the heights come from.
+    /// Source of the heights.
     pub source: HeightSource,
     /// View from the front: x is mirrored.
     pub mirror: bool,
@@ -124,14 +126,14 @@ pub struct HeightSettings {
     pub preparation: Preparation,
 }
 
-/// Where heights come from.
+/// Source of heights.
 #[derive(Debug, Clone, PartialEq)]
 pub enum HeightSource {
     /// A file, told by its content; the path is resolved against the scene that names it.
     File {
         /// The file.
         path: PathBuf,
-        /// What the scene says of the file.
+        /// Statements of the scene about the file.
         options: ReadOptions,
     },
     /// A random field.
@@ -140,7 +142,41 @@ pub enum HeightSource {
     Flat,
 }
 
-/// Where the pin's fibre map comes from.
+/// Statements of a user about a surface file that the file itself does not make.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct ReadOptions {
+    /// Dataset in an HDF5 file, array in an .npz archive, or the number of a table in a text.
+    pub dataset: Option<String>,
+    /// Time of the map of a run file, s; without it the last one is taken.
+    pub at: Option<f64>,
+    /// Length that the number 1 stands for, m; for text that does not state its unit, for NumPy arrays in another unit than m
+    /// and for images of decimal heights.
+    pub unit: Option<f64>,
+    /// Distance of neighbouring points along x and y, m; for files that do not state it.
+    pub pitch: Option<[f64; 2]>,
+    /// Heights of black and white of an image, m.
+    pub height_range: Option<[f64; 2]>,
+    /// The decimal mark of a text file, where its content does not tell it.
+    pub decimal: Option<Decimal>,
+    /// Lines of a text file that are not read, from its first. A file of which lines are skipped, also none, is taken as
+    /// a table, whatever its first lines tell.
+    pub skip: Option<u64>,
+    /// The file is a profile, and this is the direction of its lay.
+    pub profile_lay: Option<Lay>,
+}
+
+/// Direction of the lay of a surface, of which a profile says nothing.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Lay {
+    /// Grooves along the sliding direction: the profile was traced across it, and goes on unchanged along it.
+    Along,
+    /// Grooves across the sliding direction: the profile was traced along it, and goes on unchanged across it.
+    Across,
+    /// No direction: a surface that has the statistics of the profile in every direction.
+    Isotropic,
+}
+
+/// Source of the pin's fibre map.
 #[derive(Debug, Clone, PartialEq)]
 pub enum BaseSource {
     /// Integers in an HDF5 file, 0 = none, 1 = primary, shape (pin_columns, rows).
@@ -154,7 +190,7 @@ pub enum BaseSource {
     Image {
         /// The file.
         path: PathBuf,
-        /// How it becomes a fibre map.
+        /// Preparation of the fibre map.
         micrograph: Micrograph,
     },
     /// Random capsules.
@@ -163,21 +199,21 @@ pub enum BaseSource {
     Uniform(plateau_core::model::state::Base),
 }
 
-/// How many threads share the ring.
+/// Number of threads that share the ring.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Workers {
-    /// What is fastest on this machine.
+    /// The number that is fastest on this machine.
     Auto,
     /// This many, at least 1.
     Count(usize),
 }
 
-/// What is written, where and when.
+/// Output: files, series, maps, and their times.
 #[derive(Debug, Clone, PartialEq)]
 pub struct OutputSettings {
     /// Run file, relative to the working directory.
     pub file: PathBuf,
-    /// When samples are taken.
+    /// Time at which samples are taken.
     pub sample_every: SampleEvery,
     /// Physical times of the maps, s, increasing, none beyond the end; the last state is always written besides.
     pub maps_at: Vec<f64>,
@@ -187,4 +223,91 @@ pub struct OutputSettings {
     pub extras: Vec<&'static Extra>,
     /// Wall time between two checkpoints, s.
     pub checkpoint_every: f64,
+}
+
+/// Copies of a map that exist at once: one on its way to the writer, one that it writes; and of a field that a series is
+/// measured of, that of one worker and that of all.
+const COPIES: u128 = 2;
+
+const FLOAT: u128 = size_of::<f64>() as u128;
+const STATUS: u128 = size_of::<u8>() as u128;
+
+/// Bytes that a run of the scene keeps in memory at its peak: state and working arrays, and beside them the larger of
+/// the surfaces while they are made and the maps on their way to the file.
+///
+/// Measured surfaces come on top, as large as their files. Surfaces that are extended by statistics count as for a patch of a few
+/// rows.
+pub fn memory_estimate(scene: &Scene) -> u64 {
+    let mesh = &scene.parameters.mesh;
+    let counts = [mesh.rows(), mesh.disc_columns(), mesh.pin_columns()].map(|count| count as u64);
+    let run = estimate(counts, &scene.output.maps, &scene.output.extras, scene.adaptive.is_some());
+    // One body after the other, before there is a simulation.
+    let extended = |settings: &HeightSettings, body: Body| {
+        settings.preparation.extend.map_or(0, |_| field(body.columns(mesh), mesh.rows(), body == Body::Disc))
+    };
+    run.max(extended(&scene.disc_surface, Body::Disc)).max(extended(&scene.pin_surface, Body::Pin))
+}
+
+/// Bytes of the field from which heights of a body are taken that are extended by statistics: a complex number, an
+/// autocorrelation, its power and a height for every cell of the padded grid.
+fn field(columns: usize, rows: usize, closed: bool) -> u64 {
+    let padded = |cells: usize| (cells + 1).next_power_of_two() as u64;
+    let columns = if closed { columns as u64 } else { padded(columns) };
+    columns.saturating_mul(padded(rows)).saturating_mul(5 * FLOAT as u64)
+}
+
+/// As [`memory_estimate`], for a mesh of `rows`, `disc_columns` and `pin_columns` that need not exist; saturates.
+pub(super) fn estimate(
+    [rows, disc_columns, pin_columns]: [u64; 3],
+    maps: &[Map],
+    extras: &[&Extra],
+    chooses_acceleration: bool,
+) -> u64 {
+    let cells = |columns: u64| u128::from(rows) * u128::from(columns);
+    let (disc, pin) = (cells(disc_columns), cells(pin_columns));
+    let sum = |parts: &[(u128, u128)]| {
+        parts.iter().fold(0_u128, |sum, (count, bytes)| sum.saturating_add(count.saturating_mul(*bytes)))
+    };
+    // A run that chooses its acceleration has a scout with a state of its own.
+    let simulations = if chooses_acceleration { 2 } else { 1 };
+    // Height and substrate of both, the pin's base, two working arrays over the pin, radius and area of every row.
+    let state = sum(&[(disc, 2 * FLOAT), (pin, 4 * FLOAT + STATUS), (rows.into(), 2 * FLOAT)]);
+    let surfaces = sum(&[(disc, 2 * FLOAT), (pin, 2 * (FLOAT + STATUS))]);
+    let size = |map: &Map| {
+        let bytes = if map.is_status() { STATUS } else { FLOAT };
+        (if map.on_disc() { disc } else { pin }, COPIES * bytes)
+    };
+    let gathered = extras.iter().filter_map(|extra| extra.request.as_ref()).flat_map(|request| request.maps);
+    let output = sum(&maps.iter().chain(gathered).map(size).collect::<Vec<_>>());
+    u64::try_from(state.saturating_mul(simulations).saturating_add(surfaces.max(output))).unwrap_or(u64::MAX)
+}
+
+#[cfg(test)]
+mod tests {
+    use plateau_core::observe::EXTRAS;
+
+    use super::*;
+
+    #[test]
+    fn counts_every_array() {
+        // By hand, 2 rows, 10 disc and 3 pin columns (20 and 6 cells): state 20·16 + 6·(32 + 1) + 2·16 = 550,
+        // surfaces 20·16 + 6·18 = 428; maps: two snapshots of disc height and pin status 2·(20·8 + 6) = 332.
+        let (maps, none) = ([Map::DiscHeight, Map::PinStatus], []);
+        assert_eq!(estimate([2, 10, 3], &maps, &none, false), 550 + 428);
+        // All seven: disc 20·17, pin 6·(17 + 8), twice.
+        assert_eq!(estimate([2, 10, 3], &Map::CHOICES, &none, false), 550 + 2 * (20 * 17 + 6 * 25));
+        // With the heights of both and the pressure, and the pressure and temperature of the contact, own and gathered.
+        assert_eq!(
+            estimate([2, 10, 3], &Map::CHOICES, EXTRAS, false),
+            550 + 2 * (20 * 17 + 6 * 25) + 16 * (20 + 6 + 6 + 6 + 6)
+        );
+        assert_eq!(estimate([u64::MAX; 3], &maps, EXTRAS, true), u64::MAX);
+    }
+
+    #[test]
+    fn a_field_is_larger_than_its_body() {
+        // By hand: 800 rows are padded to 1024; the ring closes, the pin's 100 columns are padded to 128.
+        assert_eq!(field(13_800, 800, true), 13_800 * 1024 * 40);
+        assert_eq!(field(100, 800, false), 128 * 1024 * 40);
+    }
 }

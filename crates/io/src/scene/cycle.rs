@@ -1,4 +1,4 @@
-//! From the rows of a cycle, in the scene or in a file, to the cycle itself (docs/cycles.md).
+//! From the rows of a cycle, in the scene or in a file, to the cycle itself (docs/drive.md).
 
 use std::path::Path;
 use std::sync::Arc;
@@ -13,14 +13,24 @@ use super::error::{Origin, Problem, Warning};
 use super::interpret::Setting;
 use super::schema::{ACCELERATION, CYCLE, choices, join};
 use super::settings::Settings;
+use crate::input::digested;
 use crate::number;
-use crate::regular::digested;
 
-/// The cycle of a scene, if it has one; `force` (N) and `speed` (rad/s) take the place of a column that there is not.
+/// A load that does not change.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct ConstantLoad {
+    /// F, N, or T, N m.
+    pub value: Option<f64>,
+    /// Whether it is a braking torque.
+    pub by_torque: bool,
+}
+
+/// The cycle of a scene, if it has one; `load` (N, or N m of a braking torque) and `speed` (rad/s) take the place of a column
+/// that there is not.
 pub(super) fn operation(
     settings: &Settings,
     mesh: &Mesh,
-    force: Option<f64>,
+    load: ConstantLoad,
     speed: Option<f64>,
 ) -> Result<Option<OperationCycle>, Problem> {
     let key = |name: &str| format!("{CYCLE}.{name}");
@@ -50,12 +60,16 @@ pub(super) fn operation(
     let (force_scale, speed_scale) = (scale("force_scale")?, scale("speed_scale")?);
     let rows = table.times.len();
     let (has_load, has_speed) = (table.loads.is_some(), table.speeds.is_some());
-    let loads = match table.loads {
-        Some(Loads::Force(loads)) => loads,
+    let (loads, by_torque) = match table.loads {
+        Some(Loads::Force(loads)) => (loads, false),
+        Some(Loads::BrakingTorque(torques)) => (torques, true),
         Some(Loads::NominalPressure(pressures)) => {
-            pressures.into_iter().map(|pressure| pressure * mesh.pin_area()).collect()
+            (pressures.into_iter().map(|pressure| pressure * mesh.pin_area()).collect(), false)
         }
-        None => vec![force.ok_or_else(|| missing("load", "normal_force"))?; rows],
+        None => {
+            let value = load.value.ok_or_else(|| missing("load", "normal_force or braking_torque"))?;
+            (vec![value; rows], load.by_torque)
+        }
     };
     let speeds = match table.speeds {
         Some(Speeds::Rotational(speeds)) => speeds,
@@ -82,7 +96,7 @@ pub(super) fn operation(
         };
         Problem::new(row.unwrap_or(&place), &source, error.to_string())
     })?;
-    Ok(Some(OperationCycle { cycle: Arc::new(cycle), has_load, has_speed, has_road, is_road_alone, file }))
+    Ok(Some(OperationCycle { cycle: Arc::new(cycle), by_torque, has_load, has_speed, has_road, is_road_alone, file }))
 }
 
 /// A file that cannot be read is the fault of the key that names it.
@@ -113,7 +127,7 @@ pub(super) fn refuse_choice(settings: &Settings, cycle: &Cycle, until: f64) -> R
     };
     let message = format!(
         "a run with a cycle does not choose its acceleration, for every event would need another one; {advice}, and see \
-         docs/cycles.md for its error"
+         docs/drive.md for its error"
     );
     Err(Problem::new(&settings.origin(&tolerance), &tolerance, message))
 }
@@ -123,6 +137,7 @@ pub(super) fn refuse_choice(settings: &Settings, cycle: &Cycle, until: f64) -> R
 pub(super) fn constants_without_effect(settings: &Settings, operation: &OperationCycle, path: &Path) -> Vec<Warning> {
     let keys = [
         ("operation.normal_force", operation.has_load, "force_scale"),
+        ("operation.braking_torque", operation.has_load, "force_scale"),
         ("operation.rotational_speed", operation.has_speed, "speed_scale"),
         ("operation.sliding_speed", operation.has_speed, "speed_scale"),
     ];

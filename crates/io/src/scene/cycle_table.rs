@@ -1,30 +1,33 @@
-//! Tables of load and speed over time (docs/cycles.md): text with one row a moment, as instruments and spreadsheets write it.
+//! Tables of load and speed over time (docs/drive.md): text with one row a moment, as instruments and spreadsheets write it.
 
 use std::path::Path;
 use std::sync::Arc;
 
 use super::error::{Origin, Problem};
+use super::schema::BRAKING_TORQUE;
 use crate::delimited::{self, Fault, Line, Named};
 use crate::limits;
 use crate::text::short;
 use crate::units::{self, Dimension};
 
-/// What a column may hold.
+/// Quantity of a column.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Quantity {
     Time,
     NormalForce,
     NominalPressure,
+    BrakingTorque,
     RotationalSpeed,
     SlidingSpeed,
     RoadSpeed,
 }
 
 /// Name in the header, quantity and dimension of every column there is.
-const COLUMNS: [(&str, Quantity, Dimension); 6] = [
+const COLUMNS: [(&str, Quantity, Dimension); 7] = [
     ("time", Quantity::Time, Dimension::Time),
     ("normal_force", Quantity::NormalForce, Dimension::Force),
     ("nominal_pressure", Quantity::NominalPressure, Dimension::Pressure),
+    (BRAKING_TORQUE, Quantity::BrakingTorque, Dimension::Torque),
     ("rotational_speed", Quantity::RotationalSpeed, Dimension::RotationalSpeed),
     ("sliding_speed", Quantity::SlidingSpeed, Dimension::Speed),
     ("road_speed", Quantity::RoadSpeed, Dimension::Speed),
@@ -37,6 +40,8 @@ pub enum Loads {
     Force(Vec<f64>),
     /// F over the area of the pin's mesh, Pa.
     NominalPressure(Vec<f64>),
+    /// T that friction has to give, N m.
+    BrakingTorque(Vec<f64>),
 }
 
 /// Speed of every row, as it was given.
@@ -59,7 +64,7 @@ pub struct CycleTable {
     pub speeds: Option<Speeds>,
     /// Speed of the vehicle, m/s.
     pub road_speeds: Option<Vec<f64>>,
-    /// Where every row stands.
+    /// Origin of every row.
     pub places: Vec<Origin>,
 }
 
@@ -72,7 +77,7 @@ struct Column {
     values: Vec<f64>,
 }
 
-/// What is wrong, with the header of the column if it is of one.
+/// Problem, with the header of the column if it is of one.
 type Wrong = (Option<String>, Fault);
 
 /// Reads a table.
@@ -164,11 +169,11 @@ fn take(row: &Line<'_>, columns: &mut [Column]) -> Result<(), Wrong> {
     Ok(())
 }
 
-/// Whether two columns say the same thing.
+/// Tells whether two columns say the same thing.
 fn excludes(one: Quantity, other: Quantity) -> bool {
-    use Quantity::{NominalPressure, NormalForce, RotationalSpeed, SlidingSpeed};
-    let is_either = |pair: [Quantity; 2]| pair.contains(&one) && pair.contains(&other);
-    one == other || is_either([NormalForce, NominalPressure]) || is_either([RotationalSpeed, SlidingSpeed])
+    use Quantity::{BrakingTorque, NominalPressure, NormalForce, RotationalSpeed, SlidingSpeed};
+    let both = |kind: &[Quantity]| kind.contains(&one) && kind.contains(&other);
+    one == other || both(&[NormalForce, NominalPressure, BrakingTorque]) || both(&[RotationalSpeed, SlidingSpeed])
 }
 
 fn table(columns: Vec<Column>, places: Vec<Origin>) -> CycleTable {
@@ -178,6 +183,7 @@ fn table(columns: Vec<Column>, places: Vec<Origin>) -> CycleTable {
             Quantity::Time => table.times = values,
             Quantity::NormalForce => table.loads = Some(Loads::Force(values)),
             Quantity::NominalPressure => table.loads = Some(Loads::NominalPressure(values)),
+            Quantity::BrakingTorque => table.loads = Some(Loads::BrakingTorque(values)),
             Quantity::RotationalSpeed => table.speeds = Some(Speeds::Rotational(values)),
             Quantity::SlidingSpeed => table.speeds = Some(Speeds::Sliding(values)),
             Quantity::RoadSpeed => table.road_speeds = Some(values),
@@ -257,7 +263,7 @@ mod tests {
         assert_eq!(
             error("time [s],force [N]\n0,1\n"),
             "stops.csv:1:10: force [N]: no such column, expected some of time, normal_force, nominal_pressure, \
-             rotational_speed, sliding_speed, road_speed"
+             braking_torque, rotational_speed, sliding_speed, road_speed"
         );
         assert_eq!(
             error("time [s],normal_force [N],nominal_pressure [Pa]\n"),

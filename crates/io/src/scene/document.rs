@@ -1,6 +1,5 @@
 //! One layer of a scene - a file, or the `--set` arguments - as a flat list of keys that remember where they stand.
 
-use std::cell::Cell;
 use std::collections::BTreeMap;
 use std::fmt;
 use std::ops::Range;
@@ -10,11 +9,10 @@ use std::sync::Arc;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use super::error::{Origin, Problem};
+use super::error::{Locator, Origin, Problem};
 use super::schema;
-use crate::brief::MOST_PROBLEMS;
 use crate::syntax;
-use crate::text::short;
+use crate::text::{MOST_PROBLEMS, short};
 
 /// A value as it stands in the text.
 #[derive(Debug, Clone, PartialEq)]
@@ -43,7 +41,7 @@ impl Value {
     }
 }
 
-/// What was found, for messages: `"80" is a string`.
+/// The value found, for messages: `"80" is a string`.
 impl fmt::Display for Value {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let kind = match self {
@@ -69,12 +67,12 @@ fn number_in(text: &str) -> Option<String> {
     number.parse::<f64>().is_ok_and(f64::is_finite).then_some(number)
 }
 
-/// Whether a key is given with this value.
+/// Tells whether a key is given with this value.
 pub(super) fn chooses(entries: &Entries, choose: schema::Choose) -> bool {
     matches!(entries.get(choose.key), Some(Entry { value: Value::Text(text), .. }) if text == choose.value)
 }
 
-/// Whether the entries make a choice that none of its words is, so that nobody knows what follows from it.
+/// Tells whether the entries make a choice that none of its words is, so that nobody knows what follows from it.
 pub(super) fn is_undecided(entries: &Entries, choice: &str) -> bool {
     let words = match schema::find(choice).map(|key| key.kind) {
         Some(schema::Kind::Choice(words)) => words,
@@ -94,34 +92,6 @@ pub(super) struct Entry {
 
 /// Known keys by their full path; tables are entries too, for an empty table is a choice of a source as well.
 pub(super) type Entries = BTreeMap<String, Entry>;
-
-/// Turns positions in a text into origins.
-struct Locator<'a> {
-    file: Arc<Path>,
-    text: &'a str,
-    /// Byte at which each line starts.
-    lines: Vec<usize>,
-    /// The place that was asked for last: line, byte, column. The next one is mostly behind it, maybe on a line of a megabyte.
-    last: Cell<(usize, usize, usize)>,
-}
-
-impl<'a> Locator<'a> {
-    fn new(file: Arc<Path>, text: &'a str) -> Self {
-        let lines = std::iter::once(0).chain(text.match_indices('\n').map(|(at, _)| at + 1)).collect();
-        Self { file, text, lines, last: Cell::new((0, 0, 1)) }
-    }
-
-    fn origin(&self, span: Range<usize>) -> Origin {
-        let line = self.lines.partition_point(|start| *start <= span.start).max(1);
-        let (from, first) = match self.last.get() {
-            (last, byte, column) if last == line && byte <= span.start => (byte, column),
-            _ => (self.lines[line - 1], 1),
-        };
-        let column = self.text.get(from..span.start).map_or(0, |before| before.chars().count()) + first;
-        self.last.set((line, span.start, column));
-        Origin::Place { file: self.file.clone(), line, column }
-    }
-}
 
 /// Reads the text of a scene file.
 ///
@@ -228,7 +198,7 @@ impl<L: Fn(Range<usize>) -> Origin> Flattening<'_, L> {
         self.table(content, &path);
     }
 
-    /// Whether the name is a table; if it is not, that is a problem.
+    /// Tells whether the name is a table; if it is not, that is a problem.
     fn is_table(&mut self, table: &str, name: &str, origin: &Origin) -> bool {
         let path = schema::join(table, name);
         let is_table = !path.is_empty() && schema::is_table(&path);

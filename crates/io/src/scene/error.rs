@@ -1,16 +1,18 @@
-//! What is wrong with a scene, or deserves attention, and where.
+//! Problems and warnings of a scene, and their places in a text.
 
+use std::cell::Cell;
 use std::fmt;
+use std::ops::Range;
 use std::path::Path;
 use std::sync::Arc;
 
 use serde::{Serialize, Serializer};
 use thiserror::Error;
 
-use crate::brief;
+use crate::text;
 use crate::text::{short, shown_on_one_line, shown_problem, shown_title};
 
-/// Where a value was given.
+/// Origin of a value: the place where it was given.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Origin {
     /// A place in a scene file; line and column (in characters) count from 1.
@@ -41,6 +43,35 @@ impl fmt::Display for Origin {
     }
 }
 
+/// Text of a file, whose bytes it tells by line and column.
+pub(crate) struct Locator<'a> {
+    pub(crate) file: Arc<Path>,
+    text: &'a str,
+    /// Byte at which each line starts.
+    lines: Vec<usize>,
+    /// The place that was asked for last: line, byte, column. The next one is mostly behind it, maybe on a line of a megabyte.
+    last: Cell<(usize, usize, usize)>,
+}
+
+impl<'a> Locator<'a> {
+    pub(crate) fn new(file: Arc<Path>, text: &'a str) -> Self {
+        let lines = std::iter::once(0).chain(text.match_indices('\n').map(|(at, _)| at + 1)).collect();
+        Self { file, text, lines, last: Cell::new((0, 0, 1)) }
+    }
+
+    /// Line and column of the first byte of a span.
+    pub(crate) fn origin(&self, span: Range<usize>) -> Origin {
+        let line = self.lines.partition_point(|start| *start <= span.start).max(1);
+        let (from, first) = match self.last.get() {
+            (last, byte, column) if last == line && byte <= span.start => (byte, column),
+            _ => (self.lines[line - 1], 1),
+        };
+        let column = self.text.get(from..span.start).map_or(0, |before| before.chars().count()) + first;
+        self.last.set((line, span.start, column));
+        Origin::Place { file: self.file.clone(), line, column }
+    }
+}
+
 /// One thing that is wrong: where, which key, what was found, what was expected, what to do.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Problem {
@@ -48,7 +79,7 @@ pub struct Problem {
     pub origin: Origin,
     /// Full path of the key, if there is one.
     pub key: Option<String>,
-    /// What was found, what was expected, what to do.
+    /// Message: what was found, what was expected, what to do.
     pub message: String,
     /// Number of the error of the system, where that did not give the file.
     pub system: Option<i32>,
@@ -74,15 +105,15 @@ impl fmt::Display for Problem {
     }
 }
 
-/// Why a scene cannot be run: everything that was found wrong with it, in the order of the text.
+/// Reason why a scene cannot be run: everything that was found wrong with it, in the order of the text.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
-#[error("{}", brief::problems(.problems))]
+#[error("{}", text::problems(.problems))]
 pub struct SceneError {
     problems: Vec<Problem>,
 }
 
 impl SceneError {
-    /// What is wrong, at least one thing.
+    /// Problems, at least one.
     pub fn problems(&self) -> &[Problem] {
         &self.problems
     }
@@ -102,16 +133,16 @@ impl From<Problem> for SceneError {
 /// One thing that a scene can hardly mean: where, which key, what was found, which bound it misses, what to do.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct Warning {
-    /// Where the key was given.
+    /// Origin of the key.
     #[serde(serialize_with = "as_text")]
     pub place: Origin,
     /// Full path of the key.
     pub key: String,
-    /// What was found, with its number.
+    /// The value found, in words, with its number.
     pub found: String,
     /// The bound that it misses, with its number.
     pub bound: String,
-    /// What to do.
+    /// Advice.
     pub advice: String,
 }
 

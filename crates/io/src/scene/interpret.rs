@@ -1,18 +1,118 @@
-//! Single values: of the type that their key asks for, in SI units, in range.
+//! Single values: of the type that their key asks for, in SI units, in range; and rows of a cycle or of a factor over temperature.
 
 use std::path::Path;
 
-use plateau_core::model::heat::factor::Factor;
+use plateau_core::model::heat::factor::{Factor, FactorError};
 use plateau_core::observe::Map;
 
-use super::cycle_table::CycleTable;
+use super::cycle_table::{CycleTable, Loads, Speeds};
 use super::document::{Entry, Value};
 use super::error::{Origin, Problem};
-use super::quantity::{at, in_range, quantity};
-use super::rows;
-use super::schema::{self, Kind, Range};
-use crate::text::{odd_character, short, too_long};
-use crate::units::Dimension;
+use super::schema::{Kind, Range};
+use crate::text::{nearest, odd_character, short, too_long};
+use crate::units::Dimension::{self, Force, Pressure, RotationalSpeed, Speed, Time, Torque};
+use crate::units::{self, UnitError};
+
+/// Puts the place of an entry beside a message.
+pub(super) fn at(entry: &Entry) -> impl Fn(String) -> (Origin, String) {
+    |message| (entry.origin.clone(), message)
+}
+
+/// A quantity with its unit, in SI units.
+pub(super) fn quantity(value: &Value, dimension: Dimension, range: Range) -> Result<f64, String> {
+    let number = match value {
+        Value::Text(text) => units::parse(text, dimension).map_err(|error| error.to_string())?,
+        Value::Integer(_) | Value::Float(_) => {
+            return Err(UnitError::NoUnit { text: value.text(), expected: dimension }.to_string());
+        }
+        _ => return Err(format!("{value}, expected {dimension}")),
+    };
+    if range.contains(number) {
+        Ok(number)
+    } else {
+        Err(format!("{} is out of range, expected {range} {}", value.text(), dimension.si_unit()))
+    }
+}
+
+/// A number, if it is in range.
+fn in_range(number: f64, value: &Value, range: Range) -> Result<f64, String> {
+    if range.contains(number) { Ok(number) } else { Err(format!("{} is out of range, expected {range}", value.text())) }
+}
+
+/// A plain number, in range.
+pub(super) fn number(value: &Value, range: Range) -> Result<f64, String> {
+    match value {
+        Value::Integer(integer) => in_range(*integer as f64, value, range),
+        Value::Float(float) => in_range(*float, value, range),
+        _ => Err(format!("{value}, expected a number, {range}")),
+    }
+}
+
+/// Rows of time, load and speed as a scene gives them.
+fn cycle_rows(list: &[Entry]) -> Result<CycleTable, (Origin, String)> {
+    let (mut forces, mut pressures, mut torques) = (Vec::new(), Vec::new(), Vec::new());
+    let (mut rotations, mut slides) = (Vec::new(), Vec::new());
+    let (mut times, mut places) = (Vec::new(), Vec::new());
+    for entry in list {
+        let fail = |message: String| (entry.origin.clone(), message);
+        let Value::Array(row) = &entry.value else {
+            return Err(fail(format!("{}, expected a row such as [\"0 s\", \"47 N\", \"850 rpm\"]", entry.value)));
+        };
+        let [time, load, speed] = row.as_slice() else {
+            return Err(fail(format!("a row of {} values, expected three: time, load, speed", row.len())));
+        };
+        let value = |entry: &Entry, dimension| quantity(&entry.value, dimension, Range::NOT_NEGATIVE);
+        times.push(value(time, Time).map_err(at(time))?);
+        match (value(load, Force), value(load, Pressure), value(load, Torque)) {
+            (_, Ok(pressure), _) => pressures.push(pressure),
+            (_, _, Ok(torque)) => torques.push(torque),
+            // A torque, but none that can be.
+            (_, _, Err(error)) if quantity(&load.value, Torque, Range::ANY).is_ok() => return Err(at(load)(error)),
+            (force, ..) => forces.push(force.map_err(at(load))?),
+        }
+        match (value(speed, RotationalSpeed), value(speed, Speed)) {
+            (_, Ok(slide)) => slides.push(slide),
+            (rotation, Err(_)) => rotations.push(rotation.map_err(at(speed))?),
+        }
+        let mixed = |kinds: &[usize]| kinds.iter().filter(|count| **count > 0).count() > 1;
+        if mixed(&[forces.len(), pressures.len(), torques.len()]) {
+            let message = "a load of another kind than in the rows above: give forces, pressures or braking torques";
+            return Err(at(load)(message.to_owned()));
+        }
+        if mixed(&[rotations.len(), slides.len()]) {
+            let message = "a speed of another kind than in the rows above: give rotational speeds or sliding speeds";
+            return Err(at(speed)(message.to_owned()));
+        }
+        places.push(entry.origin.clone());
+    }
+    let loads = match (pressures.is_empty(), torques.is_empty()) {
+        (false, _) => Loads::NominalPressure(pressures),
+        (_, false) => Loads::BrakingTorque(torques),
+        _ => Loads::Force(forces),
+    };
+    let speeds = if rotations.is_empty() { Speeds::Sliding(slides) } else { Speeds::Rotational(rotations) };
+    Ok(CycleTable { times, loads: Some(loads), speeds: Some(speeds), road_speeds: None, places })
+}
+
+/// Rows of temperature and factor.
+fn factor_rows(list: &[Entry]) -> Result<Factor, (Origin, String)> {
+    let mut points = Vec::with_capacity(list.len());
+    for entry in list {
+        let expected = "expected a temperature and a factor such as [\"230 degC\", 1.0]";
+        let Value::Array(row) = &entry.value else {
+            return Err(at(entry)(format!("{}, {expected}", entry.value)));
+        };
+        let [temperature, factor] = row.as_slice() else {
+            return Err(at(entry)(format!("a row of {} values, {expected}", row.len())));
+        };
+        let kelvin = quantity(&temperature.value, Dimension::Temperature, Range::POSITIVE).map_err(at(temperature))?;
+        points.push((kelvin, number(&factor.value, Range::NOT_NEGATIVE).map_err(at(factor))?));
+    }
+    Factor::new(points).map_err(|error| {
+        let (FactorError::Order { point, .. } | FactorError::Value { point, .. }) = error;
+        (list[point].origin.clone(), error.to_string())
+    })
+}
 
 /// A checked value.
 #[derive(Debug, Clone, PartialEq)]
@@ -37,8 +137,8 @@ pub(super) fn interpret(path: &str, kind: Kind, entry: &Entry, scene: &Path) -> 
             .collect::<Result<_, _>>()
             .map(Setting::Numbers),
         (Kind::Maps, Value::Array(list)) => list.iter().map(map).collect::<Result<_, _>>().map(Setting::Maps),
-        (Kind::Rows, Value::Array(list)) if list.len() >= 2 => rows::cycle(list).map(Setting::Rows),
-        (Kind::Factor, Value::Array(list)) if !list.is_empty() => rows::factor(list).map(Setting::Factor),
+        (Kind::Rows, Value::Array(list)) if list.len() >= 2 => cycle_rows(list).map(Setting::Rows),
+        (Kind::Factor, Value::Array(list)) if !list.is_empty() => factor_rows(list).map(Setting::Factor),
         (Kind::InputFile, Value::Text(text)) => {
             one_line(text).map(|text| Setting::Text(input_file(text, &entry.origin, scene))).map_err(at(entry))
         }
@@ -78,7 +178,7 @@ fn plain(kind: Kind, value: &Value) -> Result<Setting, String> {
     }
 }
 
-/// What a key holds, in words.
+/// Content of a key, in words.
 fn expectation(kind: Kind) -> String {
     match kind {
         Kind::Quantity { dimension, .. } => dimension.to_string(),
@@ -130,7 +230,7 @@ fn one_line(text: &str) -> Result<&str, String> {
 fn one_of<'a, T>(text: &str, choices: &'a [T], name: impl Fn(&T) -> &'static str) -> Result<&'a T, String> {
     choices.iter().find(|choice| name(choice) == text).ok_or_else(|| {
         let names = || choices.iter().map(&name);
-        let hint = schema::nearest(text, names()).map(|name| format!("; did you mean \"{name}\"?"));
+        let hint = nearest(text, names()).map(|name| format!("; did you mean \"{name}\"?"));
         let text = short(text);
         format!("\"{text}\" is unknown, expected {}{}", quoted(names()), hint.unwrap_or_default())
     })

@@ -7,8 +7,8 @@ use std::sync::Arc;
 use super::document::{self, Entries, Value};
 use super::error::{Origin, Problem, SceneError, Warning};
 use super::schema::{self, Group};
-use crate::regular::sha256_of;
-use crate::{brief, limits, regular};
+use crate::input::sha256_of;
+use crate::{input, limits, text};
 
 /// The newest version of the scene format that this program reads.
 const VERSION: i128 = 1;
@@ -22,13 +22,13 @@ type Files = Vec<(PathBuf, String)>;
 /// All layers laid over each other.
 #[derive(Debug)]
 pub(super) struct Layered {
-    /// What is left of every layer.
+    /// Entries that are left of all layers.
     pub(super) entries: Entries,
     /// The scene file and those it extends, from the top down, each with the SHA-256 of its text.
     pub(super) files: Files,
-    /// What is wrong with single layers: unknown keys, alternatives given together.
+    /// Problem with single layers: unknown keys, alternatives given together.
     pub(super) problems: Vec<Problem>,
-    /// What `--set` puts in the place of another step of a preparation.
+    /// Steps that `--set` puts in the place of another step of a preparation.
     pub(super) replaced: Vec<Warning>,
 }
 
@@ -109,11 +109,11 @@ fn read_chain(path: &Path, problems: &mut Vec<Problem>) -> Result<(Files, Vec<En
             };
             Problem { system: error.raw_os_error(), ..problem }
         };
-        let identity = path.canonicalize().map_err(|error| unreadable(regular::not_there(&path, error)))?;
+        let identity = path.canonicalize().map_err(|error| unreadable(input::not_there(&path, error)))?;
         names.push(path.clone());
         if let (Some(first), Some(origin)) = (identities.iter().position(|known| *known == identity), &named) {
             let chain: Vec<_> = names[first..].iter().map(|file| file.display().to_string()).collect();
-            let message = format!("scenes extend each other in a circle: {}", brief::list(chain, " -> "));
+            let message = format!("scenes extend each other in a circle: {}", text::list(chain, " -> "));
             return Err(Problem::new(origin, "extends", message).into());
         }
         identities.push(identity);
@@ -152,7 +152,7 @@ fn read_chain(path: &Path, problems: &mut Vec<Problem>) -> Result<(Files, Vec<En
 
 fn read_text(path: &Path) -> io::Result<String> {
     let mut bytes = Vec::new();
-    regular::open(path)?.take(LARGEST_FILE + 1).read_to_end(&mut bytes)?;
+    input::open(path)?.take(LARGEST_FILE + 1).read_to_end(&mut bytes)?;
     let refuse = |message: &str| Err(io::Error::new(io::ErrorKind::InvalidData, message));
     if bytes.starts_with(b"\x89HDF") {
         return refuse("this is an HDF5 file, expected a scene in TOML");

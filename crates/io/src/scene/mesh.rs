@@ -9,7 +9,7 @@ use plateau_core::surface::Length;
 use super::schema::choices::Shape;
 use crate::number;
 
-/// What `[mesh]` says, lengths in m.
+/// Content of `[mesh]`, lengths in m.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Geometry {
     size: Size,
@@ -23,7 +23,7 @@ enum Size {
     Lengths { pin_width: f64, pin_length: Option<f64>, cell_size: f64, mean_radius: f64 },
 }
 
-/// Why it is no mesh: the name of the key in `[mesh]` and a message.
+/// Reason why it is no mesh: the name of the key in `[mesh]` and a message.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Refused {
     pub(crate) key: &'static str,

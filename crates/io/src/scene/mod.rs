@@ -11,29 +11,27 @@ mod build;
 mod contents;
 mod cycle;
 mod cycle_table;
-mod difference;
-mod dissipation;
 mod document;
 mod error;
 mod interpret;
 mod layers;
-mod length;
-mod memory;
 pub(crate) mod mesh;
-mod quantity;
 mod resolved;
-mod rows;
 pub mod schema;
 mod settings;
 mod surfaces;
 
 use std::path::Path;
 
-pub use contents::{BaseSource, HeightSettings, HeightSource, OperationCycle, OutputSettings, Scene, Workers};
-pub use difference::{Difference, differences, values};
-pub use error::{Origin, Problem, SceneError, Warning};
-pub use memory::memory_estimate;
 use settings::Settings;
+
+pub use contents::{
+    BaseSource, HeightSettings, HeightSource, Lay, OperationCycle, OutputSettings, ReadOptions, Scene, Workers,
+    memory_estimate,
+};
+pub(crate) use error::Locator;
+pub use error::{Origin, Problem, SceneError, Warning};
+pub use resolved::{Difference, differences, values};
 
 /// Reads the scene at `path`, lays it over the scenes it extends, applies the arguments of `--set` (`key.path=value`)
 /// and checks everything that can be checked without reading surfaces.

@@ -1,6 +1,9 @@
-//! The resolved scene as TOML: every key that has a value, in the order and the units of the schema.
+//! Resolved scene as TOML: every key that has a value, in the order and the units of the schema; and the differences of two such scenes.
+
+use std::collections::{BTreeMap, BTreeSet};
 
 use plateau_core::observe::Map;
+use toml::{Table, Value};
 
 use super::cycle_table::{CycleTable, Loads, Speeds};
 use super::interpret::Setting;
@@ -52,6 +55,7 @@ fn value(key: &Key, setting: &Setting) -> String {
 fn rows(table: &CycleTable) -> String {
     let load = |row: usize| match &table.loads {
         Some(Loads::NominalPressure(pressures)) => units::format(pressures[row], "Pa", Dimension::Pressure),
+        Some(Loads::BrakingTorque(torques)) => units::format(torques[row], "N m", Dimension::Torque),
         Some(Loads::Force(forces)) => units::format(forces[row], "N", Dimension::Force),
         None => String::new(),
     };
@@ -73,4 +77,86 @@ fn list<T>(elements: &[T], text: impl Fn(&T) -> String) -> String {
 
 fn string(text: &str) -> String {
     toml::Value::String(text.to_owned()).to_string()
+}
+
+/// A key that two scenes do not give alike.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Difference {
+    /// Full path of the key, such as `operation.normal_force`.
+    pub key: String,
+    /// Its value in the first scene, as TOML; none if the scene does not have it.
+    pub first: Option<String>,
+    /// Its value in the second scene.
+    pub second: Option<String>,
+}
+
+/// The keys that two resolved scenes do not give alike, in the order of the alphabet. A text that is no TOML counts as a
+/// scene without keys.
+pub fn differences(first: &str, second: &Table) -> Vec<Difference> {
+    let [first, second] = [values(&first.parse().unwrap_or_default()), values(second)];
+    let keys: BTreeSet<&String> = first.keys().chain(second.keys()).collect();
+    let text = |value: Option<&Value>| value.map(Value::to_string);
+    let differences = keys.into_iter().map(|key| Difference {
+        key: key.clone(),
+        first: text(first.get(key)),
+        second: text(second.get(key)),
+    });
+    differences.filter(|difference| difference.first != difference.second).collect()
+}
+
+/// A key that had another name when older scenes were resolved, and its present name.
+const FORMER_NAME: [&str; 2] = ["plateaus.debris_pool", "plateaus.debris"];
+
+/// The value of every key of a resolved scene, by the key's full path and present name.
+pub fn values(scene: &Table) -> BTreeMap<String, Value> {
+    let mut found = BTreeMap::new();
+    let mut open = vec![(String::new(), scene)];
+    while let Some((above, table)) = open.pop() {
+        for (name, value) in table {
+            let path = schema::join(&above, name);
+            match value {
+                Value::Table(table) => open.push((path, table)),
+                value if path == FORMER_NAME[0] => drop(found.insert(FORMER_NAME[1].to_owned(), value.clone())),
+                value => drop(found.insert(path, value.clone())),
+            }
+        }
+    }
+    found
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_former_name_is_the_present_one() {
+        let differ = |present: &str, former: &str| {
+            let [present, former] = [("debris", present), ("debris_pool", former)]
+                .map(|(name, value)| format!("[plateaus]\n{name} = \"{value}\"\n"));
+            differences(&present, &former.parse().unwrap()).len()
+        };
+        assert_eq!([differ("track", "track"), differ("contact", "track"), differ("local", "contact")], [0, 1, 1]);
+    }
+
+    #[test]
+    fn names_every_key_with_both_values() {
+        let first = "version = 1\n[mesh]\nrows = 80\n[operation]\nnormal_force = \"47 N\"\nsteps = 9\n";
+        let second =
+            "version = 1\n[mesh]\nrows = 80\n[operation]\nnormal_force = \"50 N\"\n[disc.surface]\nflat = true\n";
+        let difference = |key: &str, first: Option<&str>, second: Option<&str>| Difference {
+            key: key.into(),
+            first: first.map(str::to_owned),
+            second: second.map(str::to_owned),
+        };
+        let second: Table = second.parse().unwrap();
+        assert_eq!(
+            differences(first, &second),
+            [
+                difference("disc.surface.flat", None, Some("true")),
+                difference("operation.normal_force", Some("\"47 N\""), Some("\"50 N\"")),
+                difference("operation.steps", Some("9"), None),
+            ]
+        );
+        assert_eq!(differences(&second.to_string(), &second), []);
+    }
 }

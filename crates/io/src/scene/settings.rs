@@ -57,7 +57,7 @@ impl Settings {
         self.values.get(path).map_or_else(table, |(_, origin)| origin.clone())
     }
 
-    /// Where every key that has a value was given.
+    /// Origin of every key that has a value.
     pub(super) fn places(&self) -> BTreeMap<String, Origin> {
         self.values.iter().map(|(path, (_, origin))| (path.clone(), origin.clone())).collect()
     }
@@ -86,7 +86,7 @@ impl Settings {
         }
     }
 
-    /// What the word of a choice that a checked scene has stands for.
+    /// Meaning of the word of a choice that a checked scene has stands for.
     pub(super) fn choice<T: Copy, const COUNT: usize>(
         &self,
         path: &str,
@@ -123,7 +123,7 @@ impl Settings {
         }
     }
 
-    /// Whether any key of a table is given or has a default.
+    /// Tells whether any key of a table is given or has a default.
     pub(super) fn has_table(&self, table: &str) -> bool {
         self.values.keys().any(|path| schema::is_below(path, table))
     }
@@ -160,12 +160,7 @@ impl Settings {
                 }
                 Need::SameAs(table) => self.get(&schema::join(table, key.name)).cloned(),
                 Need::Computed(_) => self.computed(&path, entries, scene),
-                Need::Required
-                | Need::RequiredUnless(..)
-                | Need::RequiredWithout(_)
-                | Need::OneOf
-                | Need::OfWay(_)
-                | Need::Optional => None,
+                Need::Required | Need::RequiredUnless(..) | Need::OneOf | Need::OfWay(_) | Need::Optional => None,
             };
             if let Some(setting) = setting {
                 self.insert(&path, setting, &Origin::Default);
@@ -214,12 +209,12 @@ fn read_default(key: &Key, text: &str, scene: &Path) -> Option<Setting> {
     document::read_default(text).and_then(|entry| interpret(&key.path(), key.kind, &entry, scene).ok())
 }
 
-/// Whether a key has no meaning beside a value of another key.
+/// Tells whether a key has no meaning beside a value of another key.
 fn is_meaningless(path: &str, entries: &Entries) -> bool {
     schema::MEANINGLESS.iter().any(|each| each.key == path && document::chooses(entries, each.beside))
 }
 
-/// Whether the tables are there without which the key has no meaning: the inline table that holds it, if it is in one, and
+/// Tells whether the tables are there without which the key has no meaning: the inline table that holds it, if it is in one, and
 /// that which switches its part of the model on.
 fn applies(key: &Key, entries: &Entries) -> bool {
     let is_there = |table: &str| entries.get(table).is_some_and(|entry| entry.value == Value::Table);
@@ -263,7 +258,6 @@ pub(super) fn refuse_missing(entries: &Entries, scene: &Path, problems: &mut Vec
             Need::RequiredUnless(choose, _) => {
                 !document::chooses(entries, choose) && !document::is_undecided(entries, choose.key)
             }
-            Need::RequiredWithout(table) => !entries.contains_key(table),
             Need::OfWay(unless) => {
                 is_of_chosen_way(key, entries) && !unless.is_some_and(|choose| document::chooses(entries, choose))
             }
@@ -298,7 +292,7 @@ pub(super) fn refuse_missing(entries: &Entries, scene: &Path, problems: &mut Vec
     }
 }
 
-/// Whether the key belongs to the way of saying the same that the scene has chosen.
+/// Tells whether the key belongs to the way of saying the same that the scene has chosen.
 fn is_of_chosen_way(key: &Key, entries: &Entries) -> bool {
     let chosen = |ways: &schema::Ways| ways.chosen(|path| entries.contains_key(path));
     let of_table = schema::WAYS.iter().filter(|ways| ways.section == key.section);

@@ -5,12 +5,11 @@ use std::path::PathBuf;
 use plateau_core::surface::micrograph::{Micrograph, Threshold};
 use plateau_core::surface::{Crop, Extension, FibreSynthesis, HeightSynthesis, Preparation, Texture, Unroll};
 
-use super::contents::{BaseSource, HeightSettings, HeightSource};
+use super::contents::{BaseSource, HeightSettings, HeightSource, ReadOptions};
 use super::error::Problem;
 use super::interpret::Setting;
 use super::schema::choices;
 use super::settings::Settings;
-use crate::surface::ReadOptions;
 
 /// Heights of disc or pin, and how they are prepared.
 pub(super) fn heights(settings: &Settings, body: &str) -> Result<HeightSettings, Problem> {
@@ -69,7 +68,7 @@ fn range(settings: &Settings, path: &str) -> Result<Option<[f64; 2]>, Problem> {
     Ok(pair)
 }
 
-/// What is made of a patch that is smaller than the body, besides tiling it.
+/// Extension of a patch that is smaller than the body, besides tiling it.
 fn extension(settings: &Settings, key: &impl Fn(&str) -> String) -> Result<Option<Extension>, Problem> {
     if settings.get(&key("extend")).is_none() {
         return Ok(None);
@@ -130,7 +129,7 @@ pub(super) fn base(settings: &Settings) -> Result<BaseSource, Problem> {
     Ok(BaseSource::Synthetic(synthesis))
 }
 
-/// What the scene says of a file of heights; `key` makes the path of a key from its name.
+/// Statements of the scene about a file of heights; `key` makes the path of a key from its name.
 fn read_options(
     settings: &Settings,
     key: &impl Fn(&str) -> String,

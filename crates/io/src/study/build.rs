@@ -1,34 +1,34 @@
-//! From the text of a study to the study: what its keys say together.
+//! From the text of a study to the study: its design, its replicates, and what its keys say together.
 
+use std::collections::HashSet;
 use std::path::Path;
 
+use plateau_study::design::{Alpha, Fraction, Kind};
 use toml::Spanned;
 
-use super::design_keys::source;
-use super::document::Document;
+use super::contents::{DesignSource, Order, Replicates, Study};
+use super::document::{self, Document};
 use super::factor::Factor;
 use super::factor_keys::{factors, stated_unit};
-use super::place::Place;
 use super::response::Response;
 use super::response_keys::{responses, series_name};
-use super::{DesignSource, Order, Study, replicates};
-use crate::brief::MOST_PROBLEMS;
-use crate::scene::{Origin, Problem};
-use crate::text::short;
+use super::value_table;
+use crate::scene::{Locator, Origin, Problem, schema};
+use crate::text::{self, MOST_PROBLEMS, short};
 
 /// The newest version of the study format that this program reads.
 const VERSION: i64 = 1;
 
-pub(super) fn build(document: Document, path: &Path, place: &Place<'_>) -> Result<Study, Vec<Problem>> {
+pub(super) fn build(document: Document, path: &Path, locator: &Locator<'_>) -> Result<Study, Vec<Problem>> {
     let mut problems = Vec::new();
     let folder = path.parent().unwrap_or(Path::new(""));
     let version = *document.version.get_ref();
     if version != VERSION {
         let message = format!("{version}, this program reads version {VERSION}");
-        problems.push(place.problem(&document.version, "version", message));
+        problems.push(locator.problem(&document.version, "version", message));
     }
-    let mut factors = factors(&document, place, &mut problems);
-    let source = source(&document, &factors, folder, place).map_err(|problem| problems.push(problem)).ok();
+    let mut factors = factors(&document, locator, &mut problems);
+    let source = source(&document, &factors, folder, locator).map_err(|problem| problems.push(problem)).ok();
     if let Some(DesignSource::File(points)) = &source {
         let levels_of = |at: usize| points.iter().map(|point| point[at].clone()).collect::<Vec<_>>();
         for (at, factor) in factors.iter_mut().enumerate().filter(|(_, factor)| factor.keys.is_empty()) {
@@ -36,7 +36,7 @@ pub(super) fn build(document: Document, path: &Path, place: &Place<'_>) -> Resul
             factor.stated_unit = stated_unit(levels.first());
             if let (Some(other), Some(file)) = (Factor::in_another_unit(&levels), &document.file) {
                 let message = format!("{} of \"{}\": expected all in the same unit", other.label, factor.name);
-                problems.push(place.problem(file, "file", message));
+                problems.push(locator.problem(file, "file", message));
             }
         }
     }
@@ -46,7 +46,7 @@ pub(super) fn build(document: Document, path: &Path, place: &Place<'_>) -> Resul
         None | Some((_, "random")) => Order::Random,
         Some((_, "standard")) => Order::Standard,
         Some((order, found)) => {
-            problems.push(place.problem(
+            problems.push(locator.problem(
                 order,
                 "order",
                 format!("\"{}\", expected \"random\" or \"standard\"", short(found)),
@@ -54,27 +54,29 @@ pub(super) fn build(document: Document, path: &Path, place: &Place<'_>) -> Resul
             Order::Standard
         }
     };
-    let replicates =
-        document.replicates.as_ref().map(|given| replicates::of(given, document.base.is_some(), place, &mut problems));
-    let responses = responses(&document.response, place, &mut problems);
+    let replicates = document
+        .replicates
+        .as_ref()
+        .map(|given| self::replicates(given, document.base.is_some(), locator, &mut problems));
+    let responses = responses(&document.response, locator, &mut problems);
     if document.base.is_none() && !responses.iter().all(Response::is_imported) {
         let message =
             "missing, expected base = \"SCENE.toml\"; it may be left out where all responses have imported = true";
-        problems.push(Problem::new(&Origin::File(place.file.clone()), "base", message));
+        problems.push(Problem::new(&Origin::File(locator.file.clone()), "base", message));
     }
     let series = document.series.as_ref().map(|series| {
         let few = |problems: &[Problem]| problems.len() < MOST_PROBLEMS;
         let names =
-            series.iter().map_while(|name| few(&problems).then(|| series_name(name, "series", place, &mut problems)));
+            series.iter().map_while(|name| few(&problems).then(|| series_name(name, "series", locator, &mut problems)));
         names.flatten().collect::<Vec<_>>()
     });
     let stem = path.file_stem().map_or_else(|| "study".into(), |stem| stem.to_string_lossy().into_owned());
     let directory = document.directory.unwrap_or_else(|| stem.clone());
     let names = [("title", document.title.as_deref().unwrap_or_default()), ("directory", directory.as_str())];
-    let file = || Origin::File(place.file.clone());
-    names.into_iter().for_each(|(key, name)| place.check_name(name, file, key, &mut problems));
+    let file = || Origin::File(locator.file.clone());
+    names.into_iter().for_each(|(key, name)| locator.check_name(name, file, key, &mut problems));
     if directory.is_empty() {
-        problems.push(Problem::new(&Origin::File(place.file.clone()), "directory", "\"\", expected a folder"));
+        problems.push(Problem::new(&Origin::File(locator.file.clone()), "directory", "\"\", expected a folder"));
     }
     let Some(source) = source.filter(|_| problems.is_empty()) else { return Err(problems) };
     let mut files = vec![path.to_owned()];
@@ -85,7 +87,7 @@ pub(super) fn build(document: Document, path: &Path, place: &Place<'_>) -> Resul
         files,
         title: document.title.unwrap_or(stem),
         path: path.to_owned(),
-        base_place: document.base.as_ref().map_or_else(file, |base| place.at(base.span().start)),
+        base_place: document.base.as_ref().map_or_else(file, |base| locator.origin(base.span())),
         base: document.base.map(|base| folder.join(base.get_ref())),
         directory: folder.join(directory),
         design: document.design.into_inner(),
@@ -98,4 +100,165 @@ pub(super) fn build(document: Document, path: &Path, place: &Place<'_>) -> Resul
         responses,
         series,
     })
+}
+
+/// Content of `[replicates]`; of a study without a scene, numbers of measurements without keys.
+fn replicates(
+    given: &document::Replicates,
+    has_scene: bool,
+    locator: &Locator<'_>,
+    problems: &mut Vec<Problem>,
+) -> Replicates {
+    let keys = given.keys.as_ref().map_or(&[][..], |keys| keys.get_ref());
+    for key in keys {
+        if !is_seed(key.get_ref()) {
+            let message = format!(
+                "\"{}\" is not a seed; expected keys such as disc.surface.synthetic.seed, or disc.prepare.extend_seed of a \
+                     measured patch",
+                short(key.get_ref())
+            );
+            problems.push(locator.problem(key, "replicates.keys", message));
+        }
+    }
+    let seeds: Vec<i64> = given.seeds.get_ref().iter().map(|seed| *seed.get_ref()).collect();
+    if seeds.is_empty() || has_scene && keys.is_empty() {
+        problems.push(locator.problem(&given.seeds, "replicates", "expected at least one key and one seed"));
+    }
+    let mut known = HashSet::new();
+    for seed in given.seeds.get_ref() {
+        let message = match known.insert(*seed.get_ref()) {
+            _ if problems.len() >= MOST_PROBLEMS => break,
+            false => "is there twice: equal seeds give equal runs",
+            true if *seed.get_ref() < 0 => "is negative, expected a seed of at least 0",
+            true => continue,
+        };
+        problems.push(locator.problem(seed, "replicates.seeds", format!("{} {message}", seed.get_ref())));
+    }
+    Replicates { keys: keys.iter().map(|key| key.get_ref().clone()).collect(), seeds }
+}
+
+/// Tells whether a key of a scene is a seed of random heights or bases.
+fn is_seed(key: &str) -> bool {
+    (key.ends_with(".seed") || key.ends_with(".extend_seed")) && schema::find(key).is_some()
+}
+
+/// Designs by their name in a study.
+const DESIGNS: [&str; 9] = [
+    "full-factorial",
+    "fractional-factorial",
+    "plackett-burman",
+    "central-composite",
+    "box-behnken",
+    "latin-hypercube",
+    "sobol",
+    "morris",
+    "csv",
+];
+
+/// Those that have no centre points of their own, but may have some.
+const FACTORIALS: [&str; 3] = ["full-factorial", "fractional-factorial", "plackett-burman"];
+
+/// Trajectories of a Morris design and levels of its ranges, unless given.
+const TRAJECTORIES: usize = 10;
+const GRID_LEVELS: usize = 4;
+
+/// Source of the points, from the keys of the design.
+pub(super) fn source(
+    document: &Document,
+    factors: &[Factor],
+    folder: &Path,
+    locator: &Locator<'_>,
+) -> Result<DesignSource, Problem> {
+    let design = document.design.get_ref().as_str();
+    let only = |name: &str, span: Option<usize>, designs: &[&str]| match span {
+        Some(at) if !designs.contains(&design) => {
+            let message = format!("it belongs to design = \"{}\", found \"{design}\"", designs.join("\" or \""));
+            Err(Problem::new(&locator.origin(at..at), name, message))
+        }
+        _ => Ok(()),
+    };
+    fn start<T>(found: &Option<Spanned<T>>) -> Option<usize> {
+        found.as_ref().map(|found| found.span().start)
+    }
+    only("resolution", start(&document.resolution), &["fractional-factorial"])?;
+    only("generators", start(&document.generators), &["fractional-factorial"])?;
+    only("points", start(&document.points), &["latin-hypercube", "sobol"])?;
+    only("trajectories", start(&document.trajectories), &["morris"])?;
+    only("levels", start(&document.levels), &["morris"])?;
+    only("alpha", start(&document.alpha), &["central-composite"])?;
+    let with_centre = [&FACTORIALS[..], &["central-composite", "box-behnken"]].concat();
+    only("centre_points", start(&document.centre_points), &with_centre)?;
+    only("file", start(&document.file), &["csv"])?;
+    let missing = |what: &str| Err(locator.problem(&document.design, "design", format!("\"{design}\" needs {what}")));
+    let points = || document.points.as_ref().map(|points| *points.get_ref()).filter(|points| *points > 0);
+    let centre = document.centre_points.as_ref().map(|points| *points.get_ref());
+    let kind = match design {
+        "full-factorial" => Kind::FullFactorial,
+        "fractional-factorial" => match (&document.resolution, &document.generators) {
+            (Some(resolution), None) => Kind::FractionalFactorial(Fraction::Resolution(*resolution.get_ref())),
+            (None, Some(generators)) => Kind::FractionalFactorial(Fraction::Generators(generators.get_ref().clone())),
+            _ => return missing("either resolution = 4 or generators = [\"D = ABC\"]"),
+        },
+        "plackett-burman" => Kind::PlackettBurman,
+        "central-composite" => {
+            let alpha = match document.alpha.as_ref().map(|alpha| (alpha, alpha.get_ref().as_str())) {
+                None | Some((_, "face")) => Alpha::Face,
+                Some((_, "rotatable")) => Alpha::Rotatable,
+                Some((_, "orthogonal")) => Alpha::Orthogonal,
+                Some((alpha, found)) => {
+                    let message = format!("\"{}\", expected \"face\", \"rotatable\" or \"orthogonal\"", short(found));
+                    return Err(locator.problem(alpha, "alpha", message));
+                }
+            };
+            // Equal points without seeds are equal runs, and tell nothing of the error.
+            let centre = centre.unwrap_or(1);
+            Kind::CentralComposite { alpha, centre: [centre.div_ceil(2), centre / 2] }
+        }
+        "box-behnken" => Kind::BoxBehnken { centre: centre.unwrap_or(1) },
+        "latin-hypercube" => match points() {
+            Some(points) => {
+                Kind::LatinHypercube { points, seed: document.seed.as_ref().map_or(0, |seed| *seed.get_ref()) }
+            }
+            None => return missing("points = 20, at least 1"),
+        },
+        "sobol" => match points() {
+            Some(points) => Kind::Sobol { points },
+            None => return missing("points = 32, at least 1"),
+        },
+        "morris" => Kind::Morris {
+            trajectories: document.trajectories.as_ref().map_or(TRAJECTORIES, |count| *count.get_ref()),
+            levels: document.levels.as_ref().map_or(GRID_LEVELS, |count| *count.get_ref()),
+            seed: document.seed.as_ref().map_or(0, |seed| *seed.get_ref()),
+        },
+        "csv" => {
+            let Some(file) = &document.file else { return missing("file = \"points.csv\"") };
+            let imported = document.response.iter().filter(|table| table.imported.is_some());
+            let others: Vec<&str> = imported.map(|table| table.name.get_ref().as_str()).collect();
+            let points = value_table::read_points(&folder.join(file.get_ref()), factors, &others);
+            return points.map(DesignSource::File).map_err(|message| locator.problem(file, "file", message));
+        }
+        other => {
+            let nearest = text::nearest(other, DESIGNS);
+            let advice = nearest.map_or_else(String::new, |nearest| format!("; did you mean \"{nearest}\"?"));
+            let message = format!("\"{}\", expected one of {}{advice}", short(other), DESIGNS.join(", "));
+            return Err(locator.problem(&document.design, "design", message));
+        }
+    };
+    let centre = centre.filter(|_| FACTORIALS.contains(&design)).unwrap_or(0);
+    Ok(DesignSource::Kind(kind, centre))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn seeds_of_synthetic_and_of_extended_surfaces_are_seeds() {
+        assert!(
+            ["disc.surface.synthetic.seed", "disc.prepare.extend_seed", "pin.prepare.extend_seed"]
+                .iter()
+                .all(|key| is_seed(key))
+        );
+        assert!(!["mesh.rows", "disc.seed", "disc.prepare.extend"].iter().any(|key| is_seed(key)));
+    }
 }

@@ -1,10 +1,13 @@
-//! A study file as it stands in the text (docs/studies.md).
+//! Text of a study file (docs/study.md): its keys, their places, checks of names, and messages of the TOML reader in other words.
 
 use std::fmt;
 
 use serde::Deserialize;
 use serde::de::{Deserializer, Error, IgnoredAny, SeqAccess, Visitor};
 use toml::{Spanned, Value};
+
+use crate::scene::{Locator, Origin, Problem};
+use crate::text::{nearest, odd_character, short, shown_title, too_long};
 
 /// The whole file.
 #[derive(Debug, Deserialize)]
@@ -136,5 +139,116 @@ impl<'de> Visitor<'de> for MeanVisitor {
             None => Ok(Mean::Between(between)),
             Some(_) => Err(A::Error::invalid_length(3, &self)),
         }
+    }
+}
+
+/// Beginning of the message of an unknown key, which parts it from the keys that there are.
+const BEGINNING: &str = "unknown field `";
+
+/// Messages of the reader, and the same in other words.
+const WORDS: [(&str, &str); 5] = [
+    ("unknown field `", "unknown key `"),
+    ("missing field `", "missing key `"),
+    (
+        "invalid type: map, expected a sequence",
+        "this is one table, expected a list of them: write [[factor]], [[response]]",
+    ),
+    ("expected a sequence", "expected a list in brackets, such as [\"5 N\", \"20 N\"]"),
+    ("an array of length 2", "two values in brackets, such as [\"5 N\", \"20 N\"]"),
+];
+
+/// The message in other words, with the key that was meant, where one is like it.
+pub(super) fn with_advice(message: &str) -> String {
+    let parts = message.strip_prefix(BEGINNING).and_then(|rest| rest.split_once('`'));
+    let advice = parts.and_then(|(found, rest)| {
+        // Every other part between backquotes is a key.
+        let meant = nearest(found, rest.split('`').skip(1).step_by(2))?;
+        Some(format!("; did you mean \"{meant}\"?"))
+    });
+    let message = match parts {
+        Some((found, rest)) => format!("{BEGINNING}{}`{rest}", short(found)),
+        None => shown_title(message).into_owned(),
+    };
+    let message = WORDS.iter().fold(message, |message, (said, better)| message.replacen(said, better, 1));
+    message + &advice.unwrap_or_default()
+}
+
+/// Says that a name has what nobody sees, a blank at an end or a byte order mark, which tables and command lines lose, so that the name is
+/// not found again.
+pub(super) fn unseen(name: &str) -> Option<String> {
+    let found = match () {
+        () if name.contains(MARK) => "has the character U+FEFF, which nobody sees",
+        () if name != name.trim() => "has a blank at an end",
+        () => return None,
+    };
+    let name = short(name);
+    Some(format!("\"{}\" {found}, so that it is not found again in a table; take it out", name.escape_debug()))
+}
+
+/// The byte order mark, or the blank of no width that it was before.
+const MARK: char = '\u{feff}';
+
+impl Locator<'_> {
+    /// Problem with something that was found.
+    pub(super) fn problem<T>(&self, found: &Spanned<T>, key: &str, message: impl Into<String>) -> Problem {
+        Problem::new(&self.origin(found.span()), key, message)
+    }
+
+    /// As [`check_name`](Self::check_name), of what is told by its name alone, so that it may not be empty.
+    pub(super) fn check_label(&self, name: &str, at: impl FnOnce() -> Origin, key: &str, problems: &mut Vec<Problem>) {
+        if name.trim().is_empty() {
+            problems.push(Problem::new(&at(), key, "the name is empty, expected a word: tables and figures show it"));
+        } else if let Some(unseen) = unseen(name) {
+            problems.push(Problem::new(&at(), key, unseen));
+        } else {
+            self.check_name(name, at, key, problems);
+        }
+    }
+
+    /// Refuses a name that cannot be shown on one line or is too long for it, in messages, tables and figures.
+    pub(super) fn check_name(&self, name: &str, at: impl FnOnce() -> Origin, key: &str, problems: &mut Vec<Problem>) {
+        if let Some(found) = odd_character(name) {
+            let name = short(name);
+            let message = format!("\"{}\" has {found}, expected one line of letters; take it out", name.escape_debug());
+            problems.push(Problem::new(&at(), key, message));
+        } else if let Some(long) = too_long(name) {
+            problems.push(Problem::new(&at(), key, long));
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_key_that_was_meant_is_named() {
+        let unknown = "unknown field `factors`, expected one of `version`, `factor`, `response`";
+        let said = |message: &str| message.replace("field", "key");
+        assert_eq!(with_advice(unknown), format!("{}; did you mean \"factor\"?", said(unknown)));
+        let two = "unknown field `seed`, expected `keys` or `seeds`";
+        assert_eq!(with_advice(two), format!("{}; did you mean \"seeds\"?", said(two)));
+        for other in ["unknown field `foo`, expected `keys` or `seeds`", "missing field `design`"] {
+            assert_eq!(with_advice(other), said(other));
+        }
+        let one = "invalid type: map, expected a sequence";
+        assert_eq!(with_advice(one), "this is one table, expected a list of them: write [[factor]], [[response]]");
+        let text = "invalid type: string \"5 N\", expected a sequence";
+        let told = "invalid type: string \"5 N\", expected a list in brackets, such as [\"5 N\", \"20 N\"]";
+        assert_eq!(with_advice(text), told);
+        let number = "invalid type: floating point `0.5`, expected an array of length 2";
+        let told = "invalid type: floating point `0.5`, expected two values in brackets, such as [\"5 N\", \"20 N\"]";
+        assert_eq!(with_advice(number), told);
+    }
+
+    #[test]
+    fn blanks_at_ends_and_marks_are_told() {
+        assert_eq!(unseen("load on the pin"), None);
+        for name in [" load", "load\u{a0}"] {
+            assert!(unseen(name).unwrap().contains("a blank at an end"), "{name:?}");
+        }
+        let long = unseen(&format!("{} ", "x".repeat(70_000))).unwrap();
+        assert!(long.contains("x…\" has a blank at an end") && long.len() < 200, "{long}");
+        assert!(unseen("lo\u{feff}ad").unwrap().starts_with("\"lo\\u{feff}ad\" has the character U+FEFF"));
     }
 }

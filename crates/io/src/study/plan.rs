@@ -5,8 +5,8 @@ use std::path::Path;
 use plateau_study::design::{self, Aliases, Design, Setting};
 use plateau_study::shuffle::shuffle;
 
-use super::level::Level;
-use super::{DesignSource, Order, Study, StudyError};
+use super::contents::{DesignSource, Order, Study, StudyError};
+use super::factor::Level;
 use crate::scene::{self, Origin, Problem, Scene, SceneError};
 
 /// The runs of a study.
@@ -34,7 +34,7 @@ pub struct Run {
     pub point: usize,
     /// Which seed, from 0.
     pub replicate: usize,
-    /// What each factor is set to.
+    /// Settings of the factors.
     pub levels: Vec<Level>,
     /// Arguments of `--set` that make its scene out of the base.
     pub sets: Vec<String>,
@@ -101,7 +101,7 @@ impl Plan {
         self.points().saturating_mul(self.replicates())
     }
 
-    /// What a fraction cannot tell, for designs that are one.
+    /// Aliases, for designs that are a fraction.
     pub fn aliases(&self) -> Option<&Aliases> {
         match &self.points {
             Points::Design(design) => design.aliases(),

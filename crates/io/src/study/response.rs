@@ -19,7 +19,7 @@ pub struct Response {
     pub name: String,
     /// The series that is asked, by its name in a run file; for a quantity of events with `event/` before it.
     pub series: String,
-    /// What of it.
+    /// The question to it.
     pub question: Question,
     /// On which scale an analysis fits the answers: one of [`TRANSFORMS`].
     pub transform: &'static str,
@@ -30,7 +30,7 @@ pub struct Response {
 /// Scales on which an analysis fits answers.
 pub const TRANSFORMS: [&str; 4] = ["none", "log", "square root", "logit"];
 
-/// What is asked of a series.
+/// Question to a series.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Question {
     /// The last value.
@@ -51,7 +51,7 @@ pub enum Question {
     Measured,
 }
 
-/// Which of the events of a run.
+/// Choice among the events of a run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum WhichEvent {
     /// The one with this number, from 1.
@@ -62,7 +62,7 @@ pub enum WhichEvent {
     Mean,
 }
 
-/// Why a run gives no answer.
+/// Reason why a run gives no answer.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum NoAnswer {
     /// Its series are not there.
@@ -76,7 +76,7 @@ pub enum NoAnswer {
     Ended {
         /// The time that is asked for.
         asked: f64,
-        /// When it ends.
+        /// Time at which it ends.
         end: f64,
     },
     /// There is no number.
@@ -127,7 +127,7 @@ impl Response {
         .ok_or(NoAnswer::NoNumber)
     }
 
-    /// When a series has come to a fraction of its last value, s; of the contact area by its integral, and over the time in contact. The time
+    /// Time at which a series has come to a fraction of its last value, s; of the contact area by its integral, and over the time in contact. The time
     /// in which another series has no value is left out, too.
     fn time_to(&self, fraction: f64, run: &Series, values: &[f64]) -> Result<f64, NoAnswer> {
         let time = run.time();
@@ -155,12 +155,12 @@ impl Response {
         asked.into_iter().chain(self.is_of_every_step().then_some([INTEGRAL, CONTACT_TIME]).into_iter().flatten())
     }
 
-    /// Whether the answer is known with a standard error: a mean of the contact area.
+    /// Tells whether the answer is known with a standard error: a mean of the contact area.
     pub fn has_error(&self) -> bool {
         self.is_of_contact_area() && matches!(self.question, Question::Mean(..) | Question::MeanOfLastTenth)
     }
 
-    /// Whether the answer is taken from the integral of the contact area.
+    /// Tells whether the answer is taken from the integral of the contact area.
     fn is_of_every_step(&self) -> bool {
         self.has_error() || self.is_of_contact_area() && matches!(self.question, Question::Reaches(_))
     }
@@ -214,12 +214,12 @@ impl Response {
         }
     }
 
-    /// Whether a run answers it by itself.
+    /// Tells whether a run answers it by itself.
     pub fn is_of_one_run(&self) -> bool {
         !matches!(self.question, Question::Imported(_) | Question::Measured)
     }
 
-    /// Whether its answers come from elsewhere, not from the series of runs.
+    /// Tells whether its answers come from elsewhere, not from the series of runs.
     pub fn is_imported(&self) -> bool {
         matches!(self.question, Question::Imported(_))
     }

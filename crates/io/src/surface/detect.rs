@@ -7,11 +7,10 @@ use std::path::Path;
 use zip::ZipArchive;
 
 use super::error::FileError;
-use super::format::Format;
-use super::instrument::{PLUX, WORKBOOK, by_ending, recognise};
+use super::format::{Format, PLUX, WORKBOOK, X3P, by_ending, recognise};
 use super::sdf::{SdfKind, without_margin};
 use crate::delimited::{is_utf16, workbook};
-use crate::regular;
+use crate::input;
 
 /// How far into a file is looked.
 const HEAD: u64 = 4096;
@@ -22,7 +21,7 @@ const HEAD: u64 = 4096;
 /// [`FileError`] when it cannot be read, is not a regular file or is none of the known formats.
 pub(super) fn detect(path: &Path) -> Result<Format, FileError> {
     // Asked before opening: opening a named pipe would wait for its writer.
-    let there = std::fs::metadata(path).map_err(|error| regular::not_there(path, error))?;
+    let there = std::fs::metadata(path).map_err(|error| input::not_there(path, error))?;
     if !there.is_file() {
         return Err(if there.is_dir() { FileError::Folder } else { FileError::NotAFile });
     }
@@ -45,7 +44,7 @@ fn from_archive(file: BufReader<File>) -> Result<Format, FileError> {
     let has = |name: &[u8]| archive.file_names_raw().any(|entry| entry == name);
     // Some archives have the folder itself in them.
     if has(b"main.xml") || archive.file_names_raw().any(|entry| entry.ends_with(b"/main.xml")) {
-        return Ok(Format::X3p);
+        return Ok(Format::Instrument(X3P));
     }
     if !archive.is_empty() && archive.file_names_raw().all(|entry| entry.ends_with(b".npy")) {
         return Ok(Format::Npz);

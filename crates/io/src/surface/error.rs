@@ -1,23 +1,19 @@
 //! Why the initial surfaces of a scene cannot be made.
 
-use std::fmt;
-use std::io;
 use std::path::PathBuf;
+use std::{fmt, io};
 
 use plateau_core::surface::micrograph::MicrographError;
 use plateau_core::surface::{FibreError, PreparationError, SynthesisError};
 use thiserror::Error;
 
-use super::format::Format;
+use super::format::{CONVERSION, Format, Instrument};
 use super::hdf5::Hdf5Error;
 use super::image::ImageError;
-use super::instrument::{BY_SURFACE_TOPOGRAPHY, Instrument};
 use super::npy::NpyError;
-use super::options::Disagreement;
+use super::options::{Disagreement, ProfileError};
 use super::sdf::SdfError;
-use super::stylus_profile::ProfileError;
 use super::text::TextError;
-use super::x3p::X3pError;
 
 /// Why the initial surfaces of a scene cannot be made; `key` is the scene's table that asked for it.
 #[derive(Debug, Error)]
@@ -82,7 +78,7 @@ pub enum FileError {
         is_binary: bool,
     },
     /// An instrument's own format.
-    #[error("this is {}, which is not read; convert it to SDF: {}", .0.name, .0.conversion)]
+    #[error("this is {}, which is not read as it is; {CONVERSION}{}", .0.name, skipped(.0.is_text))]
     Instrument(Instrument),
     /// A table of a spreadsheet.
     #[error("this is {0}, which is not read: save the sheet with the heights as CSV")]
@@ -156,9 +152,6 @@ pub enum FileError {
     /// A damaged or unusual SDF file.
     #[error(transparent)]
     Sdf(#[from] SdfError),
-    /// A damaged or unusual X3P file.
-    #[error(transparent)]
-    X3p(Box<X3pError>),
     /// A damaged or unsuitable HDF5 file.
     #[error(transparent)]
     Hdf5(Box<Hdf5Error>),
@@ -170,8 +163,7 @@ pub enum FileError {
     Image(#[from] ImageError),
     /// A TIFF file whose first image gives no surface.
     #[error(
-        "{reason}; a TIFF of an instrument (JPK .jpk, Park, Olympus .lext) has its heights elsewhere in the file: {}",
-        BY_SURFACE_TOPOGRAPHY
+        "{reason}; a TIFF of an instrument (JPK .jpk, Park, Olympus .lext) has its heights elsewhere in the file: {CONVERSION}"
     )]
     Tiff {
         /// What is wrong with the first image.
@@ -188,10 +180,21 @@ pub enum FileError {
     Profile(#[from] ProfileError),
 }
 
-impl From<X3pError> for FileError {
-    fn from(error: X3pError) -> Self {
-        Self::X3p(Box::new(error))
+impl FileError {
+    /// Whether the Python package may convert the file.
+    pub fn may_be_converted(&self) -> bool {
+        match self {
+            Self::Instrument(_) | Self::Tiff { .. } => true,
+            Self::Unknown { is_binary, .. } => *is_binary,
+            Self::Hdf5(error) => matches!(**error, Hdf5Error::Zygo { .. }),
+            _ => false,
+        }
     }
+}
+
+/// How else a text can be read.
+fn skipped(is_text: bool) -> &'static str {
+    if is_text { "; or say how many lines stand before its table: skip = 12, for example" } else { "" }
 }
 
 impl From<Hdf5Error> for FileError {
@@ -200,18 +203,14 @@ impl From<Hdf5Error> for FileError {
     }
 }
 
-/// What to do about a file that cannot be read.
-const READABLE: &str = "convert it to SDF, X3P or HDF5";
+/// What is read.
+const READABLE: &str = "SDF, HDF5, NumPy arrays, PNG, TIFF and text are read";
 
 /// The line that converts a file that another program may know, behind what to do about any file; nothing for another.
 struct ByConversion(bool);
 
 impl fmt::Display for ByConversion {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        if self.0 {
-            write!(f, "; SurfaceTopography reads many instruments' formats: {BY_SURFACE_TOPOGRAPHY}")
-        } else {
-            Ok(())
-        }
+        if self.0 { write!(f, "; if it is of an instrument, {CONVERSION}") } else { Ok(()) }
     }
 }

@@ -6,7 +6,7 @@ use plateau_core::surface::{Body, Length, Patch};
 
 use super::error::FileError;
 use super::format::Format;
-use super::stylus_profile::{Lay, ProfileError, StylusProfile};
+use super::options::{Lay, ProfileError, StylusProfile};
 
 /// Pitches that are read, m; measured ones are between 1e-11 and 1e-3.
 const PITCHES: RangeInclusive<f64> = 1e-15..=1e3;

@@ -1,33 +1,10 @@
-//! What a scene says of a surface file, where the file may say it, too, and how much any file may make the program allocate.
+//! What a scene says of a surface file, where the file may say it, too: also that it is a profile, and what surface that stands for.
 
-use plateau_core::surface::Length;
+use plateau_core::model::mesh::Mesh;
+use plateau_core::surface::{Body, Length, Patch};
 use thiserror::Error;
 
-use super::stylus_profile::Lay;
-use crate::delimited::Decimal;
-
-/// What a user says of a file that the file itself does not.
-#[derive(Debug, Clone, Default, PartialEq)]
-pub struct ReadOptions {
-    /// Dataset in an HDF5 file, array in an .npz archive, or the number of a table in a text.
-    pub dataset: Option<String>,
-    /// Time of the map of a run file, s; without it the last one is taken.
-    pub at: Option<f64>,
-    /// What the number 1 stands for, m; for text that does not state its unit, for NumPy arrays in another unit than m
-    /// and for images of decimal heights.
-    pub unit: Option<f64>,
-    /// Distance of neighbouring points along x and y, m; for files that do not state it.
-    pub pitch: Option<[f64; 2]>,
-    /// Heights of black and white of an image, m.
-    pub height_range: Option<[f64; 2]>,
-    /// The decimal mark of a text file, where its content does not tell it.
-    pub decimal: Option<Decimal>,
-    /// Lines of a text file that are not read, from its first. A file of which lines are skipped, also none, is taken as
-    /// a table, whatever its first lines tell.
-    pub skip: Option<u64>,
-    /// The file is a profile, and this is the direction of its lay.
-    pub profile_lay: Option<Lay>,
-}
+pub use crate::scene::{Lay, ReadOptions};
 
 /// What file and scene state is the same if it differs by no more than this fraction: headers have few digits.
 const SAME: f64 = 0.01;
@@ -73,4 +50,67 @@ pub(super) const MOST_INFLATED: usize = 1032;
 /// What a file of so many bytes can hold at most when it is deflated.
 pub(super) fn inflated(bytes: usize) -> usize {
     bytes.saturating_mul(MOST_INFLATED)
+}
+
+/// Heights along a line, with what a user takes them for.
+#[derive(Debug, Clone, PartialEq)]
+pub struct StylusProfile {
+    /// Distance of neighbouring points, m.
+    pub pitch: f64,
+    /// Heights, m; NaN where there is none.
+    pub heights: Vec<f64>,
+    /// The lay of the surface that the profile stands for.
+    pub lay: Lay,
+}
+
+/// Why a file gives no profile, or a profile no surface.
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
+pub enum ProfileError {
+    /// The file holds a surface.
+    #[error("profile_lay takes the file as a profile, but it has {} x {} points: leave out profile_lay", size.0, size.1)]
+    NotALine {
+        /// Columns and rows.
+        size: (usize, usize),
+    },
+    /// Different pitches along x and y were given.
+    #[error("a profile has one pitch, the scene gives two: pitch = \"0.5 um\", for example")]
+    TwoPitches,
+    /// Nothing says the pitch.
+    #[error(
+        "the file does not say the distance of its points: pitch = \"0.5 um\" below file in the scene does, for example"
+    )]
+    NoPitch,
+    /// Nothing says how the surface is made of the profile.
+    #[error(
+        "profile_lay = \"isotropic\" asks for random heights with the statistics of the profile in every direction: \
+         extend = \"statistics\" in the prepare table of the same body makes them"
+    )]
+    Isotropic,
+}
+
+impl StylusProfile {
+    /// The surface of grooves that the profile stands for, with the size that `body` needs along the grooves: one column
+    /// as long as the body, or one row as wide as the track. Across the grooves it is as long as the profile.
+    ///
+    /// Without grooves it is the profile itself, in one row as wide as its pitch.
+    pub fn into_patch(self, body: Body, mesh: &Mesh) -> Patch {
+        let Self { pitch, heights, lay } = self;
+        let points = heights.len();
+        let row = |row_pitch: f64| (points, 1, pitch, row_pitch);
+        let (columns, rows, column_pitch, row_pitch) = match lay {
+            Lay::Along => (1, points, body.length(mesh), pitch),
+            Lay::Across => row(mesh.rows() as f64 * mesh.row_height()),
+            Lay::Isotropic => row(pitch),
+        };
+        Patch { columns, rows, column_pitch, row_pitch, heights }
+    }
+
+    /// What becomes of the profile, in words.
+    pub fn describe(&self) -> &'static str {
+        match self.lay {
+            Lay::Along => "profile across grooves along sliding, the same all along",
+            Lay::Across => "profile along sliding across grooves, the same from edge to edge",
+            Lay::Isotropic => "profile of a surface without a direction",
+        }
+    }
 }

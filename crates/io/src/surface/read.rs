@@ -8,12 +8,11 @@ use plateau_core::surface::Patch;
 use super::detect::detect;
 use super::error::FileError;
 use super::format::Format;
-use super::image::ImageError;
+use super::image::{self, ImageError};
 use super::measured::Measured;
-use super::options::{ReadOptions, agreed_pitch};
-use super::stylus_profile::ProfileError;
-use super::{hdf5, image, npy, sdf, text, x3p};
-use crate::{limits, regular};
+use super::options::{ProfileError, ReadOptions, agreed_pitch};
+use super::{hdf5, npy, sdf, text};
+use crate::{input, limits};
 
 /// Reads a surface file; what it is, is told by its content.
 ///
@@ -32,31 +31,33 @@ pub fn read(path: &Path, options: &ReadOptions) -> Result<Measured, FileError> {
 }
 
 fn read_format(path: &Path, options: &ReadOptions) -> Result<Measured, FileError> {
-    let format = detect(path)?;
+    let format = match detect(path)? {
+        // Of which lines are skipped, also none, is a table, whatever its first lines tell.
+        Format::Instrument(instrument) if instrument.is_text && options.skip.is_some() => Format::Text,
+        found => found,
+    };
     // What is not read is to be converted, whatever is said of it.
     if !matches!(format, Format::Instrument(_)) {
         refuse_meaningless(options, format)?;
     }
     match format {
         Format::Hdf5 => {
-            let hdf5::Heights { columns, rows, pitch, heights, body, notes, warnings } =
+            let hdf5::Heights { columns, rows, pitch, heights, body, is_converted, notes, warnings } =
                 hdf5::heights(path, options.dataset.as_deref(), options.at)?;
             let pitch = agreed_pitch(pitch, options.pitch)?;
             let plain = Measured::new(format, [columns, rows], pitch, heights);
-            Ok(Measured { notes, warnings, body, instrument: false, ..plain })
+            Ok(Measured { notes, warnings, body, instrument: is_converted, ..plain })
         }
         Format::Sdf(_) => {
-            let file = regular::open(path)?;
+            let file = input::open(path)?;
             let length = file.metadata()?.len();
             let sdf::Surface { patch, warnings } = sdf::read(BufReader::new(file), length)?;
-            Ok(from_instrument(format, patch, Vec::new(), warnings))
-        }
-        Format::X3p => {
-            let x3p::Surface { patch, notes, warnings } = x3p::read(BufReader::new(regular::open(path)?))?;
-            Ok(from_instrument(format, patch, notes, warnings))
+            let Patch { columns, rows, column_pitch, row_pitch, heights } = patch;
+            let pitch = Some([column_pitch, row_pitch]);
+            Ok(Measured { warnings, ..Measured::new(format, [columns, rows], pitch, heights) })
         }
         Format::Npy => {
-            let mut file = regular::open_small(path, limits::SURFACE)?;
+            let mut file = input::open_small(path, limits::SURFACE)?;
             let mut content = Vec::new();
             file.by_ref().take(npy::HEAD as u64).read_to_end(&mut content)?;
             npy::check_length(&content, file.metadata()?.len())?;
@@ -65,14 +66,14 @@ fn read_format(path: &Path, options: &ReadOptions) -> Result<Measured, FileError
         }
         Format::Npz => {
             let (dataset, unit) = (options.dataset.as_deref(), options.unit.unwrap_or(1.0));
-            let (name, read) = npy::read_archive(&regular::read(path, limits::SURFACE)?, dataset, unit)?;
+            let (name, read) = npy::read_archive(&input::read(path, limits::SURFACE)?, dataset, unit)?;
             let mut measured = array(format, read, options);
             measured.notes.insert(0, format!("array {name}"));
             Ok(measured)
         }
         Format::Png | Format::Tiff => {
             let image::HeightMap { columns, rows, heights, notes, warnings } = image::heights(
-                &regular::read(path, limits::SURFACE)?,
+                &input::read(path, limits::SURFACE)?,
                 format,
                 options,
             )
@@ -86,19 +87,12 @@ fn read_format(path: &Path, options: &ReadOptions) -> Result<Measured, FileError
         Format::Text => {
             let xyz = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("xyz"));
             let text::Table { columns, rows, pitch, is_pitch_assumed, heights, notes, warnings } =
-                text::read(&regular::read(path, limits::SURFACE_TEXT)?, xyz, options)?;
+                text::read(&input::read(path, limits::SURFACE_TEXT)?, xyz, options)?;
             let plain = Measured::new(format, [columns, rows], pitch, heights);
             Ok(Measured { is_pitch_assumed, notes, warnings, ..plain })
         }
         Format::Instrument(instrument) => Err(FileError::Instrument(instrument)),
     }
-}
-
-/// Heights of a file that states its pitch, with peaks positive.
-fn from_instrument(format: Format, patch: Patch, notes: Vec<String>, warnings: Vec<String>) -> Measured {
-    let Patch { columns, rows, column_pitch, row_pitch, heights } = patch;
-    let pitch = Some([column_pitch, row_pitch]);
-    Measured { notes, warnings, ..Measured::new(format, [columns, rows], pitch, heights) }
 }
 
 /// A NumPy array: heights of the model, as those of an HDF5 file.

@@ -10,7 +10,7 @@ use plateau_core::surface::Patch;
 use thiserror::Error;
 
 use super::sdf::{self, Dialect, Encoding, SdfKind};
-use super::{hdf5, npy, x3p};
+use super::{hdf5, npy};
 use crate::temporary::Temporary;
 use crate::timestamp;
 
@@ -67,11 +67,11 @@ pub enum WriteError {
 }
 
 /// Endings that are written.
-const ENDINGS: &str = ".sdf, .x3p, .npy or .h5";
+const ENDINGS: &str = ".sdf, .npy or .h5";
 
 /// Writes heights so that reading the file gives the same heights, bit for bit, missing points as missing points.
 ///
-/// The format is that of the ending, .sdf, .x3p, .npy or .h5 in small or large letters. An .npy file has no place for the
+/// The format is that of the ending, .sdf, .npy or .h5 in small or large letters. An .npy file has no place for the
 /// pitch. The file appears at `path` when it is complete; whatever goes wrong, a file that was there before stays as it was.
 ///
 /// # Errors
@@ -93,9 +93,6 @@ pub fn write(path: &Path, patch: &Patch, options: &WriteOptions) -> Result<(), W
                 out.flush()
             })
         }
-        "x3p" => place(path, options.replace, |temporary| {
-            x3p::write(BufWriter::new(File::create(temporary)?), patch, &timestamp::iso_8601(now))
-        }),
         "npy" => place(path, options.replace, |temporary| npy::write(temporary, patch)),
         "h5" => place(path, options.replace, |temporary| hdf5::write(temporary, patch).map_err(io::Error::other)),
         other => {

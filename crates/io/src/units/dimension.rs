@@ -19,6 +19,8 @@ pub enum Dimension {
     Speed,
     /// rad/s.
     RotationalSpeed,
+    /// N m, which is a joule by its powers.
+    Torque,
     /// 1/Pa = m³/(N·m): worn volume per force and sliding distance.
     SpecificWearRate,
     /// m².
@@ -41,7 +43,7 @@ pub enum Dimension {
     Angle,
 }
 
-/// What is known of a kind of quantity.
+/// Knowledge of a kind of quantity.
 struct Facts {
     powers: Powers,
     /// The coherent SI unit.
@@ -55,7 +57,7 @@ const fn facts(powers: Powers, si_unit: &'static str, example: &'static str, uni
     Facts { powers, si_unit, example, units }
 }
 
-/// What a unit of these powers measures.
+/// Dimension of a unit of these powers.
 const MEANINGS: &[(Powers, &str)] = &[
     ([1, 0, 0, 0, 0], "a length"),
     ([1, 1, -2, 0, 0], "a force"),
@@ -94,6 +96,7 @@ impl Dimension {
             Self::Time => facts([0, 0, 1, 0, 0], "s", "3000 s", "s, ms, min, h"),
             Self::Speed => facts([1, 0, -1, 0, 0], "m/s", "2 m/s", "m/s, mm/s, km/h"),
             Self::RotationalSpeed => facts([0, 0, -1, 1, 0], "rad/s", "850 rpm", "rpm, rad/s"),
+            Self::Torque => facts([2, 1, -2, 0, 0], "N m", "0.4 N m", "N m, mN m, kN m"),
             Self::SpecificWearRate => facts([1, -1, 2, 0, 0], "1/Pa", "5e-14 1/Pa", "1/Pa, m^2/N, mm^3/(N m)"),
             Self::Area => facts([2, 0, 0, 0, 0], "m^2", "2000 um^2", "m^2, mm^2, um^2"),
             Self::Temperature => facts([0, 0, 0, 0, 1], "K", "23 degC", "degC, K"),
@@ -111,9 +114,15 @@ impl Dimension {
         self.facts().powers
     }
 
-    /// What it is called, such as "rotational speed".
+    /// Its meaning in a scene, with an article.
+    fn meaning(self) -> &'static str {
+        // By its powers it would be an energy.
+        if self == Self::Torque { "a torque" } else { meaning(self.powers()) }
+    }
+
+    /// Its name, such as "rotational speed".
     pub fn name(self) -> &'static str {
-        let meaning = meaning(self.powers());
+        let meaning = self.meaning();
         meaning.split_once(' ').map_or(meaning, |(_article, name)| name)
     }
 
@@ -136,6 +145,6 @@ impl Dimension {
 /// Says what is expected, with an example: `a force such as "47 N" (N, kN, mN)`.
 impl fmt::Display for Dimension {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{} such as \"{}\" ({})", meaning(self.powers()), self.example(), self.units())
+        write!(f, "{} such as \"{}\" ({})", self.meaning(), self.example(), self.units())
     }
 }

@@ -90,6 +90,7 @@ impl Units {
         let glued = match dimension {
             Dimension::Length => length.clone(),
             Dimension::Force => force.clone(),
+            Dimension::Torque => format!("{force}{TIMES}{length}|{energy}"),
             Dimension::Pressure => pressure.clone(),
             Dimension::Time => time.clone(),
             Dimension::Speed => format!("{length}{OVER}{time}"),

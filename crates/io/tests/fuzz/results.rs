@@ -4,12 +4,12 @@ use std::fs;
 use std::path::Path;
 
 use plateau_io::study::Study;
-use plateau_io::study::collected::Collected;
-use plateau_io::study::identity::Identity;
 use plateau_io::study::journal::{Journal, Shard, merge};
 use plateau_io::study::plan::Plan;
+use plateau_io::study::record::Identity;
 use plateau_io::study::record::{Outcome, Record, Series};
-use plateau_io::study::results_table::table;
+use plateau_io::study::results::Collected;
+use plateau_io::study::results::table;
 use proptest::prelude::*;
 
 use super::bytes::changes;

@@ -4,7 +4,7 @@
 use std::fs;
 use std::path::Path;
 
-use plateau_io::checkpoint::{self, RunState};
+use plateau_io::run_file::checkpoint::{self, RunState};
 use plateau_io::scene::Scene;
 use proptest::prelude::*;
 use sha2::{Digest, Sha256};
@@ -54,7 +54,7 @@ fn changed_states_end_in_a_number_or_an_error() {
         let mut content = content.clone();
         changes.iter().for_each(|change| change.apply(&mut content));
         let length = (content.len() as u64).to_le_bytes();
-        [&b"plateau state 7\n"[..], &length, &content, &Sha256::digest(&content)].concat()
+        [&b"plateau state 8\n"[..], &length, &content, &Sha256::digest(&content)].concat()
     });
     Fuzz { corpus: "states", cases: 400, least_accepted: 25 }.run(strategy, |content| {
         fs::write(&path, content).unwrap();

@@ -3,10 +3,10 @@
 use std::io;
 use std::path::PathBuf;
 
-use plateau_core::model::mesh::MeshError;
 use plateau_core::simulation::SimulationError;
 use plateau_io::number;
 use plateau_io::run_file::ReadError;
+use plateau_io::scene::SceneError;
 use thiserror::Error;
 
 use crate::error::signal_in_words;
@@ -22,9 +22,6 @@ pub enum AccuracyError {
     /// The scene makes no run, or its first steps fail.
     #[error(transparent)]
     Run(#[from] RunError),
-    /// A coarser mesh is none.
-    #[error(transparent)]
-    Mesh(#[from] MeshError),
     /// A run without which nothing can be compared failed.
     #[error("{run}: {error}")]
     Failed {
@@ -69,18 +66,20 @@ impl From<SimulationError> for Unfinished {
 /// Why there are no runs to compare.
 #[derive(Debug, Error)]
 pub enum PlanError {
+    /// The scene does not take the time acceleration of the reference.
+    #[error(transparent)]
+    Scene(#[from] SceneError),
     /// The reference is not finer than the scene.
-    #[error(
-        "the reference has time_acceleration = {reference}, the scene has {scene}: expected a reference that is finer than the \
-         scene, or 1"
-    )]
+    #[error("the reference has time_acceleration = {reference}: expected {}", expected(*own, *needs_model))]
     NotFiner {
         /// Time acceleration of the reference.
         reference: f64,
-        /// That of the scene, as it gives it.
-        scene: String,
+        /// That of the scene.
+        own: f64,
+        /// Whether nothing but the model itself judges runs of the scene.
+        needs_model: bool,
     },
-    /// Nothing can be held against the reference.
+    /// Nothing can be compared with the reference.
     #[error(
         "nothing is coarser than the reference with time_acceleration = {reference}: choose other ladders or a longer duration"
     )]
@@ -90,21 +89,36 @@ pub enum PlanError {
     },
     /// The budget does not suffice.
     #[error(
-        "the budget of {} is too small: at {} steps/s, as measured, {what} take about {}; give --budget {} or more{model}",
-        number::duration(*budget), number::grouped(*speed as u64), number::duration(*needed), enough(*needed)
+        "the budget of {} is too small: at {} steps/s, as measured, a reference with time_acceleration = {reference} needs a \
+         budget of {}; give --budget {} or more{}",
+        number::duration(*budget), number::grouped(*speed as u64), number::duration(*needed), enough(*needed),
+        or_model(*reference, *of_model)
     )]
     TooSmall {
         /// The budget, s.
         budget: f64,
-        /// Steps per second on the scene's mesh.
+        /// Steps per second.
         speed: f64,
-        /// The runs that it is for, in words.
-        what: String,
-        /// What they take, s.
+        /// Time acceleration of the reference that needs the smallest budget.
+        reference: f64,
+        /// Budget with it, s.
         needed: f64,
-        /// What a better reference would take, in words, if there is one.
-        model: String,
+        /// Budget with the model itself as the reference, s.
+        of_model: f64,
     },
+}
+
+fn expected(own: f64, needs_model: bool) -> String {
+    if needs_model {
+        "1, the model itself, for a scene that chooses its acceleration, and on a smooth disc with pooled debris"
+            .to_owned()
+    } else {
+        format!("less than the scene's time_acceleration = {own}, or 1")
+    }
+}
+
+fn or_model(reference: f64, needed: f64) -> String {
+    if reference == 1.0 { String::new() } else { format!(", or {} for 1, the model itself", enough(needed)) }
 }
 
 /// Why a run file is no reference of a scene.

@@ -1,19 +1,14 @@
-//! Ladders: runs of a scene that differ in one of its numerics.
+//! Ladders: runs of a scene with one of its keys set to several values.
 
-use plateau_core::acceleration::Adaptive;
-use plateau_core::model::parameters::{Integrator, Parameters};
-use plateau_io::scene::Scene;
-use plateau_io::scene::schema::choices;
+use std::path::PathBuf;
 
-use super::coarsening::Coarsening;
+use plateau_io::scene::{self, Scene, SceneError};
 
 /// Time accelerations that are tried, besides the scene's own: they have small common multiples, so that there are windows
 /// of whole revolutions of all of them.
 const TIME_ACCELERATIONS: [f64; 10] = [1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0, 1000.0];
-/// A run has at least so many simulated revolutions.
+/// Fewest simulated revolutions of a run.
 const FEWEST_REVOLUTIONS: f64 = 8.0;
-/// How many cells of the scene's mesh go along one of a coarser mesh.
-pub const COARSENINGS: [usize; 3] = [2, 4, 8];
 /// Tolerances of a run that chooses its acceleration that are tried, besides the scene's own.
 const TOLERANCES: [f64; 5] = [0.002, 0.005, 0.01, 0.02, 0.05];
 /// Largest acceleration of such a run, unless the scene says another.
@@ -21,220 +16,130 @@ const LARGEST: f64 = 1000.0;
 /// Parts of themselves by which initial heights are changed.
 const PERTURBATIONS: [f64; 3] = [1e-9, 1e-6, 1e-4];
 
-/// What runs differ in whose errors are measured.
+/// Runs that differ in one key.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Ladder {
     /// Revolutions that a simulated one stands for.
     TimeAcceleration,
     /// Accelerations that the run chooses itself, by the error that it may make.
     Tolerance,
-    /// Coarser meshes, with the initial surfaces averaged.
-    Mesh,
-    /// The other integrator of wear.
-    Integrator,
     /// The reference anew with initial heights that differ a little: how much of the errors is chance.
     Perturbation,
 }
 
 impl Ladder {
     /// All of them.
-    pub const ALL: [Self; 5] =
-        [Self::TimeAcceleration, Self::Tolerance, Self::Mesh, Self::Integrator, Self::Perturbation];
+    pub const ALL: [Self; 3] = [Self::TimeAcceleration, Self::Tolerance, Self::Perturbation];
 
     /// Its name on the command line and in files.
     pub fn name(self) -> &'static str {
         match self {
             Self::TimeAcceleration => "time_acceleration",
             Self::Tolerance => "tolerance",
-            Self::Mesh => "mesh",
-            Self::Integrator => "integrator",
             Self::Perturbation => "perturbation",
         }
     }
 }
 
+/// Place of a run on its ladder, with the value of what the ladder changes.
+pub type Step = (Ladder, f64);
+
+/// Time accelerations of a scene, increasing: 1, the scene's own, and others with which there are enough revolutions.
+pub fn time_accelerations(own: f64, revolutions: f64) -> Vec<f64> {
+    let room = |acceleration: &f64| *acceleration == 1.0 || revolutions / acceleration >= FEWEST_REVOLUTIONS;
+    sorted(TIME_ACCELERATIONS.into_iter().filter(room).chain([own]))
+}
+
+/// Steps of these ladders that a reference with the time acceleration `reference` judges: coarser runs, or the reference with
+/// other heights. A run that chooses its acceleration begins with 1, so that nothing but the model itself is finer.
+pub fn steps(ladders: &[Ladder], accelerations: &[f64], own_tolerance: Option<f64>, reference: f64) -> Vec<Step> {
+    let values = |ladder: Ladder| match ladder {
+        Ladder::TimeAcceleration => accelerations.iter().copied().filter(|other| *other > reference).collect(),
+        Ladder::Tolerance if reference == 1.0 => sorted(TOLERANCES.into_iter().chain(own_tolerance)),
+        Ladder::Tolerance => Vec::new(),
+        Ladder::Perturbation => PERTURBATIONS.to_vec(),
+    };
+    ladders.iter().flat_map(|ladder| values(*ladder).into_iter().map(|value| (*ladder, value))).collect()
+}
+
+fn sorted(values: impl Iterator<Item = f64>) -> Vec<f64> {
+    let mut values: Vec<f64> = values.collect();
+    values.sort_by(f64::total_cmp);
+    values.dedup();
+    values
+}
+
+/// A scene file with changes, from which every run of a ladder differs in the keys that its rung sets.
+#[derive(Debug, Clone)]
+pub struct Base {
+    /// The scene file.
+    pub path: PathBuf,
+    /// Changes, as after `--set`.
+    pub sets: Vec<String>,
+    /// What they make together.
+    pub scene: Scene,
+}
+
 /// One run of a ladder.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone)]
 pub struct Rung {
     /// The ladder.
     pub ladder: Ladder,
-    /// All numerics of the run.
-    pub numerics: Numerics,
+    /// Value of what it changes.
+    pub value: f64,
+    /// Changes of the base, as after `--set`.
+    sets: Vec<String>,
+    /// The scene with them.
+    pub scene: Scene,
 }
 
 impl Rung {
-    /// What the ladder changes, as a number; an integrator is none.
-    pub fn value(&self) -> f64 {
-        match self.ladder {
-            Ladder::TimeAcceleration => self.numerics.time_acceleration,
-            Ladder::Tolerance => self.numerics.adaptive.map_or(f64::NAN, |adaptive| adaptive.tolerance),
-            Ladder::Mesh => self.numerics.coarsening as f64,
-            Ladder::Integrator => f64::NAN,
-            Ladder::Perturbation => self.numerics.perturbation,
-        }
-    }
-
-    /// What the ladder changes, in words.
-    pub fn name(&self) -> String {
-        match self.ladder {
-            Ladder::TimeAcceleration => format!("time_acceleration = {}", self.value()),
-            Ladder::Tolerance => self.numerics.acceleration(),
-            Ladder::Mesh => format!("mesh coarsened {} times", self.value()),
-            Ladder::Integrator => format!("integrator = \"{}\"", integrator_name(self.numerics.integrator)),
-            Ladder::Perturbation => format!("disc heights times 1 + {:e}", self.value()),
-        }
-    }
-
-    /// The same with the time acceleration, which no ladder but its own names.
-    pub fn full_name(&self) -> String {
-        match self.ladder {
-            Ladder::TimeAcceleration | Ladder::Tolerance => self.name(),
-            _ => format!("{}, {}", self.numerics.acceleration(), self.name()),
-        }
-    }
-}
-
-/// The time accelerations of a scene, increasing: 1, the scene's own, and others with which there are enough revolutions.
-pub fn time_accelerations(own: f64, revolutions: f64) -> Vec<f64> {
-    let room = |acceleration: &f64| *acceleration == 1.0 || revolutions / acceleration >= FEWEST_REVOLUTIONS;
-    let mut accelerations: Vec<f64> = TIME_ACCELERATIONS.into_iter().filter(room).chain([own]).collect();
-    accelerations.sort_by(f64::total_cmp);
-    accelerations.dedup();
-    accelerations
-}
-
-/// The rungs of these ladders that a reference with the time acceleration `reference` judges, or that are the reference with
-/// other heights; `own` are the scene's numerics, from which the others differ in one thing.
-///
-/// The first one is the scene's own run, unless that is the reference.
-pub fn rungs(
-    ladders: &[Ladder],
-    own: Numerics,
-    accelerations: &[f64],
-    coarsenings: &[usize],
-    reference: f64,
-) -> Vec<Rung> {
-    let rung = |ladder, numerics| Rung { ladder, numerics };
-    let mut rungs = Vec::new();
-    if own.adaptive.is_some() {
-        rungs.push(rung(Ladder::Tolerance, own));
-    } else if own.time_acceleration > reference {
-        rungs.push(rung(Ladder::TimeAcceleration, own));
-    }
-    for ladder in ladders {
-        match ladder {
-            Ladder::TimeAcceleration => rungs.extend(
-                accelerations
-                    .iter()
-                    .filter(|other| **other > reference && (own.adaptive.is_some() || **other != own.time_acceleration))
-                    .map(|other| rung(*ladder, own.accelerated(*other))),
-            ),
+    /// Reads the scene of a step; `reference` is the time acceleration of the reference.
+    ///
+    /// # Errors
+    /// [`SceneError`] when the scene does not take these values.
+    pub fn new(base: &Base, (ladder, value): Step, reference: f64) -> Result<Self, SceneError> {
+        let accelerated = |acceleration: f64| format!("numerics.time_acceleration = {acceleration}");
+        let sets = match ladder {
+            Ladder::TimeAcceleration => vec![accelerated(value)],
             Ladder::Tolerance => {
-                let largest = own.adaptive.map_or(LARGEST, |adaptive| adaptive.largest);
-                let wanted = TOLERANCES.iter().map(|tolerance| Adaptive { tolerance: *tolerance, largest });
-                let other = wanted.filter(|adaptive| own.adaptive != Some(*adaptive));
-                rungs.extend(
-                    other.map(|adaptive| rung(*ladder, Numerics { adaptive: Some(adaptive), ..own.accelerated(1.0) })),
-                );
+                let largest = base.scene.adaptive.map_or(LARGEST, |adaptive| adaptive.largest);
+                vec![format!("numerics.time_acceleration = {{ tolerance = {value}, max = {largest} }}")]
             }
-            Ladder::Mesh => {
-                rungs.extend(coarsenings.iter().map(|factor| rung(*ladder, Numerics { coarsening: *factor, ..own })));
+            Ladder::Perturbation => {
+                let scale = base.scene.disc_surface.preparation.scale * (1.0 + value);
+                vec![accelerated(reference), format!("disc.prepare.scale = {scale}")]
             }
-            Ladder::Integrator => {
-                let integrator = match own.integrator {
-                    Integrator::Explicit => Integrator::Exponential,
-                    Integrator::Exponential => Integrator::Explicit,
-                };
-                rungs.push(rung(*ladder, Numerics { integrator, ..own }));
-            }
-            Ladder::Perturbation => rungs.extend(PERTURBATIONS.iter().map(|perturbation| {
-                rung(*ladder, Numerics { perturbation: *perturbation, ..own.accelerated(reference) })
-            })),
-        }
-    }
-    rungs.retain(|rung| rung.ladder == Ladder::Perturbation || rung.numerics.is_judged_by(reference));
-    rungs
-}
-
-/// The numerics of one run.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Numerics {
-    /// m: how many revolutions a simulated one stands for; where the run chooses it, at the start.
-    pub time_acceleration: f64,
-    /// How the run chooses its acceleration, if it does.
-    pub adaptive: Option<Adaptive>,
-    /// Cells of the scene's mesh along a cell; 1 is the scene's mesh.
-    pub coarsening: usize,
-    /// How wear follows from contact.
-    pub integrator: Integrator,
-    /// Initial heights of the disc are changed by this part of themselves; 0 leaves them as they are.
-    pub perturbation: f64,
-}
-
-impl Numerics {
-    /// Those of the scene itself.
-    pub fn of(scene: &Scene) -> Self {
-        let parameters = &scene.parameters;
-        Self {
-            time_acceleration: parameters.time_acceleration,
-            adaptive: scene.adaptive,
-            coarsening: 1,
-            integrator: parameters.integrator,
-            perturbation: 0.0,
-        }
-    }
-
-    /// The same with another time acceleration, which never changes.
-    pub fn accelerated(self, time_acceleration: f64) -> Self {
-        Self { time_acceleration, adaptive: None, ..self }
-    }
-
-    /// The time acceleration as a scene gives it.
-    pub fn acceleration(&self) -> String {
-        match self.adaptive {
-            None => format!("time_acceleration = {}", self.time_acceleration),
-            Some(Adaptive { tolerance, largest }) => {
-                format!("time_acceleration = {{ tolerance = {tolerance}, max = {largest} }}")
-            }
-        }
-    }
-
-    /// Whether a reference with this time acceleration is finer than the run, or the model itself. A run that chooses its
-    /// acceleration begins with 1, so that nothing but the model is finer.
-    pub fn is_judged_by(&self, reference: f64) -> bool {
-        reference == 1.0 || (self.adaptive.is_none() && reference < self.time_acceleration)
-    }
-
-    /// What a simulation with these numerics is told; `coarsening` is that of the mesh, if there is one.
-    pub fn parameters(&self, scene: &Scene, coarsening: Option<&Coarsening>) -> Parameters {
-        let mut parameters = Parameters {
-            time_acceleration: self.time_acceleration,
-            integrator: self.integrator,
-            ..scene.parameters.clone()
         };
-        if let Some(coarsening) = coarsening {
-            parameters.mesh = coarsening.mesh.clone();
-        }
-        parameters
+        let scene = scene::load(&base.path, &[&base.sets[..], &sets].concat())?;
+        let rung = Self { ladder, value, sets, scene };
+        Ok(rung.lasting(base.scene.duration))
     }
-}
 
-/// Name of an integrator in a scene.
-pub fn integrator_name(integrator: Integrator) -> &'static str {
-    choices::word(&choices::INTEGRATOR, &integrator)
+    /// The same for so much physical time (s): a number of steps is another time with another acceleration.
+    #[must_use]
+    pub fn lasting(mut self, duration: f64) -> Self {
+        self.scene.duration = duration;
+        self.scene.steps = self.scene.parameters.steps_of(duration);
+        self
+    }
+
+    /// Keys and values that make this run, as a scene has them.
+    pub fn setting(&self) -> String {
+        self.sets.join(", ").replace("numerics.", "")
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    const OWN: Numerics = Numerics {
-        time_acceleration: 20.0,
-        coarsening: 1,
-        integrator: Integrator::Explicit,
-        perturbation: 0.0,
-        adaptive: None,
-    };
+    fn base(sets: &[&str]) -> Base {
+        let path = PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/../../data/scenes/quick.toml"));
+        let sets: Vec<String> = sets.iter().map(|set| (*set).to_owned()).collect();
+        let scene = scene::load(&path, &sets).unwrap();
+        Base { path, sets, scene }
+    }
 
     #[test]
     fn a_scene_has_the_accelerations_that_its_revolutions_allow() {
@@ -244,39 +149,43 @@ mod tests {
     }
 
     #[test]
-    fn rungs_are_coarser_than_the_reference_and_differ_in_one_thing() {
+    fn steps_are_coarser_than_the_reference() {
         let accelerations = [1.0, 5.0, 20.0, 50.0];
-        let all = [Ladder::TimeAcceleration, Ladder::Tolerance, Ladder::Mesh, Ladder::Integrator, Ladder::Perturbation];
-        let all = rungs(&all, OWN, &accelerations, &[2], 1.0);
-        let names: Vec<String> = all.iter().map(Rung::name).collect();
-        assert_eq!(
-            names,
-            [
-                "time_acceleration = 20",
-                "time_acceleration = 5",
-                "time_acceleration = 50",
-                "time_acceleration = { tolerance = 0.002, max = 1000 }",
-                "time_acceleration = { tolerance = 0.005, max = 1000 }",
-                "time_acceleration = { tolerance = 0.01, max = 1000 }",
-                "time_acceleration = { tolerance = 0.02, max = 1000 }",
-                "time_acceleration = { tolerance = 0.05, max = 1000 }",
-                "mesh coarsened 2 times",
-                "integrator = \"exponential\"",
-                "disc heights times 1 + 1e-9",
-                "disc heights times 1 + 1e-6",
-                "disc heights times 1 + 1e-4",
-            ]
-        );
-        assert_eq!(all[10].numerics.time_acceleration, 1.0);
-        assert_eq!(all[8].full_name(), "time_acceleration = 20, mesh coarsened 2 times");
-        // A scene that chooses is run first, and the others with its choice.
-        let chosen = Numerics { adaptive: Some(Adaptive { tolerance: 0.02, largest: 300.0 }), ..OWN.accelerated(1.0) };
-        let few = rungs(&[Ladder::Tolerance, Ladder::Mesh], chosen, &accelerations, &[2], 1.0);
-        assert_eq!(few.iter().map(Rung::value).collect::<Vec<_>>(), [0.02, 0.002, 0.005, 0.01, 0.05, 2.0]);
-        assert_eq!(few[5].full_name(), "time_acceleration = { tolerance = 0.02, max = 300 }, mesh coarsened 2 times");
-        // A coarser reference judges what is coarser still, and no run that may be finer.
-        let few = rungs(&[Ladder::TimeAcceleration, Ladder::Tolerance, Ladder::Mesh], OWN, &accelerations, &[2], 5.0);
-        assert_eq!(few.iter().map(Rung::value).collect::<Vec<_>>(), [20.0, 50.0, 2.0]);
-        assert!(rungs(&[Ladder::TimeAcceleration], OWN, &accelerations, &[], 50.0).is_empty());
+        let values = |ladder, own, reference| -> Vec<f64> {
+            steps(&[ladder], &accelerations, own, reference).into_iter().map(|(_, value)| value).collect()
+        };
+        assert_eq!(values(Ladder::TimeAcceleration, None, 1.0), [5.0, 20.0, 50.0]);
+        assert_eq!(values(Ladder::TimeAcceleration, None, 7.0), [20.0, 50.0]);
+        assert!(values(Ladder::TimeAcceleration, None, 50.0).is_empty());
+        assert_eq!(values(Ladder::Tolerance, Some(0.03), 1.0), [0.002, 0.005, 0.01, 0.02, 0.03, 0.05]);
+        assert!(values(Ladder::Tolerance, Some(0.03), 2.0).is_empty());
+        assert_eq!(values(Ladder::Perturbation, None, 7.0), PERTURBATIONS);
+    }
+
+    #[test]
+    fn a_rung_is_the_scene_with_some_keys_set() {
+        let base = base(&["disc.prepare.scale=0.5", "numerics.time_acceleration={ tolerance = 0.1, max = 30 }"]);
+        let rung = |step, reference| Rung::new(&base, step, reference).unwrap();
+        let fixed = rung((Ladder::TimeAcceleration, 7.5), 1.0);
+        assert_eq!(fixed.setting(), "time_acceleration = 7.5");
+        assert!(fixed.scene.adaptive.is_none() && fixed.scene.parameters.time_acceleration == 7.5);
+        let chosen = rung((Ladder::Tolerance, 0.02), 1.0);
+        assert_eq!(chosen.setting(), "time_acceleration = { tolerance = 0.02, max = 30 }");
+        assert_eq!(chosen.scene.adaptive.unwrap().tolerance, 0.02);
+        let perturbed = rung((Ladder::Perturbation, 1e-4), 2.0);
+        assert_eq!(perturbed.setting(), "time_acceleration = 2, disc.prepare.scale = 0.50005");
+        assert_eq!(perturbed.scene.disc_surface.preparation.scale, 0.50005);
+    }
+
+    #[test]
+    fn runs_with_a_number_of_steps_are_as_long_as_the_scene() {
+        let base = base(&["operation.steps=690"]);
+        let rung = Rung::new(&base, (Ladder::TimeAcceleration, 10.0), 1.0).unwrap();
+        // The scene has 20.
+        assert_eq!((rung.scene.duration, rung.scene.steps), (base.scene.duration, 1380));
+        let refused = Rung::new(&base, (Ladder::Tolerance, 0.01), 1.0).unwrap_err();
+        assert!(refused.to_string().contains("give operation.duration"), "{refused}");
+        let half = rung.clone().lasting(0.5 * rung.scene.duration);
+        assert!(half.scene.steps.abs_diff(rung.scene.steps / 2) <= 1, "{}", half.scene.steps);
     }
 }

@@ -1,36 +1,28 @@
-//! How exact a scene's runs are for their time: a ladder of runs held against a reference.
+//! How exact a scene's runs are for their time: a ladder of runs compared with one reference.
 //!
 //! | what | where |
 //! |---|---|
-//! | the numerics that a ladder changes, and its rungs | `ladder` |
-//! | surfaces on a coarser mesh | `coarsening` |
-//! | how runs are made and measured, and how long they take | `runs` |
-//! | which runs fit into a budget, and which is the reference | `plan` |
-//! | the runs of a plan, one after the other | [`search()`] |
-//! | windows of physical time, what is kept of a run's course | `history` |
-//! | what is kept of a run, held against the reference | `comparison` |
+//! | windows of physical time | `windows` |
+//! | quantities, their course over windows, and its errors | `quantity` |
+//! | runs that are a scene with some keys set | `ladder` |
+//! | one run, taken and timed | `run` |
 //! | a reference, made or read | `reference` |
-//! | order of convergence | `order` |
-//! | which runs are worth their time, and when that can be told | `choice` |
-//! | all that was found | [`Report`] |
+//! | the reference and all runs within a budget, one after the other | [`measure()`] |
+//! | all that was found, and what is advised | [`Report`] |
 //! | why nothing was | [`AccuracyError`] |
 
-mod choice;
-mod coarsening;
-mod comparison;
 mod error;
-mod history;
 mod ladder;
-mod order;
-mod plan;
+mod measure;
+mod quantity;
 mod reference;
 mod report;
-mod runs;
-mod search;
+mod run;
+mod windows;
 
-pub use choice::{Advice, judge};
 pub use error::{AccuracyError, PlanError, ReferenceError, Unfinished};
-pub use ladder::{Ladder, integrator_name};
-pub use reference::{OwnError, ReadReference, read as read_reference};
-pub use report::{Measured, Report, Row};
-pub use search::{Found, Wish, search};
+pub use ladder::{Base, Ladder, Rung};
+pub use measure::{Found, Wish, measure};
+pub use quantity::{COMPARED, Compared, QuantityError};
+pub use reference::{ReadReference, read as read_reference};
+pub use report::{Advice, Measured, OwnError, Report, Row};

@@ -1,29 +1,61 @@
-//! All that was found: what the table, the files and the figure show.
+//! All that was found: what the table, the files and the figure show, and which setting is advised.
 
-use plateau_io::number::percent;
-
-use super::choice::{CLEAR, Cost, front};
-use super::comparison::{Comparison, Outcome};
-use super::history::{History, Windows};
 use super::ladder::{Ladder, Rung};
-use super::order::{self, Point};
-use super::reference::{OwnError, Reference};
+use super::quantity::{COMPARED, COUNT, Compared, QuantityError, Values, greatest};
+use super::reference::Reference;
+use super::windows::Windows;
 
 /// All that was found.
 #[derive(Debug, Clone)]
 pub struct Report {
     /// Title of the scene.
     pub title: String,
-    /// What the runs are held against.
+    /// Run that the others are compared with.
     pub reference: Reference,
-    /// How far that is from the model itself.
-    pub own_error: OwnError,
-    /// Over which contact areas are compared.
+    /// Estimate of how far that is from the model itself, `time_acceleration` = 1.
+    pub own: OwnError,
+    /// Windows over which runs are compared.
     pub windows: Windows,
-    /// One row for every rung that was run, ladder by ladder, the finest first.
+    /// Names of the quantities that count for front and advice.
+    pub asked: Vec<&'static str>,
+    /// Permitted error for which a setting is advised.
+    pub tolerance: f64,
+    /// A row for every rung that was run, ladder by ladder, the finest first.
     pub rows: Vec<Row>,
     /// What is worth knowing besides.
     pub notes: Vec<String>,
+}
+
+/// Error of the reference itself, from the first windows, the opening, in which the model itself was run, too.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct OwnError {
+    /// Errors of the means in the opening, relative, root mean square.
+    pub opening: Values,
+    /// Ratio of errors over the whole run to errors in the opening.
+    pub growth: Values,
+    /// End of the opening, s; 0 where the reference is the model.
+    pub end: f64,
+}
+
+impl OwnError {
+    /// Of the model itself.
+    pub const NONE: Self = Self { opening: [0.0; COUNT], growth: [1.0; COUNT], end: 0.0 };
+
+    /// The same, with errors that grow after the opening as those of another run do: `opening` in the opening, `whole` over
+    /// the whole run. Errors are not taken to shrink; where one of the two is not known there is no growth.
+    #[must_use]
+    pub fn growing(self, opening: &[QuantityError; COUNT], whole: &[QuantityError; COUNT]) -> Self {
+        let growth = |one: usize| {
+            let growth = whole[one].mean_square / opening[one].mean_square;
+            if growth.is_finite() { growth.max(1.0) } else { 1.0 }
+        };
+        Self { growth: std::array::from_fn(growth), ..self }
+    }
+
+    /// Errors over the whole run, about.
+    pub fn whole(&self) -> Values {
+        std::array::from_fn(|one| self.opening[one] * self.growth[one])
+    }
 }
 
 /// A rung and what came of it.
@@ -31,167 +63,143 @@ pub struct Report {
 pub struct Row {
     /// The rung.
     pub rung: Rung,
-    /// Rows, columns of the disc and of the pin.
-    pub cells: [usize; 3],
-    /// Stiffness number.
-    pub stiffness_number: f64,
     /// What was measured, or why the run failed.
     pub result: Result<Measured, String>,
-    /// Whether the error of the contact area is well above the reference's own.
-    pub is_clear: bool,
     /// Whether no other rung is as quick and as exact.
     pub on_front: bool,
-    /// Observed order of convergence from the next finer rung to this one; NaN where there is none.
-    pub order: f64,
-    /// Why the order means nothing, if it does; else empty.
-    pub order_note: String,
 }
 
 /// A run that came to its end.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Measured {
     /// Steps.
     pub steps: u64,
-    /// Wall time, s.
-    pub wall_time: Option<f64>,
-    /// Its course.
-    pub history: History,
-    /// Largest load residual of any step.
-    pub load_residual: f64,
-    /// Balance residual at the end.
-    pub balance_residual: f64,
-    /// How far it is from the reference.
-    pub comparison: Comparison,
-    /// Error of the contact areas against the scene's own run, from which this one differs in one thing; NaN on the ladder
-    /// of time accelerations, and where the scene's own run failed or was not made.
-    pub change: f64,
+    /// Wall time of all steps, s.
+    pub wall_time: f64,
+    /// Errors against the reference, in the order of [`COMPARED`].
+    pub errors: [QuantityError; COUNT],
 }
 
-impl Measured {
-    /// What is kept of a run that was compared.
-    pub fn of(outcome: Outcome, comparison: Comparison) -> Self {
-        let Outcome { steps, wall_time, history, end, .. } = outcome;
-        let (load_residual, balance_residual) = (end.load_residual, end.balance_residual);
-        Self { steps, wall_time, history, load_residual, balance_residual, comparison, change: f64::NAN }
-    }
-}
-
-impl Row {
-    /// A row of which orders and front are not known yet.
-    pub fn new(rung: Rung, cells: [usize; 3], stiffness_number: f64, result: Result<Measured, String>) -> Self {
-        Self {
-            rung,
-            cells,
-            stiffness_number,
-            result,
-            is_clear: false,
-            on_front: false,
-            order: f64::NAN,
-            order_note: String::new(),
-        }
-    }
-
-    /// Keys and values that make this run, as a scene has them.
-    pub fn setting(&self) -> String {
-        let [rows, disc_columns, pin_columns] = self.cells;
-        match self.rung.ladder {
-            Ladder::Mesh => format!(
-                "{}, rows = {rows}, disc_columns = {disc_columns}, pin_columns = {pin_columns}",
-                self.rung.numerics.acceleration()
-            ),
-            _ => self.rung.full_name(),
-        }
-    }
-
-    /// Error of the contact areas; NaN where the run failed.
-    pub fn error(&self) -> f64 {
-        self.result.as_ref().map_or(f64::NAN, |measured| measured.comparison.contact_area.mean_square)
-    }
-
-    /// Wall time and error.
-    pub fn cost(&self) -> Cost {
-        let time = self.result.as_ref().ok().and_then(|measured| measured.wall_time).unwrap_or(f64::NAN);
-        Cost { time, error: self.error() }
-    }
-
-    /// Wall time and error as they count for a choice. A run that equals the scene's own, step by step, is none, for only
-    /// chance makes it the quicker of the two; nor is a perturbed reference, nor what is not quicker than the reference.
-    fn choice(&self, reference: &Outcome) -> Cost {
-        let is_quicker = |run: &Measured| reference.wall_time.is_none() || run.wall_time < reference.wall_time;
-        let none = |run: &Measured| run.change == 0.0 || run.steps >= reference.steps || !is_quicker(run);
-        let none = self.rung.ladder == Ladder::Perturbation || self.result.as_ref().is_ok_and(none);
-        Cost { error: if none { f64::NAN } else { self.error() }, ..self.cost() }
-    }
+/// What can be said about a permitted error.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Advice {
+    /// This row is the quickest of those that are as exact.
+    Use(usize),
+    /// No row is as exact; this one has the least error.
+    Missed(usize),
+    /// No run is quicker than the reference and has an error that is known.
+    NoChoice,
 }
 
 impl Report {
-    /// Puts the rows in order and fills in what needs all of them: front and orders.
+    /// Puts the rows in order, and finds the front.
     pub fn complete(&mut self) {
         self.rows.sort_by(|one, other| {
-            let place = |row: &Row| (row.rung.ladder, row.rung.value());
-            let ((one_ladder, one), (other_ladder, other)) = (place(one), place(other));
-            one_ladder.cmp(&other_ladder).then(one.total_cmp(&other))
+            let [one, other] = [one, other].map(|row| (row.rung.ladder, row.rung.value));
+            one.0.cmp(&other.0).then(one.1.total_cmp(&other.1))
         });
-        let on_front = front(&self.choices());
-        let own_error = self.own_error.contact_area();
-        for (row, on_front) in self.rows.iter_mut().zip(on_front) {
-            row.is_clear = row.error() >= CLEAR * own_error;
-            row.on_front = on_front && row.is_clear;
-        }
-        let reference = Point { size: self.reference.time_acceleration, error: own_error };
-        self.observe_orders(Ladder::TimeAcceleration, reference, |measured| {
-            measured.comparison.contact_area.mean_square
-        });
-        // The scene's mesh is the reference of the other meshes.
-        self.observe_orders(Ladder::Mesh, Point { size: 1.0, error: 0.0 }, |measured| measured.change);
-        self.note_ladders();
-    }
-
-    /// Wall time and error of every row that is a choice; the error of the others is NaN.
-    pub fn choices(&self) -> Vec<Cost> {
-        self.rows.iter().map(|row| row.choice(&self.reference.outcome)).collect()
-    }
-
-    /// Says what the rows of a ladder show together.
-    fn note_ladders(&mut self) {
-        let perturbed = self.rows.iter().filter(|row| row.rung.ladder == Ladder::Perturbation).map(Row::error);
-        if let Some(error) = perturbed.filter(|error| !error.is_nan()).reduce(f64::max) {
-            self.notes.push(format!(
-                "small changes of the initial heights change the contact area of the reference by up to {}: smaller errors \
-                 are chance",
-                percent(error)
-            ));
-        }
-        let points: Vec<Point> = self
-            .rows
-            .iter()
-            .filter(|row| row.rung.ladder == Ladder::TimeAcceleration)
-            .map(|row| Point { size: row.rung.value(), error: row.error() })
-            .collect();
-        let reference = Point { size: self.reference.time_acceleration, error: self.own_error.contact_area() };
-        if let Some(order) = order::fitted(&points, reference) {
-            self.notes.push(format!(
-                "the errors of all time accelerations together grow with order {order:.2} (least squares, from {} times the \
-                 reference's on)",
-                order::FAR
-            ));
+        let costs: Vec<Option<[f64; 2]>> = self.rows.iter().map(|row| self.cost(row)).collect();
+        for (row, on_front) in self.rows.iter_mut().zip(front(&costs)) {
+            row.on_front = on_front;
         }
     }
 
-    fn observe_orders(&mut self, ladder: Ladder, reference: Point, error: impl Fn(&Measured) -> f64) {
-        let mut finer: Option<Point> = None;
-        for row in self.rows.iter_mut().filter(|row| row.rung.ladder == ladder) {
-            let Ok(measured) = &row.result else { continue };
-            let coarser = Point { size: row.rung.value(), error: error(measured) };
-            match finer.map(|finer| order::observed(finer, coarser, reference)) {
-                Some(Ok(order)) => row.order = order,
-                Some(Err((why, order))) => {
-                    row.order = order.unwrap_or(f64::NAN);
-                    row.order_note = why.to_string();
-                }
-                None => {}
-            }
-            finer = Some(coarser);
+    /// Quantities that count for front and advice.
+    pub fn counted(&self) -> impl Iterator<Item = (usize, &'static Compared)> {
+        COMPARED.iter().enumerate().filter(|(_, compared)| self.asked.contains(&compared.name))
+    }
+
+    /// Largest error of the quantities that count, and the quantity; none where a run failed.
+    pub fn worst(&self, row: &Row) -> Option<(f64, &'static Compared)> {
+        let run = row.result.as_ref().ok()?;
+        self.worst_of(&run.errors.map(|error| error.mean_square))
+    }
+
+    /// The same of the reference itself.
+    pub fn own_error(&self) -> f64 {
+        self.worst_of(&self.own.whole()).map_or(0.0, |(error, _)| error)
+    }
+
+    fn worst_of(&self, errors: &Values) -> Option<(f64, &'static Compared)> {
+        let worst = greatest(self.counted().map(|(one, _)| errors[one]));
+        let is_worst = |one: usize| errors[one].total_cmp(&worst).is_eq() || errors[one].is_nan();
+        self.counted().find(|(one, _)| is_worst(*one)).or(self.counted().next()).map(|(_, of)| (worst, of))
+    }
+
+    /// Wall time (s) and largest error of a row that is a choice. No choice is a perturbed reference, and what is not quicker
+    /// than the reference.
+    fn cost(&self, row: &Row) -> Option<[f64; 2]> {
+        let run = row.result.as_ref().ok()?;
+        let reference = &self.reference.outcome;
+        let is_quicker =
+            run.steps < reference.steps && reference.wall_time.is_none_or(|longest| run.wall_time < longest);
+        let (error, _) = self.worst(row).filter(|(error, _)| !error.is_nan())?;
+        (is_quicker && row.rung.ladder != Ladder::Perturbation).then_some([run.wall_time, error])
+    }
+
+    /// Advises the quickest run whose error, with the reference's own, is permitted.
+    pub fn advice(&self) -> Advice {
+        let costs: Vec<Option<[f64; 2]>> = self.rows.iter().map(|row| self.cost(row)).collect();
+        advise(self.tolerance - self.own_error(), &costs)
+    }
+}
+
+/// Tells of each run that it is on the Pareto front of wall time and error: no other one is as good in both, and better in one.
+fn front(costs: &[Option<[f64; 2]>]) -> Vec<bool> {
+    let beats = |one: [f64; 2], other: [f64; 2]| one[0] <= other[0] && one[1] <= other[1] && one != other;
+    let is_beaten = |other: [f64; 2]| costs.iter().flatten().any(|one| beats(*one, other));
+    costs.iter().map(|cost| cost.is_some_and(|cost| !is_beaten(cost))).collect()
+}
+
+fn advise(permitted: f64, costs: &[Option<[f64; 2]>]) -> Advice {
+    let choices = || costs.iter().enumerate().filter_map(|(index, cost)| Some((index, (*cost)?)));
+    let quickest = choices().filter(|(_, cost)| cost[1] <= permitted).min_by(|(_, a), (_, b)| a[0].total_cmp(&b[0]));
+    let most_exact = choices().min_by(|(_, a), (_, b)| a[1].total_cmp(&b[1]));
+    match (quickest, most_exact) {
+        (Some((index, _)), _) => Advice::Use(index),
+        (None, Some((index, _))) => Advice::Missed(index),
+        (None, None) => Advice::NoChoice,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const COSTS: [Option<[f64; 2]>; 7] = [
+        Some([10.0, 0.001]),
+        Some([5.0, 0.01]),
+        Some([6.0, 0.02]),
+        Some([1.0, 0.05]),
+        None,
+        Some([5.0, 0.01]),
+        Some([1.0, 0.06]),
+    ];
+
+    #[test]
+    fn the_front_has_no_run_that_another_one_beats() {
+        assert_eq!(front(&COSTS), [true, true, false, true, false, true, false]);
+    }
+
+    #[test]
+    fn the_quickest_that_is_exact_enough_is_advised() {
+        assert_eq!(advise(0.1, &COSTS), Advice::Use(3));
+        assert_eq!(advise(0.01, &COSTS), Advice::Use(1));
+        assert_eq!(advise(1e-4, &COSTS), Advice::Missed(0));
+        // The reference's own error is as large as what is permitted.
+        assert_eq!(advise(-0.01, &COSTS), Advice::Missed(0));
+        assert_eq!(advise(0.1, &[None]), Advice::NoChoice);
+    }
+
+    #[test]
+    fn the_own_error_grows_as_the_error_of_another_run_does() {
+        let errors = |mean_square| [QuantityError { mean_square, largest: 0.0, end: 0.0 }; COUNT];
+        let own = OwnError { opening: [2e-5; COUNT], growth: [1.0; COUNT], end: 5.0 };
+        // 0.01 % in the opening and 0.2 % in the end: 20 times as large, and so is the reference's.
+        assert!((own.growing(&errors(1e-4), &errors(2e-3)).whole()[0] - 4e-4).abs() < 1e-18);
+        for (opening, whole) in [(2e-3, 1e-3), (0.0, 1e-3), (0.0, 0.0), (1e-4, f64::NAN)] {
+            assert_eq!(own.growing(&errors(opening), &errors(whole)), own, "{opening}, {whole}");
         }
+        assert_eq!(OwnError::NONE.growing(&errors(1e-4), &errors(2e-3)).whole(), [0.0; COUNT]);
     }
 }

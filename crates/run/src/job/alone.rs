@@ -5,8 +5,7 @@ use plateau_core::model::parameters::Parameters;
 use plateau_core::model::state::InitialSurfaces;
 use plateau_core::simulation::{Execution, Simulation, SimulationError};
 
-use super::agreement::Agreement;
-use super::work_queue::{PieceEnd, WorkQueue};
+use super::work_queue::{Agreement, PieceEnd, WorkQueue};
 use crate::error::{RunError, RunFailure};
 
 /// The processes that run a scene together; built without feature `mpi`, this one on its own.
@@ -22,12 +21,12 @@ impl Job {
         Ok(Self(()))
     }
 
-    /// Whether this process writes the run file and talks to the user.
+    /// Tells whether this process writes the run file and talks to the user.
     pub fn leads(&self) -> bool {
         true
     }
 
-    /// How many processes there are.
+    /// Number of processes.
     pub fn ranks(&self) -> usize {
         1
     }
@@ -41,7 +40,7 @@ impl Job {
         Simulation::with_execution(parameters, surfaces, execution)
     }
 
-    /// What all processes do alike: they stop and save if any was asked to.
+    /// Agrees with all processes: they stop and save if any was asked to.
     ///
     /// # Errors
     /// When the others cannot be reached.
@@ -67,7 +66,7 @@ impl Job {
         Ok(WorkQueue::new(pieces, most_failures).share(jobs, work)?)
     }
 
-    /// What the first process says, on all of them.
+    /// Shares the words of the first process, on all of them.
     ///
     /// # Errors
     /// When the others cannot be reached.

@@ -9,8 +9,7 @@ use plateau_core::model::parameters::Parameters;
 use plateau_core::model::state::InitialSurfaces;
 use plateau_core::simulation::{Execution, Simulation, SimulationError};
 
-use super::agreement::Agreement;
-use super::work_queue::{PieceEnd, WorkQueue};
+use super::work_queue::{Agreement, PieceEnd, WorkQueue};
 use crate::error::{InputError, RunError, RunFailure};
 
 /// Between two looks for ranks that want work.
@@ -35,12 +34,12 @@ impl Job {
         Ok(Self { session, meeting })
     }
 
-    /// Whether this rank writes the run file and talks to the user.
+    /// Tells whether this rank writes the run file and talks to the user.
     pub fn leads(&self) -> bool {
         self.meeting.rank() == 0
     }
 
-    /// How many ranks there are.
+    /// Number of ranks.
     pub fn ranks(&self) -> usize {
         self.meeting.size()
     }
@@ -58,7 +57,7 @@ impl Job {
         Simulation::on_ranks(parameters, surfaces, execution.instructions, self.session.communicator())
     }
 
-    /// What all ranks do alike: they stop and save if any was asked to, and take as many steps as the first, for clocks
+    /// Agrees with all ranks: they stop and save if any was asked to, and take as many steps as the first, for clocks
     /// differ.
     ///
     /// # Errors
@@ -147,7 +146,7 @@ impl Job {
         Ok(())
     }
 
-    /// What the first rank says, on all of them.
+    /// Shares the words of the first rank, on all of them.
     ///
     /// # Errors
     /// When the others cannot be reached.

@@ -1,10 +1,21 @@
-//! Work of independent pieces, shared among the threads of this process.
+//! Agreement of the processes of a job between steps, and work of independent pieces, shared among the threads of this process.
 
 use std::collections::VecDeque;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-/// How a piece of shared work ended.
+/// Agreement of the processes of a job between steps.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Agreement {
+    /// The signal that asks the run to stop, if there was one.
+    pub signal: Option<u8>,
+    /// Tells whether the state is to be kept.
+    pub save: bool,
+    /// Steps before the next agreement.
+    pub steps: u64,
+}
+
+/// End of a piece of shared work.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum PieceEnd {
     /// It is done.

@@ -5,13 +5,13 @@
 
 use std::collections::BTreeMap;
 
-use super::Aliases;
+use super::definition::Aliases;
 use super::generators::{Generator, columns, letters};
 
 /// Most words that are listed, unless the shortest alone are more. All of twelve generators, of 2¹² − 1 words.
 const MOST_WORDS: usize = 4095;
 
-/// What the generators make indistinguishable; none where there are no generators.
+/// Aliases that the generators make; none where there are no generators.
 pub(super) fn aliases(factors: usize, generators: &[Generator]) -> Option<Aliases> {
     let base = factors - generators.len();
     let added = (base..).map(|factor| 1 << factor);

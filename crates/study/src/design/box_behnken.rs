@@ -4,8 +4,8 @@
 //! 455–475 (1960), doi:10.1080/00401706.1960.10489912. Some programs (pyDOE3) take all pairs of factors for any number
 //! of them; that agrees with the article up to five factors and needs more points from six on.
 
+use super::definition::{Design, DesignError, Factor, Setting, counted, only_ends, room};
 use super::fractional_factorial::combinations;
-use super::{Design, DesignError, Factor, Setting, counted, only_ends, room};
 
 /// The blocks of the article: which factors, counted from 1, are at their ends together.
 fn blocks(factors: usize) -> Option<&'static [&'static [usize]]> {

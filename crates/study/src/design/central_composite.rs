@@ -4,8 +4,8 @@
 //! (1951); G. E. P. Box, J. S. Hunter, Multi-factor experimental designs for exploring response surfaces, Ann. Math.
 //! Stat. 28, 195–241 (1957), doi:10.1214/aoms/1177707047.
 
+use super::definition::{Alpha, Design, DesignError, Factor, Setting, only_ends, room};
 use super::fractional_factorial::{combinations, of_resolution};
-use super::{Alpha, Design, DesignError, Factor, Setting, only_ends, room};
 
 /// Up to so many factors the core has all combinations; beyond, a fraction of resolution V, which tells all two-factor
 /// interactions apart.

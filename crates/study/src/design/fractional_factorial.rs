@@ -3,9 +3,9 @@
 //! NIST/SEMATECH e-Handbook of Statistical Methods, 5.3.3.4, doi:10.18434/M32189.
 
 use super::aliases::aliases;
+use super::definition::{Design, DesignError, Factor, Fraction, Setting, only_ends, room};
 use super::generators::{Generator, can_be_named, columns, parse};
 use super::minimum_aberration::{COMPLETE, minimum_aberration};
-use super::{Design, DesignError, Factor, Fraction, Setting, only_ends, room};
 
 /// The fraction, in standard order: the first factor changes fastest.
 pub(super) fn fractional_factorial(fraction: &Fraction, factors: &[Factor]) -> Result<Design, DesignError> {

@@ -1,6 +1,6 @@
 //! Full factorial designs: every combination of the levels.
 
-use super::{Design, DesignError, Factor, Setting, room};
+use super::definition::{Design, DesignError, Factor, Setting, room};
 
 /// Every combination of the levels, the first factor changing fastest (as in R's `expand.grid` and pyDOE's `fullfact`).
 /// The ends of a range are its levels.

@@ -2,7 +2,7 @@
 //!
 //! Factors are named by the letters A to Z without I, for I is the mean. Sets of factors are bits, A being the lowest.
 
-use super::{DesignError, counted};
+use super::definition::{DesignError, counted};
 
 /// The names of the factors, in their order.
 pub(super) const LETTERS: &str = "ABCDEFGHJKLMNOPQRSTUVWXYZ";
@@ -10,9 +10,9 @@ pub(super) const LETTERS: &str = "ABCDEFGHJKLMNOPQRSTUVWXYZ";
 /// An added factor is the product of some base factors, or its negative.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Generator {
-    /// Which base factors.
+    /// Base factors of the product, as bits.
     pub(super) base: u32,
-    /// Whether it is the negative.
+    /// Tells whether it is the negative.
     pub(super) negative: bool,
 }
 
@@ -34,7 +34,7 @@ impl Generator {
     }
 }
 
-/// Whether there are letters enough for so many factors.
+/// Tells whether there are letters enough for so many factors.
 pub(super) fn can_be_named(factors: usize) -> Result<(), DesignError> {
     let most = LETTERS.len();
     if factors > most {

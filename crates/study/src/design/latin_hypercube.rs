@@ -8,7 +8,7 @@
 use rand_chacha::ChaCha12Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 
-use super::{Design, DesignError, Factor, room, spread};
+use super::definition::{Design, DesignError, Factor, room, spread};
 
 /// Most designs to choose from.
 const MOST_CANDIDATES: usize = 200;
@@ -40,7 +40,7 @@ pub(super) fn latin_hypercube(points: usize, seed: u64, factors: &[Factor]) -> R
     Design::from_settings(count, settings.collect(), None)
 }
 
-/// How many hypercubes to choose from: fewer where there are many points, one where even two would take long.
+/// Number of hypercubes to choose from: fewer where many points, one where even two would take long.
 fn candidates(points: usize, factors: usize) -> usize {
     let differences = points.saturating_mul(points).saturating_mul(factors) / 2;
     (MOST_DIFFERENCES / differences.max(1)).clamp(1, MOST_CANDIDATES)

@@ -5,7 +5,7 @@
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 
-use super::{Design, DesignError, Factor, Setting, room};
+use super::definition::{Design, DesignError, Factor, Setting, room};
 
 /// So many trajectories of one point more than there are factors, on a grid of so many levels along each range. Steps are half
 /// the number of levels long, which gives all levels the same chance; places, directions and the order of factors are drawn by lot.

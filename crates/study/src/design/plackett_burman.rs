@@ -4,7 +4,7 @@
 //! R. L. Plackett, J. P. Burman, The design of optimum multifactorial experiments, Biometrika 33, 305–325 (1946),
 //! doi:10.1093/biomet/33.4.305.
 
-use super::{Design, DesignError, Factor, Setting, only_ends};
+use super::definition::{Design, DesignError, Factor, Setting, only_ends};
 
 /// Most factors.
 const MOST_FACTORS: usize = 23;

@@ -4,8 +4,8 @@
 //! Math. Math. Phys. 7(4), 86–112 (1967), doi:10.1016/0041-5553(67)90144-9; in the order of the Gray code: I. A.
 //! Antonov, V. M. Saleev, ibid. 19(1), 252–256 (1979), doi:10.1016/0041-5553(79)90085-5.
 
+use super::definition::{Design, DesignError, Factor, room, spread};
 use super::direction_numbers::DIRECTION_NUMBERS;
-use super::{Design, DesignError, Factor, room, spread};
 
 /// Binary digits of a coordinate.
 const DIGITS: usize = 32;
@@ -34,7 +34,7 @@ pub(super) fn sobol(points: usize, factors: &[Factor]) -> Result<Design, DesignE
     Design::from_settings(count, settings, None)
 }
 
-/// What the binary digits of a point's number contribute to its coordinate of this dimension.
+/// Contribution of the binary digits of a point's number to its coordinate of this dimension.
 fn directions(dimension: usize) -> [u32; DIGITS] {
     let Some((inner, initial)) = dimension.checked_sub(1).and_then(|index| DIRECTION_NUMBERS.get(index)) else {
         // The first dimension has no polynomial: it is van der Corput's sequence.

@@ -14,9 +14,10 @@ use plateau_core::surface::{Body, Level, Patch};
 use plateau_io::scene;
 use plateau_io::surface::{self, Loaded, Measured, WriteError, WriteOptions};
 
-use crate::arguments::{SurfaceArguments, as_options};
+use crate::arguments::{SurfaceArguments, SurfaceWord, as_options};
 use crate::failure::Failure;
 use crate::figure;
+use crate::hand_over::hand_over;
 use crate::message;
 use crate::output;
 use crate::table::print;
@@ -30,6 +31,9 @@ const MOST_PLOTTED: usize = 12;
 
 /// Describes, converts and draws surfaces.
 pub fn surface(arguments: &SurfaceArguments) -> Result<(), Failure> {
+    if let Some(SurfaceWord::Convert(handed)) = &arguments.word {
+        return hand_over("surface", std::iter::once("convert".into()).chain(handed.arguments.clone()));
+    }
     refuse_impossible(arguments)?;
     // What is drawn is written down while it is there, so that not all heights are held.
     let temporary = draws(arguments).then(tempfile::tempdir).transpose();

@@ -2,11 +2,11 @@
 
 use plateau_core::surface::Length;
 use plateau_core::surface::describe::{PARAMETERS, Parameter};
+use plateau_io::number;
 
 use super::comparison::{Cells, Comparison, Row};
 use super::describe::scale;
 use super::subject::Subject;
-use crate::number;
 
 /// What the heights do not determine, or what needs a pitch.
 const NONE: &str = "-";

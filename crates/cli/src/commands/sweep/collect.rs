@@ -3,29 +3,28 @@
 use std::path::{Path, PathBuf};
 
 use plateau_io::dataset_file::{Attribute, now};
-use plateau_io::scene;
-use plateau_io::study::collected::{CollectError, Collected, State, finished, is_collected};
 use plateau_io::study::journal::Journal;
 use plateau_io::study::plan::Plan;
-use plateau_io::study::results_table::{self, is_results_table, table as table_of};
-use plateau_io::{limits, regular};
+use plateau_io::study::results::{self, CollectError, Collected, State, is_results_table, table as table_of};
+use plateau_io::study::results_file::{finished, is_collected};
+use plateau_io::{input, limits, number, scene};
+use plateau_run::sweep::{
+    self, Resolved, SceneWarnings, journal, note_short_tenths, of_questions, say_left_out, say_unkept,
+};
 use serde::Serialize;
 
 use crate::arguments::CollectArguments;
-use crate::csv_table::csv_table;
 use crate::failure::Failure;
-use crate::sweep::resolved::Resolved;
-use crate::sweep::scene_warnings::{SceneWarnings, of_questions};
-use crate::sweep::{self, journal, left_out, short_tenth, unkept};
-use crate::table::{list, print, table};
-use crate::{number, output, version};
+use crate::table::{csv_table, list, print, table};
+use crate::terminal::Messages;
+use crate::{output, version};
 
 /// Failed runs that are listed.
 const LISTED: usize = 10;
 
 /// Collects what there is.
 pub fn collect(arguments: &CollectArguments) -> Result<(), Failure> {
-    let plan = sweep::plan(&arguments.study)?;
+    let plan = sweep::load(&arguments.study).map_err(Failure::of_sweep)?;
     let Found { collected, inputs, left_out, .. } = collected(&plan)?;
     let folder = arguments.output.clone().unwrap_or_else(|| plan.study().directory.clone());
     output::make_directory(&folder)?;
@@ -35,7 +34,7 @@ pub fn collect(arguments: &CollectArguments) -> Result<(), Failure> {
     let is_own = |path: &Path, is: fn(&Path) -> bool| !path.is_symlink() && is(path);
     output::check(&hdf5, arguments.force || is_own(&hdf5, is_collected), &inputs)?;
     output::check(&csv, arguments.force || is_own(&csv, is_results_table), &inputs)?;
-    let before = [(&hdf5, finished(&hdf5)), (&csv, results_table::finished(&csv))];
+    let before = [(&hdf5, finished(&hdf5)), (&csv, results::finished(&csv))];
     let fewer =
         before.into_iter().find(|(_, before)| before.is_some_and(|before| before > collected.count("finished")));
     if let (Some((path, Some(before))), false) = (fewer, arguments.force) {
@@ -69,7 +68,7 @@ struct Found {
     collected: Collected,
     /// The study, its tables, its scenes and what they read.
     inputs: Vec<PathBuf>,
-    /// Why results in the journal are left out.
+    /// Reason why results in the journal are left out.
     left_out: Vec<String>,
 }
 
@@ -85,17 +84,17 @@ fn collected(plan: &Plan) -> Result<Found, Failure> {
         let collected = Collected::new(plan, &numbers, &Journal::default()).map_err(failure)?;
         return Ok(Found { collected, inputs, left_out: Vec::new() });
     }
-    let resolved = Resolved::of(plan)?;
-    short_tenth::say(plan.study(), &resolved.lengths());
-    let (journal, identities) = (journal(plan.study())?, resolved.identities());
+    let resolved = Resolved::of(plan).map_err(Failure::of_sweep)?;
+    note_short_tenths(plan.study(), &resolved.lengths(), &Messages);
+    let (journal, identities) = (journal(plan.study()).map_err(Failure::of_sweep)?, resolved.identities());
     let collected = Collected::new(plan, &identities, &journal).map_err(failure)?;
-    let left_out = left_out::say(plan.study(), &resolved, &journal);
-    unkept::say(plan.study(), &resolved, &journal, false);
+    let left_out = say_left_out(plan.study(), &resolved, &journal, &Messages);
+    say_unkept(plan.study(), &resolved, &journal, false, &Messages);
     let mut unanswered = SceneWarnings::default();
     for run in collected.runs.iter().filter(|run| run.state == State::Finished) {
         unanswered.add(of_questions(plan.study(), &run.unanswered));
     }
-    unanswered.say("finished runs");
+    unanswered.say("finished runs", &Messages);
     inputs.extend(resolved.files);
     Ok(Found { collected, inputs, left_out })
 }
@@ -108,7 +107,7 @@ fn attributes(plan: &Plan, collected: &Collected) -> Result<Vec<(&'static str, A
     let study = plan.study();
     let text = |text: &str| Attribute::Text(text.to_owned());
     let read = |path: &std::path::Path| {
-        regular::read_to_string(path, limits::STUDY)
+        input::read_to_string(path, limits::STUDY)
             .map_err(|error| Failure::because(&error, format_args!("{}: {error}", path.display())))
     };
     let state = if collected.count("finished") == collected.runs.len() { "complete" } else { "partial" };
@@ -128,7 +127,7 @@ fn attributes(plan: &Plan, collected: &Collected) -> Result<Vec<(&'static str, A
     Ok(attributes)
 }
 
-/// What `plateau sweep collect` reports.
+/// Report of `plateau sweep collect`.
 #[derive(Debug, Serialize)]
 struct Summary {
     study: String,

@@ -2,43 +2,43 @@
 
 use std::path::PathBuf;
 
+use plateau_io::number;
+use plateau_io::study::factor::Level;
 use plateau_io::study::journal::Entry;
-use plateau_io::study::level::Level;
 use plateau_io::study::plan::Plan;
 use plateau_run::execution::cores;
+use plateau_run::sweep::{self, Estimate, Resolved, journal, note_short_tenths, say_left_out};
 use serde::Serialize;
 
 use crate::arguments::PlanArguments;
-use crate::csv_table::csv_table;
 use crate::failure::Failure;
-use crate::sweep::estimate::Estimate;
-use crate::sweep::resolved::Resolved;
-use crate::sweep::{self, journal, left_out, short_tenth};
-use crate::table::{columns, list, print, table};
-use crate::{message, number, output};
+use crate::table::{columns, csv_table, list, print, table};
+use crate::terminal::Messages;
+use crate::{message, output};
 
 /// Runs that are listed; a table in CSV has all.
 const LISTED: usize = 16;
 
 /// Plans a study.
 pub fn plan(arguments: &PlanArguments) -> Result<(), Failure> {
-    let plan = sweep::plan(&arguments.study)?;
+    let plan = sweep::load(&arguments.study).map_err(Failure::of_sweep)?;
     let check =
         |inputs: &[PathBuf]| arguments.csv.as_ref().map_or(Ok(()), |csv| output::check(csv, arguments.force, inputs));
     check(&plan.study().inputs())?;
     let has_scene = plan.study().base.is_some();
-    let estimate = if has_scene { Estimate::of(&plan)? } else { Estimate::default() };
-    estimate.warnings.say("runs whose surfaces were made to try");
+    let estimate = if has_scene { Estimate::of(&plan).map_err(Failure::of_sweep)? } else { Estimate::default() };
+    estimate.warnings.say("runs whose surfaces were made to try", &Messages);
     let jobs = arguments.jobs.map_or_else(cores, |jobs| jobs as usize).min(plan.runs().max(1));
     let (mut ended, mut repeats) = (None, None);
     if plan.runs() <= Resolved::MOST_AT_ONCE && has_scene {
-        let (resolved, journal) = (Resolved::of(&plan)?, journal(plan.study())?);
-        left_out::say(plan.study(), &resolved, &journal);
+        let (resolved, journal) =
+            (Resolved::of(&plan).map_err(Failure::of_sweep)?, journal(plan.study()).map_err(Failure::of_sweep)?);
+        say_left_out(plan.study(), &resolved, &journal, &Messages);
         check(&resolved.files.iter().cloned().collect::<Vec<_>>())?;
-        resolved.refuse_unrecorded(plan.study())?;
-        resolved.warn_of_late_questions(plan.study());
-        short_tenth::say(plan.study(), &resolved.lengths());
-        resolved.warnings.say("runs");
+        resolved.refuse_unrecorded(plan.study(), &Messages).map_err(Failure::of_sweep)?;
+        resolved.warn_of_late_questions(plan.study(), &Messages);
+        note_short_tenths(plan.study(), &resolved.lengths(), &Messages);
+        resolved.warnings.say("runs", &Messages);
         let different = resolved.runs.iter().filter(|(number, _)| !resolved.is_repeat(**number));
         let entries: Vec<&Entry> = different.filter_map(|(_, run)| journal.get(&run.identity)).collect();
         let failed = entries.iter().filter(|entry| entry.failure.is_some()).count();
@@ -66,7 +66,7 @@ pub fn plan(arguments: &PlanArguments) -> Result<(), Failure> {
     }
 }
 
-/// What `plateau sweep plan` reports.
+/// Report of `plateau sweep plan`.
 #[derive(Debug, Serialize)]
 struct Report {
     title: String,
@@ -264,8 +264,8 @@ fn alias_lines(plan: &Plan) -> Option<Vec<String>> {
     Some(lines)
 }
 
-/// What is to be known of so many runs that repeat another one.
-pub fn repeats_in_words(repeats: usize, runs: usize) -> String {
+/// Remark on so many runs that repeat another one.
+fn repeats_in_words(repeats: usize, runs: usize) -> String {
     let (repeat, count) = if repeats == 1 { ("repeats", "counts") } else { ("repeat", "count") };
     format!(
         "{repeats} of {runs} runs {repeat} another one and {count} once with it: the same scene with the same seeds gives the \

@@ -2,19 +2,22 @@
 
 use std::path::PathBuf;
 
+use plateau_io::number;
+use plateau_run::sweep::{self, Estimate, Resolved};
+
 use crate::arguments::SlurmArguments;
 use crate::failure::Failure;
-use crate::sweep::{self, estimate::Estimate, resolved::Resolved};
 use crate::table::{print, table};
-use crate::{called, number, output};
+use crate::terminal::Messages;
+use crate::{invocation, output};
 
-/// How long a task is to take, s.
+/// Time that a task is to take, s.
 const TASK_TIME: f64 = 3600.0;
-/// What is asked for, of the estimate: other nodes may be slower, and share their memory's bandwidth.
+/// Factor of the estimated time that is asked for: other nodes may be slower, and share their memory's bandwidth.
 const TIME_RESERVE: f64 = 2.0;
 /// Besides, s.
 const LEAST_TIME: f64 = 600.0;
-/// What is asked for, of the estimated memory.
+/// Factor of the estimated memory that is asked for.
 const MEMORY_RESERVE: f64 = 1.25;
 /// The program itself and its libraries, bytes.
 const PROGRAM_MEMORY: f64 = 64e6;
@@ -23,13 +26,14 @@ const MOST_TASKS: usize = 1000;
 
 /// Writes the script.
 pub fn slurm(arguments: &SlurmArguments) -> Result<(), Failure> {
-    let plan = sweep::plan(&arguments.study)?;
+    let plan = sweep::load(&arguments.study).map_err(Failure::of_sweep)?;
     let stem = arguments.study.file_stem().map_or_else(|| "study".into(), |stem| stem.to_string_lossy().into_owned());
     let script = arguments.output.clone().unwrap_or_else(|| PathBuf::from(format!("{stem}.sbatch")));
     output::check(&script, arguments.force, &plan.study().inputs())?;
-    let estimate = Estimate::of(&plan)?;
+    let estimate = Estimate::of(&plan).map_err(Failure::of_sweep)?;
     if plan.runs() <= Resolved::MOST_AT_ONCE {
-        Resolved::of(&plan)?.refuse_unrecorded(plan.study())?;
+        let resolved = Resolved::of(&plan).map_err(Failure::of_sweep)?;
+        resolved.refuse_unrecorded(plan.study(), &Messages).map_err(Failure::of_sweep)?;
     }
     let cores = arguments.cores as usize;
     let total = estimate.mean_time * plan.runs() as f64 / cores as f64;
@@ -63,9 +67,9 @@ pub fn slurm(arguments: &SlurmArguments) -> Result<(), Failure> {
     // Paths need not be UTF-8.
     let command = [
         &b"exec "[..],
-        &called::quoted(program.as_os_str().as_encoded_bytes()),
+        &invocation::quoted(program.as_os_str().as_encoded_bytes()),
         b" sweep run ",
-        &called::quoted(study.as_os_str().as_encoded_bytes()),
+        &invocation::quoted(study.as_os_str().as_encoded_bytes()),
     ]
     .concat();
     let rest = format!(" --task \"$SLURM_ARRAY_TASK_ID/{tasks}\" --jobs {cores}\n");

@@ -12,6 +12,8 @@ mod work_requests;
 
 use thiserror::Error;
 
+use crate::model::error::SimulationError;
+
 /// Why workers cannot go on together.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum CommError {
@@ -27,6 +29,12 @@ pub enum CommError {
     #[cfg(feature = "mpi")]
     #[error(transparent)]
     Mpi(#[from] mpi_job::MpiError),
+}
+
+impl From<CommError> for SimulationError {
+    fn from(error: CommError) -> Self {
+        Self::Worker { message: error.to_string() }
+    }
 }
 
 /// How a worker reaches the others.

@@ -3,12 +3,12 @@
 //! Few cells get any: the open ones behind one that touches. So they are looked up in the bytes that tell which cells touch,
 //! and done one by one. Their heights change before any cell wears, and what is ahead of them is worn in passing.
 
-use super::ahead::Cells;
-use super::cells::Strip;
-use super::edge::{Ahead, EdgeStrip};
+use super::edge::{Ahead, Cells, EdgeStrip};
 use super::moved::{Moved, SeldomEvent};
 use super::rules::{Conditions, Rules};
+use super::strip::Strip;
 use crate::engine::lanes::{Chunk, LANES};
+use crate::engine::parts::build_up;
 
 /// Columns that are looked up at a time: a word of bytes.
 pub(super) const COLUMNS: usize = 8;
@@ -16,7 +16,7 @@ pub(super) const COLUMNS: usize = 8;
 /// Compacts debris in the columns of a strip from `first` on, [`COLUMNS`] of them or as many as there are. The next have not
 /// been worn.
 #[inline(always)]
-pub(super) fn deposit<const DISTINCT: bool, const DISC_WEARS: bool>(
+pub(super) fn deposit<const BUILD_UP: u8, const DISC_WEARS: bool>(
     rules: &Rules,
     conditions: &Conditions,
     edge: &EdgeStrip,
@@ -42,12 +42,12 @@ pub(super) fn deposit<const DISTINCT: bool, const DISC_WEARS: bool>(
         resin: &strip.pin.resin[..columns],
         plateau: &mut strip.pin.plateau[..columns],
         disc_height: &mut strip.disc_height[..columns],
-        disc_substrate: if DISTINCT { &strip.disc_substrate[..columns] } else { &[] },
+        disc_substrate: if BUILD_UP == build_up::DISTINCT { &strip.disc_substrate[..columns] } else { &[] },
     };
     while receivers != 0 {
         let place = receivers.trailing_zeros() as usize;
         receivers &= receivers - 1;
-        cells.fill::<DISTINCT, DISC_WEARS>(first + place / LANES, place % LANES, moved);
+        cells.fill::<BUILD_UP, DISC_WEARS>(first + place / LANES, place % LANES, moved);
     }
 }
 
@@ -78,7 +78,7 @@ struct StripCells<'a> {
 impl StripCells<'_> {
     /// Fills the gap at an open cell with what the touching one ahead of it loses.
     #[inline(always)]
-    fn fill<const DISTINCT: bool, const DISC_WEARS: bool>(&mut self, column: usize, lane: usize, moved: &mut Moved) {
+    fn fill<const BUILD_UP: u8, const DISC_WEARS: bool>(&mut self, column: usize, lane: usize, moved: &mut Moved) {
         let (rules, displacement) = (self.rules, self.conditions.displacement);
         let row = (self.conditions.first_strip + self.strip) * LANES + lane;
         let ahead = if column + 1 < self.disc_height.len() {
@@ -86,10 +86,10 @@ impl StripCells<'_> {
                 z_p: self.pin_height[column + 1].0[lane],
                 b_p: self.pin_substrate[column + 1].0[lane],
                 z_d: self.disc_height[column + 1].0[lane],
-                b_d: if DISTINCT { self.disc_substrate[column + 1].0[lane] } else { 0.0 },
+                b_d: if BUILD_UP == build_up::DISTINCT { self.disc_substrate[column + 1].0[lane] } else { 0.0 },
                 on_resin: self.resin[column + 1] >> lane & 1 == 1,
             };
-            Ahead::new::<DISTINCT, DISC_WEARS>(rules, row, displacement, cells)
+            Ahead::new::<BUILD_UP, DISC_WEARS>(rules, row, displacement, cells)
         } else {
             self.edge.cells[lane]
         };
@@ -128,7 +128,7 @@ impl StripCells<'_> {
 /// Heights of pin and disc, m, that rounding leaves touching: what is too much goes back, up to where the cell was open.
 #[cold]
 #[inline(never)]
-fn taken_back([z_p, z_d]: [f64; 2], [mut height, mut disc_height]: [f64; 2], displacement: f64) -> [f64; 2] {
+pub(super) fn taken_back([z_p, z_d]: [f64; 2], [mut height, mut disc_height]: [f64; 2], displacement: f64) -> [f64; 2] {
     loop {
         let clearance = height - disc_height - displacement;
         if clearance >= 0.0 || (disc_height <= z_d && height >= z_p) {

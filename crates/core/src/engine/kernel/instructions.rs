@@ -88,21 +88,21 @@ impl InstructionSet {
 macro_rules! kernel {
     (
         $(#[$attribute:meta])*
-        pub fn $name:ident<$(const $flag:ident),*>($($argument:ident: $kind:ty),* $(,)?) = $body:ident
+        pub fn $name:ident<$(const $flag:ident: $type:ty),*>($($argument:ident: $kind:ty),* $(,)?) = $body:ident
     ) => {
         $(#[$attribute])*
         #[allow(clippy::too_many_arguments, reason = "the body's own")]
-        pub fn $name<$(const $flag: bool),*>(set: $crate::engine::kernel::InstructionSet, $($argument: $kind),*) {
+        pub fn $name<$(const $flag: $type),*>(set: $crate::engine::kernel::InstructionSet, $($argument: $kind),*) {
             #[cfg(target_arch = "x86_64")]
             #[target_feature(enable = "avx2")]
             #[allow(clippy::too_many_arguments, reason = "the body's own")]
-            fn avx2<$(const $flag: bool),*>($($argument: $kind),*) {
+            fn avx2<$(const $flag: $type),*>($($argument: $kind),*) {
                 $body::<$crate::engine::lanes::Avx2, $($flag),*>($($argument),*)
             }
             #[cfg(target_arch = "x86_64")]
             #[target_feature(enable = "avx512f,avx512vl,avx512dq,avx512bw")]
             #[allow(clippy::too_many_arguments, reason = "the body's own")]
-            fn avx512<$(const $flag: bool),*>($($argument: $kind),*) {
+            fn avx512<$(const $flag: $type),*>($($argument: $kind),*) {
                 $body::<$crate::engine::lanes::Avx512, $($flag),*>($($argument),*)
             }
             match set.width() {

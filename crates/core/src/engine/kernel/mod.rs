@@ -3,29 +3,26 @@
 //! Each is written once, for eight cells at a time, and compiled for several instruction sets, of which the widest that
 //! the processor has is chosen at start. What they sum up does not depend on the order of the cells.
 
-mod ahead;
-mod cells;
 mod deposit;
 mod edge;
 mod instructions;
-mod local;
-mod local_ordinary;
 mod moved;
 mod ordinary;
 mod pairs;
+mod pass;
 mod read;
 mod reading;
 mod rules;
-mod sweep;
+mod strip;
+mod transport;
 mod worn;
 
-pub(crate) use ahead::{WearColumn, wear_column};
-pub(crate) use cells::Sweep;
-pub(crate) use edge::Edge;
+pub(crate) use edge::{Edge, WearColumn, wear_column};
 pub use instructions::InstructionSet;
 pub(crate) use moved::Moved;
 pub(crate) use pairs::PLATEAU;
+pub(crate) use pass::{Pass, pass};
 pub(crate) use read::{Read, Span, read};
 pub(crate) use reading::{Bracket, NearPair, Reading, told_apart};
-pub(crate) use rules::{Conditions, Rules};
-pub(crate) use sweep::sweep;
+pub(crate) use rules::{Conditions, Rules, transport_columns};
+pub(crate) use transport::{Transport, transport};

@@ -2,6 +2,7 @@
 
 use crate::engine::coefficients::{StatusPair, Table};
 use crate::engine::lanes::{Chunk, LANES, Lanes};
+use crate::engine::parts::build_up;
 use crate::engine::strips::chunks;
 
 /// A table of [`crate::engine::coefficients::Coefficients`] in chunks.
@@ -76,12 +77,11 @@ impl<L: Lanes> Pairs<L> {
         pin & if pair % 2 == 1 { self.disc_secondary } else { !self.disc_secondary }
     }
 
-    /// Each pair's entry. Where build-up has the properties of what it lies on (`DISTINCT` is false), two of the six
-    /// entries serve all.
+    /// Each pair's entry. Where build-up has no properties of its own, two of the six entries serve all.
     #[inline(always)]
-    pub fn pick<const DISTINCT: bool>(self, entries: &Entries<L>) -> L {
+    pub fn pick<const BUILD_UP: u8>(self, entries: &Entries<L>) -> L {
         let entries = &entries.0;
-        if !DISTINCT {
+        if BUILD_UP != build_up::DISTINCT {
             return L::select(self.resin(), entries[RESIN], entries[PLATEAU]);
         }
         let on_coating = L::select(self.on_resin, entries[0], entries[2]);

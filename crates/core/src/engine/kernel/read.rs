@@ -4,7 +4,7 @@ use super::instructions::{InstructionSet, kernel};
 use super::pairs::Pairs;
 use super::reading::{Bracket, BracketLanes, Reading, StripReading};
 use crate::engine::lanes::{Lanes, Mask};
-use crate::engine::parts::Needs;
+use crate::engine::parts::{Needs, build_up};
 use crate::engine::pin_strips::PinStrips;
 use crate::engine::strips::DiscSector;
 
@@ -24,17 +24,16 @@ pub type Read = fn(InstructionSet, &mut PinStrips, &DiscSector, Span, &Bracket, 
 
 /// The reading that looks at what a scene needs and nothing else; chosen once per run.
 pub fn read(needs: Needs) -> Read {
-    match (needs.distinct, needs.local) {
-        (false, false) => read_span::<false, false>,
-        (false, true) => read_span::<false, true>,
-        (true, false) => read_span::<true, false>,
-        (true, true) => read_span::<true, true>,
+    match needs.build_up() {
+        build_up::NONE => read_span::<{ build_up::NONE }>,
+        build_up::DISTINCT => read_span::<{ build_up::DISTINCT }>,
+        _ => read_span::<{ build_up::ALIKE }>,
     }
 }
 
 kernel! {
-    /// Reads a span; `DISTINCT` tells whether build-up has properties of its own, `LOCAL` whether debris is local.
-    pub fn read_span<const DISTINCT, const LOCAL>(
+    /// Reads a span.
+    pub fn read_span<const BUILD_UP: u8>(
         pin: &mut PinStrips,
         disc: &DiscSector,
         span: Span,
@@ -44,7 +43,7 @@ kernel! {
 }
 
 #[inline(always)]
-fn read_strips<L: Lanes, const DISTINCT: bool, const LOCAL: bool>(
+fn read_strips<L: Lanes, const BUILD_UP: u8>(
     pin: &mut PinStrips,
     disc: &DiscSector,
     span: Span,
@@ -57,7 +56,7 @@ fn read_strips<L: Lanes, const DISTINCT: bool, const LOCAL: bool>(
         let pin = pin.strip_mut(strip, span.first..span.first + span.columns);
         let disc_height = &disc.height.strip(strip)[span.over..][..span.columns];
         let disc_substrate = disc.substrate.as_ref().map(|field| &field.strip(strip)[span.over..][..span.columns]);
-        let mut sums = StripReading::<L, DISTINCT>::new();
+        let mut sums = StripReading::<L, BUILD_UP>::new();
         for column in 0..span.columns {
             let (z_p, z_d) = (L::load(&pin.height[column]), L::load(&disc_height[column]));
             let pairs = Pairs {
@@ -67,14 +66,12 @@ fn read_strips<L: Lanes, const DISTINCT: bool, const LOCAL: bool>(
                     None => nothing,
                 },
                 disc_secondary: match disc_substrate {
-                    Some(substrate) if DISTINCT => L::load(&substrate[column]).below(z_d),
+                    Some(substrate) if BUILD_UP == build_up::DISTINCT => L::load(&substrate[column]).below(z_d),
                     _ => nothing,
                 },
             };
             let touches = sums.add(z_p - z_d, pairs, &bracket, [strip, span.first + column], reading);
-            if LOCAL {
-                pin.touches[column] = touches.byte();
-            }
+            pin.touches[column] = touches.byte();
         }
         sums.store(strip, reading);
     }

@@ -4,6 +4,7 @@ use super::pairs::{PLAIN_PAIRS, PLATEAU, Pairs, RESIN, lanes_of, pair_of_lane};
 use crate::engine::coefficients::StatusPair;
 use crate::engine::exact::RowIntegers;
 use crate::engine::lanes::{Chunk, Integers, LANES, Lanes, Mask};
+use crate::engine::parts::build_up;
 use crate::engine::quantum::Quantum;
 use serde::{Deserialize, Serialize};
 
@@ -120,14 +121,14 @@ struct Stand<L: Lanes> {
     near: L::Mask,
 }
 
-/// The sums of a strip while it is swept.
+/// The sums of a strip while it is read.
 #[derive(Clone, Copy)]
-pub(super) struct StripReading<L: Lanes, const DISTINCT: bool> {
+pub(super) struct StripReading<L: Lanes, const BUILD_UP: u8> {
     overlap: [L::Integers; StatusPair::COUNT],
     largest: L,
 }
 
-impl<L: Lanes, const DISTINCT: bool> StripReading<L, DISTINCT> {
+impl<L: Lanes, const BUILD_UP: u8> StripReading<L, BUILD_UP> {
     /// Nothing read.
     #[inline(always)]
     pub fn new() -> Self {
@@ -155,7 +156,7 @@ impl<L: Lanes, const DISTINCT: bool> StripReading<L, DISTINCT> {
         reading: &mut Reading,
     ) -> L::Mask {
         let Stand { overlap, touches, near } = self.face(gap, bracket);
-        if DISTINCT {
+        if BUILD_UP == build_up::DISTINCT {
             let mut pair = 0;
             while pair < StatusPair::COUNT {
                 self.overlap[pair] = self.overlap[pair].plus_where(touches & pairs.are(pair), overlap);
@@ -173,7 +174,7 @@ impl<L: Lanes, const DISTINCT: bool> StripReading<L, DISTINCT> {
             let mut gaps = Chunk([0.0; LANES]);
             gap.store(&mut gaps);
             let statuses = [pairs.on_resin.byte(), pairs.pin_secondary.byte(), pairs.disc_secondary.byte()];
-            note_near::<DISTINCT>(reading, &gaps, near.byte(), statuses, [strip, column]);
+            note_near::<BUILD_UP>(reading, &gaps, near.byte(), statuses, [strip, column]);
         }
         touches
     }
@@ -191,7 +192,7 @@ impl<L: Lanes, const DISTINCT: bool> StripReading<L, DISTINCT> {
     pub fn store(self, strip: usize, reading: &mut Reading) {
         let mut pair = 0;
         while pair < StatusPair::COUNT {
-            if DISTINCT || pair == PLATEAU {
+            if BUILD_UP == build_up::DISTINCT || pair == PLATEAU {
                 let overlap = &mut reading.overlap[pair].0[strip];
                 L::Integers::load(overlap).plus(self.overlap[pair]).store(overlap);
             }
@@ -204,7 +205,7 @@ impl<L: Lanes, const DISTINCT: bool> StripReading<L, DISTINCT> {
 /// Notes the few pairs of which the bracket does not say whether they touch.
 #[cold]
 #[inline(never)]
-fn note_near<const DISTINCT: bool>(
+fn note_near<const BUILD_UP: u8>(
     reading: &mut Reading,
     gaps: &Chunk,
     lanes: u8,
@@ -216,6 +217,6 @@ fn note_near<const DISTINCT: bool>(
         gap: gaps.0[lane],
         row: (first_row + strip * LANES + lane) as u32,
         column: column as u32,
-        pair: pair_of_lane(lane, DISTINCT, statuses),
+        pair: pair_of_lane(lane, BUILD_UP == build_up::DISTINCT, statuses),
     }));
 }

@@ -4,8 +4,9 @@ use super::edge::Edge;
 use super::pairs::{ChunkTable, Entries};
 use super::reading::{Bracket, BracketLanes};
 use crate::engine::coefficients::Coefficients;
-use crate::engine::lanes::{Chunk, Integers, Lanes};
+use crate::engine::lanes::{Integers, Lanes};
 use crate::engine::quantum::Quantum;
+use crate::model::material::Status;
 use crate::model::parameters::Parameters;
 
 /// What stays the same in every step.
@@ -19,41 +20,66 @@ pub struct Rules {
     pub(super) coating: ChunkTable,
     /// h_m, m.
     pub(super) wear_height: f64,
-    /// β.
-    pad_share: f64,
+    /// −σ_b/k on the coating and on the disc's build-up, m: with less clearance build-up on resin breaks away; none where it
+    /// never does.
+    pub(super) strength: Option<[f64; 2]>,
     /// z_ref, m: up to which local debris fills the disc.
     pub(super) reference_height: f64,
     /// η, of plateaus and of resin.
     captured_fraction: f64,
     captured_resin_fraction: f64,
-    /// Whether cells to which nothing out of the ordinary happens are swept with few instructions; the results are the same.
+    /// Columns over which debris is gathered and spread, L or as many as the pin has; none where it goes from one cell to the
+    /// next.
+    pub(super) transport: Option<usize>,
+    /// η/L; 0 without L.
+    pub(super) transport_part: f64,
+    /// Whether cells to which nothing out of the ordinary happens are done with few instructions; the results are the same.
     pub(super) shortcut: bool,
 }
 
 impl Rules {
     /// The rules of a scene whose disc was at most `reference_height` (m) high at the start.
     pub fn new(parameters: &Parameters, coefficients: &Coefficients, reference_height: f64, shortcut: bool) -> Self {
+        let materials = &parameters.materials;
         Self {
             pin_loss: ChunkTable::new(&coefficients.pin, -1.0),
             disc_loss: ChunkTable::new(&coefficients.disc, -1.0),
             fibre: ChunkTable::new(&coefficients.fibre, 1.0),
             coating: ChunkTable::new(&coefficients.coating, 1.0),
-            wear_height: parameters.materials.wear_height,
-            pad_share: parameters.plateaus.pad_share,
+            wear_height: materials.wear_height,
+            strength: materials.strength.map(|strength| {
+                [false, true].map(|on_secondary| {
+                    let modulus = materials.combined_modulus(Status::Secondary, on_secondary);
+                    -strength * parameters.foundation_height / modulus
+                })
+            }),
             reference_height,
             captured_fraction: parameters.plateaus.captured_fraction,
             captured_resin_fraction: parameters.plateaus.captured_of_resin(),
+            transport: transport_columns(parameters),
+            transport_part: parameters
+                .transport_columns()
+                .map_or(0.0, |columns| parameters.plateaus.captured_fraction / columns as f64),
             shortcut,
         }
     }
-}
 
-impl Rules {
-    /// What of the losses of a pair local debris may compact behind it, m.
+    /// Whether build-up on resin breaks away with this clearance, m.
+    #[inline(always)]
+    pub(super) fn breaks(&self, clearance: f64, on_secondary: bool) -> bool {
+        self.strength.is_some_and(|strength| clearance < strength[usize::from(on_secondary)])
+    }
+
+    /// What of the losses of a pair may be compacted behind it, m.
     #[inline(always)]
     pub(super) fn captured(&self, of_plateaus: f64, of_resin: f64) -> f64 {
         of_plateaus * self.captured_fraction + of_resin * self.captured_resin_fraction
     }
+}
+
+/// Columns over which debris is gathered and spread: no more than the pin has, for it has no more to gather or to fill.
+pub(crate) fn transport_columns(parameters: &Parameters) -> Option<usize> {
+    parameters.transport_columns().map(|columns| columns.min(parameters.mesh.pin_columns()))
 }
 
 /// What changes from step to step.
@@ -61,9 +87,7 @@ impl Rules {
 pub struct Conditions<'a> {
     /// δ, m.
     pub displacement: f64,
-    /// s of every row of the mesh, m; 0 without a pool.
-    pub share: &'a [Chunk],
-    /// With local debris: what the last column of the span must know of the one ahead of it, if there is one.
+    /// The column ahead of the last of the span, if there is one.
     pub ahead: Option<&'a Edge>,
     /// Of which deposits are counted as multiples.
     pub deposit_quantum: Quantum,
@@ -82,12 +106,6 @@ pub(super) struct StripRules<'a, L: Lanes> {
     pub strip: usize,
     pub zero: L,
     pub displacement: L,
-    /// s, m.
-    pub share: L,
-    /// β s, m: the pin's part of an even deposit.
-    pub even_on_pin: L,
-    /// (1 − β) s, m: the disc's part of it.
-    pub even_on_disc: L,
     /// Number whose last bit is worth a quantum of the deposits.
     deposit_anchor: L,
     /// Numbers whose last bits are worth a coarse and a fine quantum of the losses.
@@ -99,16 +117,11 @@ impl<'a, L: Lanes> StripRules<'a, L> {
     #[inline(always)]
     pub fn new(rules: &'a Rules, conditions: &Conditions, strip: usize) -> Self {
         let strip = conditions.first_strip + strip;
-        let share = L::load(&conditions.share[strip]);
-        let even_on_pin = share * L::splat(rules.pad_share);
         Self {
             rules,
             strip,
             zero: L::splat(0.0),
             displacement: L::splat(conditions.displacement),
-            share,
-            even_on_pin,
-            even_on_disc: share - even_on_pin,
             deposit_anchor: L::splat(conditions.deposit_quantum.anchor()),
             loss_anchors: [L::splat(conditions.loss_quanta[0].anchor()), L::splat(conditions.loss_quanta[1].anchor())],
             bracket: BracketLanes::new(&conditions.bracket),
@@ -145,16 +158,10 @@ impl<'a, L: Lanes> StripRules<'a, L> {
         L::splat(self.rules.wear_height)
     }
 
-    /// β.
+    /// A sum of deposits in quanta, with another deposit.
     #[inline(always)]
-    pub fn pad_share(&self) -> L {
-        L::splat(self.rules.pad_share)
-    }
-
-    /// By how many quanta a deposit is above the even one.
-    #[inline(always)]
-    pub fn beyond(&self, deposit: L, even: L) -> L::Integers {
-        (self.deposit_anchor + deposit).bits().minus((self.deposit_anchor + even).bits())
+    pub fn plus_deposit(&self, sum: L::Integers, height: L) -> L::Integers {
+        sum.plus((self.deposit_anchor + height).bits().minus(self.deposit_anchor.bits()))
     }
 
     /// Sums of losses in coarse quanta, and of what those leave in fine ones, with another loss.

@@ -73,10 +73,6 @@ pub(crate) trait Lanes: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Out
     fn below(self, other: Self) -> Self::Mask;
     /// self ≥ other.
     fn at_least(self, other: Self) -> Self::Mask;
-    /// 0 ≤ self < width, of numbers that are not −0.
-    fn within(self, width: Self) -> Self::Mask;
-    /// self ≥ other where the mask says so.
-    fn at_least_where(self, mask: Self::Mask, other: Self) -> Self::Mask;
     /// The lesser of each; `other` where they are equal.
     fn lesser(self, other: Self) -> Self;
     /// The greater of each; `other` where they are equal.

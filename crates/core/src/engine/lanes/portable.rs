@@ -123,16 +123,6 @@ impl Lanes for Portable {
     }
 
     #[inline(always)]
-    fn within(self, width: Self) -> Answers {
-        self.at_least(Self::splat(0.0)) & self.below(width)
-    }
-
-    #[inline(always)]
-    fn at_least_where(self, mask: Answers, other: Self) -> Answers {
-        mask & self.at_least(other)
-    }
-
-    #[inline(always)]
     fn lesser(self, other: Self) -> Self {
         Self::select(self.below(other), self, other)
     }

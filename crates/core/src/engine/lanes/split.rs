@@ -150,16 +150,6 @@ macro_rules! split {
             }
 
             #[inline(always)]
-            fn within(self, width: Self) -> $mask {
-                self.at_least(Self::splat(0.0)) & self.below(width)
-            }
-
-            #[inline(always)]
-            fn at_least_where(self, mask: $mask, other: Self) -> $mask {
-                mask & self.at_least(other)
-            }
-
-            #[inline(always)]
             fn lesser(self, other: Self) -> Self {
                 Self([$(call!($min(self.0[$part], other.0[$part]))),*])
             }

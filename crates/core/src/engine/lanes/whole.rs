@@ -149,17 +149,6 @@ impl Lanes for Avx512 {
     }
 
     #[inline(always)]
-    fn within(self, width: Self) -> Mask512 {
-        // The bits of a negative number are those of a large integer without sign, those of others are in their order.
-        Mask512(call!(_mm512_cmplt_epu64_mask(_mm512_castpd_si512(self.0), _mm512_castpd_si512(width.0))))
-    }
-
-    #[inline(always)]
-    fn at_least_where(self, mask: Mask512, other: Self) -> Mask512 {
-        Mask512(call!(_mm512_mask_cmp_pd_mask::<_CMP_GE_OQ>(mask.0, self.0, other.0)))
-    }
-
-    #[inline(always)]
     fn lesser(self, other: Self) -> Self {
         Self(call!(_mm512_min_pd(self.0, other.0)))
     }

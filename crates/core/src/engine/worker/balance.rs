@@ -4,12 +4,12 @@ use super::Worker;
 use crate::engine::coefficients::StatusPair;
 use crate::engine::comm::Communicator;
 use crate::engine::contact::{Carried, Verdict};
-use crate::engine::error::SimulationError;
 use crate::engine::exact::{ExactSum, Unit, of_words, words};
 use crate::engine::kernel::{Bracket, Span};
 use crate::engine::quantum::Quantum;
 use crate::engine::sector::Segment;
 use crate::model::ContactError;
+use crate::model::error::SimulationError;
 use crate::model::state::pin_status;
 
 /// Readings of one step; Newton's method needs few, this bound only keeps rounding from going round in circles.
@@ -24,7 +24,7 @@ const FINER: f64 = 16.0;
 const LOAD_BITS: i32 = 64;
 
 impl<C: Communicator> Worker<C> {
-    /// Finds the displacement that carries the load: nearly always the last sweep has read all that this needs. Returns a
+    /// Finds the displacement that carries the load: nearly always the last pass has read all that this needs. Returns a
     /// bound of the overlaps at it, m.
     pub(super) fn balance(&mut self) -> Result<f64, SimulationError> {
         let (step, normal_force) = (self.course.steps + 1, self.operation.load);
@@ -159,11 +159,8 @@ impl<C: Communicator> Worker<C> {
         self.gather_reading(bracket)
     }
 
-    /// With local debris, notes which of the pairs that the bracket did not decide touch at the displacement.
+    /// Notes which of the pairs that the bracket did not decide touch at the displacement.
     fn note_near_touches(&mut self) {
-        if self.edges.is_empty() {
-            return;
-        }
         let displacement = self.contact.displacement();
         for near in self.reading.near.iter().take_while(|near| near.gap < displacement) {
             let row = near.row as usize;

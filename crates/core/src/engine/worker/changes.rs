@@ -5,10 +5,10 @@ use std::sync::Arc;
 use super::Worker;
 use crate::engine::coefficients::Coefficients;
 use crate::engine::comm::Communicator;
-use crate::engine::error::SimulationError;
 use crate::engine::kernel::Rules;
 use crate::engine::sums::RowWeights;
 use crate::model::accounts::Accounts;
+use crate::model::error::SimulationError;
 use crate::model::parameters::Parameters;
 
 impl<C: Communicator> Worker<C> {

@@ -2,12 +2,12 @@
 
 use super::Worker;
 use crate::engine::comm::Communicator;
-use crate::engine::error::SimulationError;
 use crate::engine::kernel::{Bracket, NearPair, Reading};
+use crate::model::error::SimulationError;
 
 impl<C: Communicator> Worker<C> {
-    /// The sums over all workers after a sweep that read the next step against a bracket.
-    pub(super) fn gather_sweep(&mut self, bracket: &Bracket) -> Result<(), SimulationError> {
+    /// The sums over all workers after a pass that read the next step against a bracket.
+    pub(super) fn gather_pass(&mut self, bracket: &Bracket) -> Result<(), SimulationError> {
         self.sums.take_reading(&self.weights, &self.reading, bracket);
         if let Some(taken) = &self.bracket {
             self.sums.take_moved(&self.weights, &self.moved, taken, self.contact.displacement());
@@ -22,7 +22,7 @@ impl<C: Communicator> Worker<C> {
     }
 
     /// Adds the sums of the other workers to one's own.
-    fn exchange(&mut self, swept: bool) -> Result<(), SimulationError> {
+    fn exchange(&mut self, moved: bool) -> Result<(), SimulationError> {
         if self.communicator.size() == 1 {
             return Ok(());
         }
@@ -31,7 +31,7 @@ impl<C: Communicator> Worker<C> {
         message.clear();
         write_near(message, reading);
         sums.write_reading(weights, message);
-        if swept {
+        if moved {
             sums.write_moved(message);
         }
         communicator.all_gather(message, &mut |from, words| {
@@ -39,7 +39,7 @@ impl<C: Communicator> Worker<C> {
                 let mut words = words.iter().copied();
                 add_near(&mut words, reading);
                 sums.add_reading(weights, &mut words);
-                if swept {
+                if moved {
                     sums.add_moved(&mut words);
                 }
             }

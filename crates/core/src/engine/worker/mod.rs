@@ -1,14 +1,12 @@
 //! One worker: its sectors of the disc, the pin's columns over them, and the step that all workers take together.
 //!
-//! Every worker knows the displacement, the pools and all sums, and computes them alike; what differs is which cells it
-//! sweeps.
+//! Every worker knows the displacement and all sums, and computes them alike; what differs is which cells it passes over.
 
 mod balance;
 mod changes;
 mod checkpoint;
 mod columns;
 mod gather;
-mod local;
 mod report;
 
 use std::ops::Range;
@@ -18,14 +16,13 @@ use crate::engine::coefficients::Coefficients;
 use crate::engine::comm::Communicator;
 use crate::engine::contact::Contact;
 use crate::engine::debris::Debris;
-use crate::engine::error::SimulationError;
 use crate::engine::exact::ExactSum;
 use crate::engine::execution::Execution;
 use crate::engine::filling::{Filling, relief};
 use crate::engine::forecast::Forecast;
-use crate::engine::history::{Course, History};
 use crate::engine::kernel::{
-    Bracket, Edge, InstructionSet, Moved, Read, Reading, Rules, Sweep, WearColumn, read, sweep, wear_column,
+    Bracket, Edge, InstructionSet, Moved, Pass, Read, Reading, Rules, Transport, WearColumn, pass, read, transport,
+    transport_columns, wear_column,
 };
 use crate::engine::parts::Needs;
 use crate::engine::pin_strips::PinStrips;
@@ -36,10 +33,12 @@ use crate::engine::sums::{RowWeights, Sums};
 use crate::model::accounts::{Accounts, StepFacts};
 use crate::model::clock::Clock;
 use crate::model::clock::StepOperation;
+use crate::model::error::SimulationError;
+use crate::model::history::{Course, History};
 use crate::model::parameters::Parameters;
 use crate::model::state::InitialSurfaces;
 
-pub(crate) use columns::halo_words;
+pub(crate) use columns::{halo_words, waiting_columns};
 
 /// A worker.
 #[derive(Debug)]
@@ -49,9 +48,12 @@ pub(crate) struct Worker<C> {
     partition: Arc<Partition>,
     instructions: InstructionSet,
     shortcut: bool,
-    sweep: Sweep,
+    pass: Pass,
     read: Read,
     wear_column: WearColumn,
+    transport: Transport,
+    /// L, where debris has a transport length.
+    transport_columns: Option<usize>,
     rules: Rules,
     coefficients: Coefficients,
     /// Of which the overlaps of the coming steps are counted as multiples, by the largest of the last step; of the first,
@@ -69,12 +71,12 @@ pub(crate) struct Worker<C> {
     bracket: Option<Bracket>,
     /// The pairs of the coming step against it.
     reading: Reading,
-    /// What the last sweep moved.
+    /// What the last pass moved.
     moved: Moved,
     weights: RowWeights,
     /// What all workers read and moved.
     sums: Sums,
-    /// With local debris: the first pin column over each sector after wear.
+    /// What the first pin column over each sector loses; empty where nothing forms.
     edges: Vec<Edge>,
     message: Vec<u64>,
     halo: Vec<u64>,
@@ -132,9 +134,11 @@ impl<C: Communicator> Worker<C> {
         let mut worker = Self {
             instructions: execution.instructions,
             shortcut: execution.shortcut,
-            sweep: sweep(needs),
+            pass: pass(needs),
             read: read(needs),
             wear_column: wear_column(needs),
+            transport: transport(needs),
+            transport_columns: transport_columns(&parameters),
             rules: Rules::new(&parameters, &coefficients, filling.reference_height(), execution.shortcut),
             contact: Contact::new(&weights, by_status),
             overlap_quantum: quantum,
@@ -143,11 +147,11 @@ impl<C: Communicator> Worker<C> {
             debris: Debris::new(&parameters, &coefficients, &weights),
             history: History::new(mesh.disc_columns()),
             filling,
-            edges: vec![Edge::default(); if needs.local { partition.sectors() } else { 0 }],
+            edges: vec![Edge::default(); if needs.forms { partition.sectors() } else { 0 }],
             bracket: None,
             reading: Reading::new(rows.start, strips, needs.distinct),
             moved: Moved::new(strips, needs.forms, needs.distinct),
-            sums: Sums::new(weights.pools()),
+            sums: Sums::default(),
             weights,
             message: Vec::new(),
             halo: Vec::new(),
@@ -194,29 +198,32 @@ impl<C: Communicator> Worker<C> {
     /// | model | what happens | where |
     /// |---|---|---|
     /// | 4.1 | the displacement that carries the load | [`Contact::balance`] |
-    /// | 4P | debris at hand for each open cell | [`Debris::prepare`] |
-    /// | 4.2, 4L, 4P | wear, destruction and formation in every cell | [`crate::engine::wear`], [`crate::engine::plateau`], [`crate::engine::kernel`] |
+    /// | 4.2, 4L | wear and formation in every cell | [`crate::engine::wear`], [`crate::engine::kernel`] |
     /// | 4.1 | the pairs of the next step against where its displacement is expected | [`crate::engine::kernel`] |
-    /// | 4L, 4P | debris balance | [`Debris::settle`] |
+    /// | 4L | debris balance | [`Debris::settle`] |
     /// | 10, 11, 12 | friction, heat and emission | [`Accounts`] |
     /// | 4.6 | the disc turns by one column | |
     fn advance(&mut self, watched: bool) -> Result<(), SimulationError> {
         self.begin_accounts()?;
-        self.operation = self.parameters.operation_of(self.course.steps + 1, &self.clock);
+        let step = self.course.steps + 1;
+        self.operation = self.parameters.operation_of(step, &self.clock);
+        let friction = self.accounts.as_deref().and_then(Accounts::friction_coefficient);
+        self.operation.load = self.parameters.load_by(self.operation.load, friction, step)?;
         let largest_overlap = self.balance()?;
         if watched {
             self.record_pressures();
         }
-        let touching = || self.contact.touching(&self.sums, &self.reading.near);
+        let touching = || self.contact.touching_pairs(&self.sums, &self.reading.near);
         self.debris.prepare(&self.contact, largest_overlap, touching);
         self.forecast.record(self.contact.displacement());
-        let bracket = self.sweep_columns()?;
-        self.gather_sweep(&bracket)?;
+        let bracket = self.pass_over_columns()?;
+        self.gather_pass(&bracket)?;
         self.bracket = Some(bracket);
         let moved = self.debris.settle(&self.weights, &self.contact, &self.sums);
         self.course.contact_area = self.contact.area();
         self.history.record(self.course.contact_area, &self.operation);
-        self.course.steps += 1;
+        self.course.steps = step;
+        self.course.load = self.operation.load;
         self.course.time = self.operation.end;
         if let Some(accounts) = &mut self.accounts {
             accounts.record(&StepFacts {

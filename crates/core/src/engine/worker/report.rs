@@ -4,12 +4,12 @@ use std::ops::Range;
 
 use super::Worker;
 use crate::engine::comm::Communicator;
-use crate::engine::error::SimulationError;
 use crate::engine::exact::{self, ExactSum};
 use crate::engine::filling::RingSums;
 use crate::engine::lanes::LANES;
 use crate::engine::strips::DiscSector;
 use crate::model::accounts::AccountsReport;
+use crate::model::error::SimulationError;
 use crate::model::material::Status;
 use crate::model::state::{reported_disc_status, reported_pin_status};
 use crate::observe::{Map, MapValues, Sample, Snapshot};
@@ -30,7 +30,8 @@ impl<C: Communicator> Worker<C> {
         let coverage: Vec<f64> =
             pin.chunks_exact(mesh.rows()).map(|counts| area_of(counts) / mesh.pin_area()).collect();
         let contact_area = self.contact.area();
-        let totals = self.debris.totals();
+        let account = self.debris.account();
+        let totals = &account.totals;
         Ok(Sample {
             step: self.course.steps,
             time: self.course.time,
@@ -45,8 +46,7 @@ impl<C: Communicator> Worker<C> {
             worn_pin: totals.worn_pin.value(),
             worn_resin: totals.worn_resin.value(),
             worn_disc: totals.worn_disc.value(),
-            // Rounding may leave a trace of debt in a pool that has given nearly all; the balance residual takes it as it is.
-            pool: self.debris.pool().max(0.0),
+            pool: account.pool(),
             emitted: totals.emitted.amount(),
             deposited_pin: totals.deposited_pin.value(),
             deposited_disc: totals.deposited_disc.value(),
@@ -58,7 +58,7 @@ impl<C: Communicator> Worker<C> {
             disc_secondary: (self.filling.secondary_area(&ring) / mesh.disc_area()).min(1.0),
             filled_fraction: self.filling.filled_fraction(&ring),
             load_residual: if self.course.steps > 0 { self.load_residual(load) } else { 0.0 },
-            balance_residual: self.debris.balance_residual(self.filling.lost(&ring)),
+            balance_residual: account.balance_residual(self.filling.lost(&ring)),
             accounts: self.accounts.as_ref().map_or(AccountsReport::default(), |accounts| {
                 accounts.report(self.course.steps, parameters.step_angle(), self.course.time, None)
             }),
@@ -87,7 +87,7 @@ impl<C: Communicator> Worker<C> {
         part
     }
 
-    /// The pin columns that this worker swept in the last step; before the first step those that it will.
+    /// The pin columns that this worker passed over in the last step; before the first step those that it will.
     fn own_pin_columns(&self) -> impl Iterator<Item = usize> + '_ {
         self.partition.segments_of(self.group, self.last_first()).flat_map(|segment| segment.pin)
     }

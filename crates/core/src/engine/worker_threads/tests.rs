@@ -81,7 +81,7 @@ fn start(rank: usize, fault: Option<Fault>) -> (WorkerThreads, Arc<()>) {
         pin_height: (0..mesh.pin_cells()).map(|cell| (cell * 5 % 13) as f64 * 1e-7).collect(),
         pin_base: vec![Base::Primary; mesh.pin_cells()],
     };
-    let partition = Arc::new(Partition::new(&mesh, WORKERS, None));
+    let partition = Arc::new(Partition::new(&mesh, WORKERS, None, 2));
     let alive = Arc::new(());
     let worker = |threads: Threads| {
         let alarm = threads.alarm();
@@ -141,7 +141,7 @@ fn a_panic_in_one_worker_ends_all_with_its_name() {
                     (failures, Arc::strong_count(&alive))
                 });
                 let message = "out of paper".into();
-                let failure = SimulationError::Worker(CommError::Worker { worker: rank, message });
+                let failure = SimulationError::from(CommError::Worker { worker: rank, message });
                 assert_eq!(failures, [(); 4].map(|()| Some(failure.clone())), "{what}");
                 assert_eq!(alive, 1, "{what}: a thread goes on");
             }

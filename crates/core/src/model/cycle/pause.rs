@@ -13,6 +13,8 @@ pub struct Pause {
     pub length: f64,
     /// Lifted or standing.
     pub kind: Kind,
+    /// Mean ω, rad/s: a disc under lifted pads turns with the wheel.
+    pub speed: f64,
 }
 
 impl Cycle {
@@ -84,7 +86,8 @@ impl Cycle {
     fn pause(&self, Place { round, interval, .. }: Place) -> Pause {
         let (before, interval) = (round as f64 * self.period, &self.intervals[interval]);
         let [start, end] = [interval.start, interval.end].map(|node| before + node.time);
-        Pause { start, end, length: interval.length(), kind: interval.kind }
+        let speed = (interval.start.speed + interval.end.speed) / 2.0;
+        Pause { start, end, length: interval.length(), kind: interval.kind, speed }
     }
 }
 
@@ -159,6 +162,8 @@ mod tests {
                     end: round + end,
                     length: end - start,
                     kind,
+                    // As in the rows.
+                    speed: if kind == Kind::Lifted { 1.0 } else { 0.0 },
                 })
                 .collect();
             assert_eq!(found, expected, "{rounds} rounds in steps of {step} rad");

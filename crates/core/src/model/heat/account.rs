@@ -184,7 +184,7 @@ impl HeatAccount {
         if ended > 0 {
             self.resistance = model.resistance(0.0);
             let link = if pause.kind == Kind::Lifted { Link::Open } else { Link::Closed(self.resistance) };
-            model.chain.advance(&mut self.state, ended, length / count as f64, 0.0, 0.0, link);
+            model.chain.advance(&mut self.state, ended, length / count as f64, 0.0, pause.speed, link);
             self.share = 0.0;
         }
         ended == count

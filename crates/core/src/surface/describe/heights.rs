@@ -1,6 +1,58 @@
-//! Height parameters (ISO 25178-2:2021, 4.2).
+//! Heights with their shape, sums over many of them; height and hybrid parameters (ISO 25178-2:2021, 4.2 and 4.4).
 
-use super::grid::sums;
+use rayon::prelude::*;
+
+use crate::surface::Patch;
+
+/// Heights on a rectangular grid, of which the pitch may be unknown.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Grid<'a> {
+    /// Points along x, the sliding direction.
+    pub columns: usize,
+    /// Points along y, outward.
+    pub rows: usize,
+    /// Distance of neighbouring points along x and y, m.
+    pub pitch: Option<[f64; 2]>,
+    /// Heights, m, column by column; NaN where there is none.
+    pub heights: &'a [f64],
+}
+
+impl<'a> Grid<'a> {
+    /// The heights of a patch.
+    pub fn of(patch: &'a Patch) -> Self {
+        let Patch { columns, rows, column_pitch, row_pitch, ref heights } = *patch;
+        Self { columns, rows, pitch: Some([column_pitch, row_pitch]), heights }
+    }
+
+    /// The heights of every column.
+    pub(super) fn column_slices(&self) -> std::slice::ChunksExact<'a, f64> {
+        self.heights.chunks_exact(self.rows.max(1))
+    }
+}
+
+/// Terms that are summed one after the other.
+const BLOCK: usize = 1 << 14;
+
+/// Sums of `N` terms of every measured value.
+///
+/// Blocks of fixed length are summed by themselves and then in their order: the sums do not depend on the number of
+/// threads, and rounding grows with the length of a block and the number of blocks only.
+pub(super) fn sums<const N: usize>(values: &[f64], terms: impl Fn(f64) -> [f64; N] + Sync) -> [f64; N] {
+    let blocks: Vec<[f64; N]> = values
+        .par_chunks(BLOCK)
+        .map(|block| {
+            let measured = block.iter().filter(|value| !value.is_nan());
+            measured.fold([0.0; N], |sum, value| added(sum, terms(*value)))
+        })
+        .collect();
+    blocks.into_iter().fold([0.0; N], added)
+}
+
+/// Sum of both, number by number.
+pub(super) fn added<const N: usize>(mut sum: [f64; N], terms: [f64; N]) -> [f64; N] {
+    sum.iter_mut().zip(terms).for_each(|(sum, term)| *sum += term);
+    sum
+}
 
 /// Moments and extremes of the heights above their mean: every measured point counts alike.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -58,4 +110,66 @@ impl HeightParameters {
     pub fn maximum_height(&self) -> f64 {
         self.maximum_peak_height + self.maximum_pit_depth
     }
+}
+
+/// Hybrid parameters.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Gradient {
+    /// Sdq = √(⟨(Δx z/dx)²⟩ + ⟨(Δy z/dy)²⟩): root-mean-square slope from the differences of neighbouring points, each
+    /// difference counted once.
+    pub root_mean_square_slope: f64,
+    /// Sdr: developed area over the area of the grid, less 1.
+    pub developed_area_ratio: f64,
+}
+
+/// Σ (Δx z/dx)², their number, Σ (Δy z/dy)², their number, Σ excess area per cell, cells.
+type Sums = [f64; 6];
+
+impl Gradient {
+    /// Those of a grid of known pitch. Differences and cells with a missing point are left out; NaN where none is left.
+    ///
+    /// The developed area is that of the triangles between neighbouring points: a cell of four points is divided along
+    /// either diagonal, and the mean of the two is taken, so that no direction is preferred.
+    pub fn of(grid: &Grid) -> Option<Self> {
+        let pitch = grid.pitch?;
+        let columns: Vec<&[f64]> = grid.column_slices().collect();
+        let sums: Vec<Sums> = (0..columns.len())
+            .into_par_iter()
+            .map(|index| column(columns[index], columns.get(index + 1).copied().unwrap_or(&[]), pitch))
+            .collect();
+        let [squares_x, count_x, squares_y, count_y, excess, cells] = sums.into_iter().fold([0.0; 6], added);
+        Some(Self {
+            root_mean_square_slope: (squares_x / count_x + squares_y / count_y).sqrt(),
+            developed_area_ratio: excess / cells,
+        })
+    }
+}
+
+/// Sums over a column and the cells to the next one.
+fn column(here: &[f64], next: &[f64], [pitch_x, pitch_y]: [f64; 2]) -> Sums {
+    let [mut x, mut y, mut area] = [[0.0; 2]; 3];
+    for (one, other) in here.iter().zip(next) {
+        x = added(x, measured((other - one) / pitch_x, |slope| slope * slope));
+    }
+    for pair in here.windows(2) {
+        y = added(y, measured((pair[1] - pair[0]) / pitch_y, |slope| slope * slope));
+    }
+    for (left, right) in here.windows(2).zip(next.windows(2)) {
+        let squares = |one: f64, other: f64, pitch: f64| ((other - one) / pitch) * ((other - one) / pitch);
+        let along = [squares(left[0], right[0], pitch_x), squares(left[1], right[1], pitch_x)];
+        let across = [squares(left[0], left[1], pitch_y), squares(right[0], right[1], pitch_y)];
+        let excess = along.map(|along| across.map(|across| excess_area(along + across)));
+        area = added(area, measured(excess.as_flattened().iter().sum::<f64>(), |sum| 0.25 * sum));
+    }
+    [x[0], x[1], y[0], y[1], area[0], area[1]]
+}
+
+/// √(1 + s) − 1 without the loss of digits where the squared slope s is small.
+fn excess_area(squared_slope: f64) -> f64 {
+    squared_slope / (1.0 + (1.0 + squared_slope).sqrt())
+}
+
+/// A term and that it is one; nothing where a point is missing.
+fn measured(value: f64, term: impl Fn(f64) -> f64) -> [f64; 2] {
+    if value.is_nan() { [0.0; 2] } else { [term(value), 1.0] }
 }

@@ -3,7 +3,7 @@
 
 use rayon::prelude::*;
 
-use super::grid::sums;
+use super::heights::sums;
 
 /// The material ratio of every height, from all measured heights: a step for every one of them.
 #[derive(Debug, Clone, PartialEq)]

@@ -1,26 +1,19 @@
 //! What a surface is like: the parameters of ISO 25178-2 and ISO 21920-2 for heights on a grid.
 //!
 //! Form is taken out before ([`level`](super::level)); no wavelength is filtered out. Missing points (NaN) take no part.
-//! `docs/surfaces-describe.md` has every definition with its formula and standard.
+//! `docs/surface.md` has every definition with its formula and standard.
 
 mod autocorrelation;
-mod correlate;
-mod gradient;
-mod grid;
 mod heights;
 mod material_curve;
 mod parameter;
 mod profile;
-mod sampling_error;
 
 pub use autocorrelation::Autocorrelation;
-pub use gradient::Gradient;
-pub use grid::Grid;
-pub use heights::HeightParameters;
+pub use heights::{Gradient, Grid, HeightParameters};
 pub use material_curve::{CoreHeight, MaterialCurve, Volumes};
-pub use parameter::{Group, PARAMETERS, Parameter, Unit};
+pub use parameter::{Group, PARAMETERS, Parameter, Unit, sampling_errors};
 pub use profile::{Direction, ProfileParameters};
-pub use sampling_error::sampling_errors;
 
 /// Classes of the Abbott-Firestone curve that a [`Description`] keeps: 0, 0.1, …, 100 %.
 const CURVE_CLASSES: usize = 1000;

@@ -1,6 +1,7 @@
-//! The parameters as one list: what they are called, what they measure and where a [`Description`] keeps them.
+//! The parameters as one list: what they are called, what they measure and where a [`Description`] keeps them; and how far they may be
+//! off because a surface is only a part of a larger one.
 
-use super::{Description, ProfileParameters};
+use super::{Description, Grid, ProfileParameters};
 
 /// One parameter.
 #[derive(Debug, Clone, Copy)]
@@ -118,4 +119,88 @@ fn along(description: &Description, value: fn(&ProfileParameters) -> f64) -> Opt
 
 fn across(description: &Description, value: fn(&ProfileParameters) -> f64) -> Option<f64> {
     Some(value(&description.across))
+}
+
+/// Blocks into which a surface is divided, about.
+const BLOCKS: f64 = 25.0;
+/// Parameters of which blocks tell nothing: those that are set by single points (Miller 1974, doi:10.1093/biomet/61.1.1), and a
+/// direction, which has no mean.
+const WITHOUT: [&str; 4] = ["Sp", "Sv", "Sz", "Std"];
+
+/// The standard error of every parameter of [`PARAMETERS`], SI units: what it varies by from one part of this size of a
+/// larger surface to another. NaN where it is not determined, for extremes and the direction, and with less than four blocks.
+///
+/// The surface is divided into some 25 blocks, as square as may be. Of the parameters without one block each, θ_i of B, the
+/// variance is (B − 1)/B Σ (θ_i − θ̄)²: the jackknife over blocks (Künsch 1989, doi:10.1214/aos/1176347265). Blocks have to be
+/// larger than the distance over which heights are related; of a surface with few such lengths the error is larger than told.
+pub fn sampling_errors(grid: &Grid) -> Vec<f64> {
+    let blocks = blocks(grid);
+    let [along, across] = blocks;
+    let count = along * across;
+    if count < 4 {
+        return vec![f64::NAN; PARAMETERS.len()];
+    }
+    let mut heights = grid.heights.to_vec();
+    let mut parameters = vec![Vec::with_capacity(count); PARAMETERS.len()];
+    for block in 0..count {
+        let [columns, rows] = [(block / across, along, grid.columns), (block % across, across, grid.rows)]
+            .map(|(part, parts, points)| part * points / parts..(part + 1) * points / parts);
+        let places = || columns.clone().flat_map(|column| rows.clone().map(move |row| column * grid.rows + row));
+        places().for_each(|place| heights[place] = f64::NAN);
+        let description = Description::of(&Grid { heights: &heights, ..*grid });
+        places().for_each(|place| heights[place] = grid.heights[place]);
+        for (values, parameter) in parameters.iter_mut().zip(PARAMETERS) {
+            values.push(description.as_ref().and_then(parameter.value).unwrap_or(f64::NAN));
+        }
+    }
+    let error = |values: &Vec<f64>| {
+        let count = values.len() as f64;
+        let mean = values.iter().sum::<f64>() / count;
+        let squares: f64 = values.iter().map(|value| (value - mean) * (value - mean)).sum();
+        (squares * (count - 1.0) / count).sqrt()
+    };
+    let has_none = |index: usize| WITHOUT.contains(&PARAMETERS[index].symbol);
+    parameters.iter().enumerate().map(|(n, values)| if has_none(n) { f64::NAN } else { error(values) }).collect()
+}
+
+/// Blocks along x and y.
+fn blocks(grid: &Grid) -> [usize; 2] {
+    let [x, y] = grid.pitch.unwrap_or([1.0; 2]);
+    let proportion = (grid.columns as f64 * x) / (grid.rows as f64 * y);
+    let along = (BLOCKS * proportion).sqrt().round().clamp(1.0, BLOCKS).min(grid.columns as f64);
+    let across = (BLOCKS / along).round().clamp(1.0, grid.rows as f64);
+    [along as usize, across as usize]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::surface::random::{Random, Stream};
+
+    /// The standard error of the rms of N independent normal heights is σ/√(2N), that of their skewness √(6/N) and of their
+    /// kurtosis √(24/N). A jackknife of B blocks has the relative error 1/√(2(B − 1)) = 0.144; four of them.
+    #[test]
+    fn of_independent_normal_heights_they_are_those_of_theory() {
+        let (columns, rows) = (150, 100);
+        let mut random = Random::new(5, Stream::DiscHeight);
+        let heights: Vec<f64> = (0..columns * rows).map(|_| random.normal()).collect();
+        let errors = sampling_errors(&Grid { columns, rows, pitch: Some([1.0; 2]), heights: &heights });
+        let count = (columns * rows) as f64;
+        for (symbol, expected) in
+            [("Sq", (0.5 / count).sqrt()), ("Ssk", (6.0 / count).sqrt()), ("Sku", (24.0 / count).sqrt())]
+        {
+            let place = PARAMETERS.iter().position(|parameter| parameter.symbol == symbol).unwrap();
+            let found = errors[place];
+            assert!((found / expected - 1.0).abs() < 4.0 * 0.144, "{symbol}: {found}, expected {expected}");
+        }
+        assert!(errors[PARAMETERS.iter().position(|parameter| parameter.symbol == "Sz").unwrap()].is_nan());
+    }
+
+    #[test]
+    fn blocks_are_as_square_as_may_be() {
+        for (columns, rows, expected) in [(100, 100, [5, 5]), (400, 100, [10, 3]), (1, 300, [1, 25]), (2, 1, [2, 1])] {
+            let heights = vec![0.0; columns * rows];
+            assert_eq!(blocks(&Grid { columns, rows, pitch: None, heights: &heights }), expected);
+        }
+    }
 }

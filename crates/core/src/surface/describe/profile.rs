@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use super::Grid;
-use super::grid::added;
+use super::heights::added;
 
 /// Direction of profiles.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -13,7 +13,7 @@ use std::f64::consts::PI;
 
 use super::super::fft::{Complex, Fft};
 use super::super::level::{mean, rms};
-use super::super::synthesis::grid::Grid;
+use super::super::synthesis::spectrum::Grid;
 use super::super::{Length, Patch};
 
 /// Most points of a cell in either direction with which its mean is taken.

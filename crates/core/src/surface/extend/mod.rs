@@ -7,26 +7,22 @@
 //! those of a surface without a direction ([`line`]).
 
 mod line;
-mod quantiles;
-mod reach;
-mod spectrum;
+mod statistics;
 
+use line::Line;
 use rayon::prelude::*;
+use statistics::{Quantiles, Reach, Spectrum};
 
 use super::level::{Level, level, mean, rms};
 use super::preparation_error::PreparationError;
 use super::random::{Random, Stream};
 use super::resample::{cell_averages, whole_cells};
-use super::synthesis::grid::Grid;
 use super::synthesis::planar::{self, Plane};
+use super::synthesis::spectrum::Grid;
 use super::synthesis::translation::Translation;
 use super::{Body, Length, Patch};
 use crate::model::mesh::Mesh;
 use crate::surface::fft::Complex;
-use line::Line;
-use quantiles::Quantiles;
-use reach::Reach;
-use spectrum::Spectrum;
 
 /// What is made of a patch that is smaller than the body.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -1,10 +1,7 @@
 //! The pin's fibre map from a micrograph of its face.
 
 mod cells;
-mod despeckle;
-mod otsu;
 mod picture;
-mod smooth;
 
 use thiserror::Error;
 
@@ -14,6 +11,7 @@ use crate::model::state::Base;
 
 pub use cells::PinPlane;
 pub use picture::Picture;
+use picture::{despeckle, otsu, smooth};
 
 /// How a picture becomes a fibre map; the steps are done in the order of the fields.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -136,7 +134,7 @@ impl Micrograph {
         }
         let smoothed = self.smooth.filter(|sigma| *sigma > 0.0).map(|sigma| {
             report.push(format!("smoothed by a Gaussian of standard deviation {}", Length(sigma)));
-            smooth::smooth(&grey, sigma / self.pixel)
+            smooth(&grey, sigma / self.pixel)
         });
         let mut fibre = self.part(smoothed.as_ref().unwrap_or(&grey), &mut report)?;
         drop(smoothed);
@@ -154,7 +152,7 @@ impl Micrograph {
 
     fn part(&self, grey: &Picture<f32>, report: &mut Vec<String>) -> Result<Picture<bool>, MicrographError> {
         let (threshold, from) = match self.threshold {
-            Threshold::Otsu => (otsu::otsu(&grey.pixels).ok_or(MicrographError::Uniform)?, " (Otsu)"),
+            Threshold::Otsu => (otsu(&grey.pixels).ok_or(MicrographError::Uniform)?, " (Otsu)"),
             Threshold::Level(level) => (level, ""),
         };
         let side = match self.fibres {
@@ -170,8 +168,8 @@ impl Micrograph {
     fn remove_specks(&self, fibre: &mut Picture<bool>, area: f64, report: &mut Vec<String>) {
         // Rounding must not make a speck of as many pixels as fit into the area.
         let smallest = libm::ceil(area / (self.pixel * self.pixel) * (1.0 - 1e-9)) as usize;
-        let specks = despeckle::despeckle(fibre, true, smallest);
-        let holes = despeckle::despeckle(fibre, false, smallest);
+        let specks = despeckle(fibre, true, smallest);
+        let holes = despeckle(fibre, false, smallest);
         report.push(format!(
             "{specks} specks of fibre and {holes} holes of fewer than {smallest} pixels removed, fibre fraction of the \
              picture then {:.4}",

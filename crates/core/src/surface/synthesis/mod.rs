@@ -5,22 +5,21 @@
 //! As that changes the autocorrelation, g is made with the one that becomes the right one (see [`translation`]).
 
 mod error;
-pub(super) mod grid;
 mod johnson;
 pub(super) mod planar;
-mod quadrature;
 mod separable;
-mod spectrum;
+pub(super) mod spectrum;
 pub(super) mod translation;
 
 pub use error::SynthesisError;
 
+use johnson::Johnson;
+use spectrum::Grid;
+use translation::Translation;
+
 use super::Body;
 use super::random::{Random, Stream};
 use crate::model::mesh::Mesh;
-use grid::Grid;
-use johnson::Johnson;
-use translation::Translation;
 
 /// A random field.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -2,10 +2,9 @@
 
 use rayon::prelude::*;
 
-use super::grid::Grid;
+use super::spectrum::Grid;
 use super::translation::Translation;
-use crate::surface::fft::{Complex, Fft};
-use crate::surface::fft_lines::{LINES, Lines};
+use crate::surface::fft::{Complex, Fft, LINES, Lines};
 use crate::surface::random::Random;
 
 /// A harmonic with less than this of the strongest one's power has none: what is left there is rounding.

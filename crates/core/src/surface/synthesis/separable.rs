@@ -3,8 +3,7 @@
 //! White noise is filtered by the square root of the spectrum of exp(−(x/ℓx)²) exp(−(y/ℓy)²). As that is a product, the
 //! filter runs along the columns and then along the rows, one line at a time.
 
-use super::grid::Grid;
-use super::spectrum::gaussian;
+use super::spectrum::{Grid, gaussian};
 use crate::surface::fft::{Complex, Fft};
 use crate::surface::random::Random;
 

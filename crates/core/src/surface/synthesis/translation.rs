@@ -9,8 +9,7 @@
 //! (Grigoriu 1984, doi:10.1061/(ASCE)0733-9399(1984)110:4(610); by Mehler's expansion). So that T(g) has the
 //! autocorrelation asked for, g is given its inverse f⁻¹.
 
-use super::johnson::Johnson;
-use super::quadrature::normal_nodes;
+use super::johnson::{Johnson, normal_nodes};
 
 /// Most terms of the series.
 const MOST_TERMS: usize = 64;

@@ -6,7 +6,8 @@ use plateau_core::model::state::Base;
 use plateau_core::surface::micrograph::Fibres;
 use plateau_core::surface::{Fill, Flip, Level};
 
-use crate::surface::{Decimal, Lay};
+use crate::delimited::Decimal;
+use crate::scene::contents::Lay;
 
 /// Words, each with its meaning.
 pub type Choices<T, const COUNT: usize> = [(&'static str, T); COUNT];

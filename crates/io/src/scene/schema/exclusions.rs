@@ -1,8 +1,9 @@
-//! Keys that exclude each other, and keys that have no meaning beside a value of another.
+//! Keys that exclude each other, keys that have no meaning beside a value of another, and ways to say the same with different keys of a
+//! table.
 
-use super::key::{Choose, Key, join};
-use super::keys::{CYCLE, DEBRIS_IS_LOCAL};
-use super::mesh;
+use super::key::{Choose, Key, Need, join};
+use super::keys::{self, BRAKING_TORQUE, CYCLE, DEBRIS_IS_LOCAL};
+use super::lookup::find;
 
 /// Keys of which a scene gives exactly one, or at most one.
 #[derive(Debug, Clone, Copy)]
@@ -11,26 +12,26 @@ pub struct Group {
     pub section: &'static str,
     /// The alternatives, each with the keys that have a meaning only beside it.
     pub members: &'static [(&'static str, &'static [&'static str])],
-    /// Whether one must be given.
+    /// Tells whether one must be given.
     pub required: bool,
     /// Full path of a table beside which none must be given all the same.
     pub unless: Option<&'static str>,
 }
 
 impl Group {
-    /// Whether one is to be chosen at all: alternatives in an inline table mean nothing where that is not given.
+    /// Tells whether one is to be chosen at all: alternatives in an inline table mean nothing where that is not given.
     pub fn applies(&self, given: impl Fn(&str) -> bool) -> bool {
         self.members
             .iter()
             .all(|(name, _)| name.rsplit_once('.').is_none_or(|(table, _)| given(&join(self.section, table))))
     }
 
-    /// Whether one must be given in a scene that has these tables.
+    /// Tells whether one must be given in a scene that has these tables.
     pub fn is_required(&self, given: impl Fn(&str) -> bool) -> bool {
         self.required && !self.unless.is_some_and(given)
     }
 
-    /// Whether this name is one of the alternatives.
+    /// Tells whether this name is one of the alternatives.
     fn has(&self, name: &str) -> bool {
         self.members.iter().any(|(member, _)| *member == name)
     }
@@ -50,11 +51,17 @@ const TEXTURES: &[(&str, &[&str])] = &[
     ("synthetic.roll_off", &["synthetic.hurst", "synthetic.short_cutoff"]),
 ];
 
-/// What is done where a patch is smaller than ring or pin.
+/// Alternatives where a patch is smaller than ring or pin.
 const BEYOND_THE_PATCH: &[(&str, &[&str])] = &[("repeat", &[]), ("extend", &["extend_seed"])];
 
 /// Keys that exclude each other.
 pub const GROUPS: &[Group] = &[
+    Group {
+        section: "operation",
+        members: &[("normal_force", &[]), (BRAKING_TORQUE, &[])],
+        required: true,
+        unless: Some(CYCLE),
+    },
     Group {
         section: "operation",
         members: &[("rotational_speed", &[]), ("sliding_speed", &[])],
@@ -103,15 +110,15 @@ pub struct Meaningless {
     pub beside: Choose,
     /// Full path of the key.
     pub key: &'static str,
-    /// What the value does instead.
+    /// Effect of the value instead.
     pub reason: &'static str,
 }
 
 /// Keys that have no meaning beside a value of another key.
 pub const MEANINGLESS: &[Meaningless] = &[
-    Meaningless { beside: mesh::PIN_IS_ROUND, key: "mesh.pin_length", reason: "a round pin is as long as it is wide" },
+    Meaningless { beside: keys::PIN_IS_ROUND, key: "mesh.pin_length", reason: "a round pin is as long as it is wide" },
     Meaningless {
-        beside: mesh::PIN_IS_A_RECTANGLE,
+        beside: keys::PIN_IS_A_RECTANGLE,
         key: "mesh.pin_diameter",
         reason: "a rectangle covers all rows and pin_columns",
     },
@@ -126,3 +133,41 @@ pub const MEANINGLESS: &[Meaningless] = &[
         reason: "with local debris no plateau falls for want of support, it goes when it is worn through",
     },
 ];
+
+/// All of them.
+pub const WAYS: &[Ways] = &[Ways {
+    section: "mesh",
+    sets: [
+        &["inner_radius", "outer_radius", "rows", "disc_columns", "pin_columns", "pin_diameter"],
+        &["pin_width", "pin_length", "cell_size", "mean_radius"],
+    ],
+}];
+
+/// Ways to say the same with different keys of a table: a scene keeps to one of them.
+#[derive(Debug, Clone, Copy)]
+pub struct Ways {
+    /// Table they belong to.
+    pub section: &'static str,
+    /// The keys of each way.
+    pub sets: [&'static [&'static str]; 2],
+}
+
+impl Ways {
+    /// The keys of a way of which any is given; of both, the first. Where none is given, nothing.
+    pub fn chosen(&self, given: impl Fn(&str) -> bool) -> Option<&'static [&'static str]> {
+        self.sets.into_iter().find(|set| set.iter().any(|name| given(&join(self.section, name))))
+    }
+
+    /// The other way than that of this key, if the key is of one.
+    pub fn other(&self, name: &str) -> Option<&'static [&'static str]> {
+        let [first, second] = self.sets;
+        if first.contains(&name) { Some(second) } else { second.contains(&name).then_some(first) }
+    }
+
+    /// The keys of a way that must be given with it, whatever others say.
+    pub fn required(&self, set: &'static [&'static str]) -> impl Iterator<Item = &'static str> {
+        let section = self.section;
+        let need = move |name: &str| find(&join(section, name)).map(|key| key.need);
+        set.iter().copied().filter(move |name| matches!(need(name), Some(Need::OfWay(_))))
+    }
+}

@@ -1,18 +1,51 @@
-//! The table of keys.
+//! Table of all keys: name, kind, default, meaning and role of each, in the order of docs/scenes.md.
+//!
+//! Keys of the mesh, of the parts that a table switches on (friction, heat, emission), of heights and of their preparation are added by
+//! functions of their own.
 
 use plateau_core::observe::EXTRAS;
 
 use super::choices::{self, words};
-use super::key::{Choose, Key, Kind, Need, Role};
-use super::range::Range;
-use super::table::{Table, length};
-use super::{mesh, optional_parts};
-use crate::units::Dimension::{Area, Force, Pressure, RotationalSpeed, SpecificWearRate, Speed, Time};
-use Kind::{Bool, Choice, CountOr, InputFile, Integer, Maps, Number, NumberOr, Rows, Text, Times};
-use Need::{Computed, Default, OneOf, Optional, Required, RequiredUnless, RequiredWithout, SameAs};
+use super::key::{Choose, Key, Kind, Need, Range, Role};
+use crate::units::Dimension::{
+    Angle, Area, Cooling, CoolingPerSpeed, Density, Force, Length, NumberPerMass, Pressure, RotationalSpeed,
+    SpecificHeat, SpecificWearRate, Speed, Temperature, ThermalConductivity, Time, Torque,
+};
+use Kind::{Bool, Choice, CountOr, InputFile, Integer, LengthUnit, Maps, Number, NumberOr, Rows, Text, Times, True};
+use Need::{Computed, Default, OfWay, OneOf, Optional, Required, RequiredUnless, SameAs};
+
+/// Collects keys; `section` is the table to which the next ones belong, `role` what they change.
+pub(super) struct Table {
+    pub(super) keys: Vec<Key>,
+    pub(super) section: &'static str,
+    pub(super) role: Role,
+}
+
+impl Table {
+    /// No keys; the first ones belong to the top of a scene.
+    pub(super) fn new(role: Role) -> Self {
+        Self { keys: Vec::new(), section: "", role }
+    }
+
+    /// Adds a key.
+    pub(super) fn key(&mut self, name: &'static str, kind: Kind, need: Need, meaning: &'static str) -> &mut Key {
+        let place = self.keys.len();
+        self.keys.push(Key { section: self.section, name, kind, need, meaning, role: self.role });
+        &mut self.keys[place]
+    }
+}
+
+/// A length that the resolved scene has in this unit.
+pub(super) const fn length(unit: &'static str, range: Range) -> Kind {
+    Kind::Quantity { dimension: Length, unit, range }
+}
 
 /// Full path of the key of m: a number, or a table with how the run chooses it.
 pub(crate) const ACCELERATION: &str = "numerics.time_acceleration";
+/// Name of the key of a braking torque, in the table of the operation and as a column of a cycle.
+pub(crate) const BRAKING_TORQUE: &str = "braking_torque";
+/// Name of the key of a wear rate on build-up of the disc.
+const AGAINST_SECONDARY: &str = "wear_rate_against_secondary";
 /// Full path of the table of the cycle.
 pub(crate) const CYCLE: &str = "operation.cycle";
 
@@ -35,11 +68,18 @@ pub(super) fn all() -> Vec<Key> {
     table.key("extends", Text, Optional, "scene that this one takes as its base, relative to this file");
 
     table.role = Role::Physics;
-    mesh::add(&mut table);
+    add_mesh(&mut table);
 
     table.section = "operation";
     let force = Kind::Quantity { dimension: Force, unit: "N", range: Range::POSITIVE };
-    table.key("normal_force", force, RequiredWithout(CYCLE), "force that presses the pin on the disc");
+    table.key("normal_force", force, OneOf, "force that presses the pin on the disc");
+    let torque = Kind::Quantity { dimension: Torque, unit: "N m", range: Range::POSITIVE };
+    table.key(
+        BRAKING_TORQUE,
+        torque,
+        OneOf,
+        "torque of friction on the pin, for which it is pressed as hard as it takes",
+    );
     let rotation = Kind::Quantity { dimension: RotationalSpeed, unit: "rpm", range: Range::POSITIVE };
     table.key("rotational_speed", rotation, OneOf, "rotational speed of the disc");
     let speed = Kind::Quantity { dimension: Speed, unit: "m/s", range: Range::POSITIVE };
@@ -76,7 +116,11 @@ pub(super) fn all() -> Vec<Key> {
     table.material("materials.disc_primary", None);
     table.material("materials.disc_secondary", Some("materials.disc_primary"));
     table.material("materials.pin_primary", None);
+    table.wear_by_counterface();
     table.material("materials.pin_secondary", Some("materials.pin_primary"));
+    table.wear_by_counterface();
+    let strength = Kind::Quantity { dimension: Pressure, unit: "Pa", range: Range::POSITIVE };
+    table.key("strength", strength, Optional, "pressure above which build-up on resin breaks away");
     table.section = "materials.pin_resin";
     table.elasticity(Required);
     let wear_height = length("um", Range::NOT_NEGATIVE);
@@ -105,10 +149,16 @@ pub(super) fn all() -> Vec<Key> {
     );
     let pad_share = "pin's share of a deposit on both surfaces, with a pool";
     table.key("pad_share", Number(Range::FRACTION), Default("0.5"), pad_share);
+    table.key(
+        "transport_length",
+        length("um", Range::POSITIVE),
+        Optional,
+        "how far local debris is gathered and spread, so that results do not depend on the cell; without it one cell",
+    );
     table.key("formation", Bool, Default("true"), "whether plateaus form at all");
     table.key("destruction", Bool, Default("true"), "whether unsupported plateaus of the pin break up, with a pool");
 
-    optional_parts::add(&mut table);
+    add_optional_parts(&mut table);
 
     table.section = "disc.surface";
     table.heights();
@@ -214,5 +264,229 @@ impl Table {
         self.elasticity(need);
         let rate = Kind::Quantity { dimension: SpecificWearRate, unit: "1/Pa", range: Range::NOT_NEGATIVE };
         self.key("specific_wear_rate", rate, need, "worn volume per force and sliding distance");
+    }
+
+    fn wear_by_counterface(&mut self) {
+        let rate = Kind::Quantity { dimension: SpecificWearRate, unit: "1/Pa", range: Range::NOT_NEGATIVE };
+        self.key(AGAINST_SECONDARY, rate, Optional, "the same on build-up of the disc, where that is another");
+    }
+}
+
+/// A round pin.
+pub(super) const PIN_IS_ROUND: Choose = Choose { key: "mesh.shape", value: "disc" };
+/// A pin that covers all its rows and columns.
+pub(super) const PIN_IS_A_RECTANGLE: Choose = Choose { key: "mesh.shape", value: "rectangle" };
+
+/// Adds them.
+fn add_mesh(table: &mut Table) {
+    table.section = "mesh";
+    let millimetres = length("mm", Range::POSITIVE);
+    let needed = OfWay(None);
+    table.key("inner_radius", millimetres, needed, "inner radius of the ring");
+    table.key("outer_radius", millimetres, needed, "outer radius of the ring");
+    table.key("rows", Integer(1), needed, "cells along the radius");
+    table.key("disc_columns", Integer(1), needed, "cells around the ring");
+    table.key("pin_columns", Integer(1), needed, "cells that the pin covers along the ring, at most disc_columns");
+    let diameter =
+        "diameter of a round pin in the middle of these rows and columns; required there with shape = \"disc\"";
+    table.key("pin_diameter", millimetres, Optional, diameter);
+    table.key("pin_width", millimetres, needed, "width of the pin along the radius; of a round pin its diameter");
+    let of_rectangle = OfWay(Some(PIN_IS_ROUND));
+    table.key("pin_length", millimetres, of_rectangle, "length of the pin along sliding, at the mean radius");
+    table.key("cell_size", length("um", Range::POSITIVE), needed, "about how large a cell is, in both directions");
+    table.key("mean_radius", millimetres, needed, "radius of the middle of the track");
+    let shapes = Choice(&const { words(&choices::SHAPE) });
+    table.key("shape", shapes, Computed("`\"rectangle\"`"), "outline of the pin seen from above");
+}
+
+/// Adds them all.
+fn add_optional_parts(table: &mut Table) {
+    table.friction();
+    table.thermal();
+    table.emission();
+}
+
+impl Table {
+    fn friction(&mut self) {
+        self.section = "friction";
+        let coefficient = Number(Range::NOT_NEGATIVE);
+        let strength = Kind::Quantity { dimension: Pressure, unit: "MPa", range: Range::NOT_NEGATIVE };
+        let (of_pressure, of_area) =
+            ("shear stress per pressure: the coefficient at high pressure", "shear stress without pressure");
+        self.key("pressure_coefficient", coefficient, Default("0"), of_pressure);
+        self.key("shear_strength", strength, Default("\"0 MPa\""), of_area);
+        self.key("maximum", Number(Range::POSITIVE), Optional, "the largest coefficient of friction");
+        let same = "as above";
+        self.key("secondary.pressure_coefficient", coefficient, Computed(same), of_pressure);
+        self.key("secondary.shear_strength", strength, Computed(same), of_area);
+        self.key("resin.pressure_coefficient", coefficient, Computed(same), of_pressure);
+        self.key("resin.shear_strength", strength, Computed(same), of_area);
+    }
+
+    /// λ, ρ and c, under these names.
+    fn substance(&mut self, names: [&'static str; 3]) {
+        let quantity = |dimension, unit| Kind::Quantity { dimension, unit, range: Range::POSITIVE };
+        self.key(names[0], quantity(ThermalConductivity, "W/(m K)"), Required, "thermal conductivity");
+        self.key(names[1], quantity(Density, "kg/m^3"), Required, "density");
+        self.key(names[2], quantity(SpecificHeat, "J/(kg K)"), Required, "specific heat");
+    }
+
+    fn thermal(&mut self) {
+        self.section = "thermal";
+        let temperature = Kind::Quantity { dimension: Temperature, unit: "degC", range: Range::POSITIVE };
+        self.key("ambient", temperature, Required, "temperature of the air, and of all at the start");
+        let wear = "factor of the wear rates of the pin's plateaus over the temperature of the contact";
+        self.key("wear_rate_factor", Kind::Factor, Optional, wear);
+        let friction = "factor of the coefficient of friction over the temperature of the contact";
+        self.key("friction_factor", Kind::Factor, Optional, friction);
+
+        let area = Kind::Quantity { dimension: Area, unit: "cm^2", range: Range::POSITIVE };
+        let cooling = Kind::Quantity { dimension: Cooling, unit: "W/K", range: Range::NOT_NEGATIVE };
+        let substance = ["conductivity", "density", "specific_heat"];
+        self.section = "thermal.disc";
+        self.substance(substance);
+        self.key("area", area, Required, "area of the disc that takes heat and is cooled");
+        self.key("thickness", length("mm", Range::POSITIVE), Required, "thickness of the disc");
+        self.key("cooling", cooling, Default("\"0 W/K\""), "heat lost to the air per temperature above the ambient");
+        let per_speed = Kind::Quantity { dimension: CoolingPerSpeed, unit: "J/(K rad)", range: Range::NOT_NEGATIVE };
+        self.key(
+            "cooling_per_speed",
+            per_speed,
+            Default("\"0 J/(K rad)\""),
+            "the same per rotational speed, added to it",
+        );
+        let thickness = "thickness of the coating";
+        self.key("coating.thickness", length("um", Range::NOT_NEGATIVE), Required, thickness);
+        self.substance(["coating.conductivity", "coating.density", "coating.specific_heat"]);
+
+        self.section = "thermal.pin";
+        self.substance(substance);
+        self.key("area", area, Required, "cross-section of the pin");
+        self.key("length", length("mm", Range::POSITIVE), Required, "length of the pin up to its holder");
+        self.key("cooling", cooling, Default("\"0 W/K\""), "heat lost to the holder per temperature above the ambient");
+    }
+
+    fn emission(&mut self) {
+        self.section = "emission";
+        let fraction = Number(Range::FRACTION);
+        self.key("pm10_fraction", fraction, Default("0"), "fraction of the emitted mass that is airborne as PM10");
+        self.key("pm25_fraction", fraction, Default("0"), "fraction of the emitted mass that is airborne as PM2.5");
+        let number = Kind::Quantity { dimension: NumberPerMass, unit: "1/kg", range: Range::NOT_NEGATIVE };
+        self.key("number_per_mass", number, Default("\"0 1/kg\""), "particles per mass of PM10");
+        let density = Kind::Quantity { dimension: Density, unit: "kg/m^3", range: Range::POSITIVE };
+        self.key("pin_density", density, Required, "density of what wears off the pin");
+        self.key("disc_density", density, Required, "density of what wears off the disc");
+        let factor = "factor of the number of particles over the temperature of the contact; needs [thermal]";
+        self.key("number_factor", Kind::Factor, Optional, factor);
+    }
+}
+
+const ABOVE_1: Range = Range::new(1.0, false, f64::INFINITY, false);
+
+impl Table {
+    /// Sources of the heights of a body: a file, random numbers or nothing.
+    pub(super) fn heights(&mut self) {
+        self.key("file", InputFile, OneOf, "measured heights: .sdf .h5 .nc .txt .xyz .csv .npy .npz .png .tif");
+        self.key(
+            "dataset",
+            Text,
+            Optional,
+            "dataset in an HDF5 file, array in an .npz: metres, shape (columns, rows); number of a table in a text",
+        );
+        let time = Kind::Quantity { dimension: Time, unit: "s", range: Range::NOT_NEGATIVE };
+        self.key("at", time, Optional, "time of the map of a run file that is taken; without it the last one is");
+        self.key("unit", LengthUnit, Optional, "what the number 1 stands for, for text, .npy and decimal images");
+        let pitch = Kind::Lengths { count: 2, single: true, unit: "um", range: Range::POSITIVE };
+        self.key(
+            "pitch",
+            pitch,
+            Optional,
+            "distance of points, or those along x and y, for files that do not state it",
+        );
+        let range = Kind::Lengths { count: 2, single: false, unit: "um", range: Range::ANY };
+        self.key("height_range", range, Optional, "heights of black and white, for images");
+        let decimal = Choice(&const { words(&choices::DECIMAL) });
+        self.key("decimal", decimal, Optional, "decimal mark of a text file, where its content does not tell it");
+        self.key("skip", Integer(0), Optional, "lines of a text file before the table that are not read");
+        let lay = Choice(&const { words(&choices::LAY) });
+        self.key(
+            "profile_lay",
+            lay,
+            Optional,
+            "the file is a profile: whether its surface has grooves along or across sliding, or no direction",
+        );
+        self.key("synthetic.seed", Integer(0), Default("0"), "seed of the random heights");
+        self.key("synthetic.rms_height", length("um", Range::NOT_NEGATIVE), Required, "realised rms height");
+        let positive = length("um", Range::POSITIVE);
+        self.key("synthetic.correlation_length", positive, OneOf, "length l of the autocorrelation exp(-(r/l)^2)");
+        let across = "another length l across the sliding direction: a lay";
+        self.key("synthetic.correlation_length_across", positive, Optional, across);
+        self.key("synthetic.roll_off", positive, OneOf, "wavelength from which down the spectrum falls as a power law");
+        self.key(
+            "synthetic.hurst",
+            Number(Range::FRACTION),
+            Optional,
+            "Hurst exponent of the power law, 0 rough to 1 smooth; required beside roll_off",
+        );
+        self.key("synthetic.short_cutoff", positive, Optional, "wavelength at which the power law ends");
+        self.key("synthetic.patch", length("mm", Range::POSITIVE), Optional, "length after which the heights repeat");
+        self.key("synthetic.skewness", Number(Range::ANY), Default("0"), "skewness of the heights");
+        self.key("synthetic.kurtosis", Number(ABOVE_1), Default("3"), "kurtosis of the heights, 3 for normal ones");
+        self.key("flat", True, OneOf, "all heights zero");
+        self.key("mirror", Bool, Default("false"), "whether the heights are a view of the face, to be mirrored");
+    }
+
+    /// Preparation of the heights before the first step.
+    pub(super) fn preparation(&mut self) {
+        self.straightening();
+        let levels = Choice(&const { words(&choices::LEVEL) });
+        self.key(
+            "level",
+            levels,
+            Default("\"none\""),
+            "form that is taken out: none, the mean, the plane, second order",
+        );
+        let slope = "slope beyond which points of spikes and pits are taken out";
+        self.key("outlier_slope", Number(Range::POSITIVE), Optional, slope);
+        let outliers = "robust standard deviations from the median beyond which points are taken out";
+        self.key("outliers", Number(Range::POSITIVE), Optional, outliers);
+        let fills = Choice(&const { words(&choices::FILL) });
+        self.key("fill", fills, Optional, "what missing points and outliers get; without it they are an error");
+        self.key("pixel", length("um", Range::POSITIVE), Optional, "pixel pitch in place of the file's own");
+        let nesting_index = length("um", Range::POSITIVE);
+        self.key(
+            "s_filter",
+            nesting_index,
+            Optional,
+            "nesting index of a Gaussian filter that takes out shorter waves",
+        );
+        self.key("l_filter", nesting_index, Optional, "nesting index of a Gaussian filter that takes out longer waves");
+        self.key("cutoff", length("um", Range::NOT_NEGATIVE), Optional, "height above the mean at which peaks are cut");
+        let repeat = "whether the patch is tiled over the ring or pin, mirrored from tile to tile";
+        self.key("repeat", Bool, Computed("`false`"), repeat);
+        let extend = "random heights with the statistics of the patch in place of the patch itself";
+        self.key("extend", Choice(&const { words(&choices::EXTEND) }), Optional, extend);
+        self.key("extend_seed", Integer(0), Computed("`0`"), "seed of the random heights of `extend`");
+        self.key("scale", Number(Range::ANY), Default("1"), "factor of the heights");
+    }
+}
+
+impl Table {
+    /// Adds them.
+    fn straightening(&mut self) {
+        let range = |range| Kind::Lengths { count: 2, single: false, unit: "mm", range };
+        let along = "part that is kept along the sliding direction: from, to, from the first corner";
+        self.key("crop.along", range(Range::NOT_NEGATIVE), Optional, along);
+        let across = "part that is kept across the sliding direction: from, to, outward";
+        self.key("crop.across", range(Range::NOT_NEGATIVE), Optional, across);
+        let centre = "centre of the ring of which the patch is a sector, along and across from the first corner";
+        self.key("unroll.centre", range(Range::ANY), Required, centre);
+        let radii = "inner and outer radius that are kept; without them the largest rectangle that was measured";
+        self.key("unroll.radii", range(Range::NOT_NEGATIVE), Optional, radii);
+        let angle = Kind::Quantity { dimension: Angle, unit: "deg", range: Range::ANY };
+        let turn = "how far the heights are turned, counterclockwise; interpolated between quarters of a turn";
+        self.key("rotate", angle, Optional, turn);
+        let flips = Choice(&const { words(&choices::FLIP) });
+        self.key("flip", flips, Optional, "reverses the heights along or across the sliding direction");
     }
 }

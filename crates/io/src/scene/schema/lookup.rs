@@ -1,10 +1,11 @@
-//! Keys and tables of a scene by their paths.
+//! Keys and tables of a scene by their paths, the meaning of tables, and advice on keys that no scene has.
 
 use std::collections::HashMap;
 use std::sync::LazyLock;
 
-use super::key::{Key, Kind, Role, is_below};
+use super::key::{Key, Kind, Role, is_below, join};
 use super::keys::all;
+use crate::text::{nearest, short};
 
 /// Every key, in the order of docs/scenes.md.
 pub fn keys() -> &'static [Key] {
@@ -29,12 +30,12 @@ pub(crate) fn optional_table(section: &str) -> Option<&'static str> {
     OPTIONAL_TABLES.iter().copied().find(|table| section == *table || is_below(section, table))
 }
 
-/// Whether keys live below this path.
+/// Tells whether keys live below this path.
 pub fn is_table(path: &str) -> bool {
     path.is_empty() || BY_PATH.keys().any(|key| is_below(key, path))
 }
 
-/// Whether "none" takes what has this path out of a scene: a step of a preparation, be it a key or a table such as `crop`.
+/// Tells whether "none" takes what has this path out of a scene: a step of a preparation, be it a key or a table such as `crop`.
 pub(crate) fn may_be_none(path: &str) -> bool {
     let is_step = |path: &str| path.rsplit_once('.').is_some_and(|(above, _)| above.ends_with(".prepare"));
     find(path).map_or_else(|| is_table(path) && is_step(path), Key::may_be_none)
@@ -47,14 +48,146 @@ pub(crate) fn sections() -> Vec<&'static str> {
     sections
 }
 
-/// What changes with the key with this full path; of one that is not known (any more, or yet) what is simulated.
+/// Role of the key with this full path; of one that is not known (any more, or yet) what is simulated.
 pub fn role(path: &str) -> Role {
     find(path).map_or(Role::Physics, |key| key.role)
 }
 
-/// Whether the key with this full path names a file whose content is read.
+/// Tells whether the key with this full path names a file whose content is read.
 pub fn is_input(path: &str) -> bool {
     find(path).is_some_and(|key| key.kind == Kind::InputFile)
+}
+
+/// Path of every table and what it is for; the first is the top of a scene.
+const TABLES: &[(&str, &str)] = &[
+    ("", "a simulation of a pin on a coated disc"),
+    ("mesh", "the ring that the pin slides on, and its cells"),
+    ("operation", "load, speed and how long"),
+    ("operation.cycle", "load and speed that change with time, see docs/drive.md"),
+    ("contact", "the elastic foundation that carries the load"),
+    ("materials", "stiffness and wear of what touches"),
+    ("materials.disc_primary", "the disc's coating"),
+    ("materials.disc_secondary", "compacted debris on the disc"),
+    ("materials.pin_primary", "the pin's fibres"),
+    ("materials.pin_secondary", "compacted debris on the pin"),
+    ("materials.pin_resin", "the pin between its fibres"),
+    ("plateaus", "how wear debris becomes secondary plateaus"),
+    ("friction", "friction of what touches, see docs/drive.md; without this table there is no friction"),
+    ("friction.secondary", "where compacted debris has another friction"),
+    ("friction.resin", "where resin has another friction"),
+    ("thermal", "heat of friction and what it changes; needs [friction]"),
+    ("thermal.disc", "the disc below its coating, and how it is cooled"),
+    ("thermal.disc.coating", "the disc's coating, as heat sees it"),
+    ("thermal.pin", "the pin as heat sees it"),
+    ("emission", "how much of the debris that leaves the contact is airborne"),
+    ("disc", "the disc's initial surface"),
+    ("disc.surface", "where the disc's initial heights come from"),
+    ("disc.surface.synthetic", "random heights with given statistics"),
+    ("disc.prepare", "what is done to the disc's heights, in this order"),
+    ("disc.prepare.crop", "the part of the heights that is kept"),
+    ("disc.prepare.unroll", "makes arc length and radius of a sector of a ring that was measured in x and y"),
+    ("pin", "the pin's fibres and initial surface"),
+    ("pin.base", "where the pin has fibre and where resin"),
+    ("pin.base.synthetic", "random fibres with given statistics"),
+    ("pin.surface", "where the pin's initial heights come from; they grow away from the disc"),
+    ("pin.surface.synthetic", "random heights with given statistics"),
+    ("pin.prepare", "what is done to the pin's heights, in this order"),
+    ("pin.prepare.crop", "the part of the heights that is kept"),
+    ("pin.prepare.unroll", "makes arc length and radius of a sector of a ring that was measured in x and y"),
+    ("numerics", "how time is stepped, and on how many cores"),
+    ("numerics.time_acceleration", "acceleration that the run chooses itself, see docs/evidence/accuracy.md"),
+    ("output", "the run file and what is written to it"),
+];
+
+/// Meaning of a table, in one line; `None` if no scene has it.
+pub fn table_meaning(path: &str) -> Option<&'static str> {
+    TABLES.iter().find(|(known, _)| *known == path).map(|(_, meaning)| *meaning)
+}
+
+/// Keys that one may expect but that have no meaning where they stand: end of the path, why, what to use.
+const EXPLAINED: &[(&str, &str)] = &[
+    (
+        "materials.pin_resin.specific_wear_rate",
+        "resin has no specific wear rate, it loses a whole height at once when it touches: give wear_height",
+    ),
+    ("disc_primary.wear_height", ONLY_RESIN),
+    ("disc_secondary.wear_height", ONLY_RESIN),
+    ("pin_primary.wear_height", ONLY_RESIN),
+    ("pin_secondary.wear_height", ONLY_RESIN),
+];
+const ONLY_RESIN: &str = "only materials.pin_resin loses a wear height: give specific_wear_rate";
+
+/// Advice on the unknown key `name` in the table `table`.
+pub(crate) fn unknown(table: &str, name: &str) -> String {
+    let path = join(table, name);
+    if let Some((_, why)) = EXPLAINED.iter().find(|(end, _)| path.ends_with(end)) {
+        return format!("unknown key: {why}");
+    }
+    if find(name).is_some() {
+        return "unknown key here, it belongs at the top, before the first table".to_owned();
+    }
+    if table.split('.').any(|part| part == name) {
+        return format!("unknown key, keys below [{table}] stand without the name of the table before them");
+    }
+    let tables = tables().into_iter().filter(|other| known(&join(other, name)));
+    if let Some((first, more)) = of_the_same_body(table, tables.collect()).split_first() {
+        let more: String = more.iter().map(|table| format!(" or [{table}]")).collect();
+        return format!("unknown key here, it belongs in [{first}]{more}");
+    }
+    let siblings = children(table);
+    if let Some(sibling) = nearest(name, siblings.iter().map(String::as_str)) {
+        return format!("unknown key, did you mean \"{sibling}\"?");
+    }
+    let elsewhere = || keys().iter().filter(|key| !key.section.is_empty());
+    let like = nearest(name, elsewhere().map(|key| key.name));
+    if let Some(key) = elsewhere().find(|key| Some(key.name) == like) {
+        return format!("unknown key, did you mean \"{}\" in [{}]?", key.name, key.section);
+    }
+    let place = if table.is_empty() { "a scene".to_owned() } else { format!("[{}]", short(table)) };
+    format!("unknown key, {place} has {}", siblings.join(", "))
+}
+
+/// Of several tables those of the same body (disc, pin, ...) as `table`, if there are any.
+fn of_the_same_body(table: &str, tables: Vec<String>) -> Vec<String> {
+    let body = |table: &str| table.split('.').next().map(str::to_owned);
+    let same: Vec<_> = tables.iter().filter(|other| body(other) == body(table)).cloned().collect();
+    if same.is_empty() { tables } else { same }
+}
+
+fn known(path: &str) -> bool {
+    find(path).is_some() || is_table(path)
+}
+
+/// Names directly below a table, in the order of docs/scenes.md.
+pub(super) fn children(table: &str) -> Vec<String> {
+    let mut names: Vec<String> = Vec::new();
+    for path in keys().iter().map(Key::path) {
+        let rest = if table.is_empty() {
+            path.as_str()
+        } else if is_below(&path, table) {
+            &path[table.len() + 1..]
+        } else {
+            continue;
+        };
+        let name = rest.split('.').next().unwrap_or(rest);
+        if !names.iter().any(|known| known == name) {
+            names.push(name.to_owned());
+        }
+    }
+    names
+}
+
+/// Every table below the top, in the order of docs/scenes.md.
+fn tables() -> Vec<String> {
+    let mut tables: Vec<String> = Vec::new();
+    for key in keys() {
+        for table in [Some(key.section.to_owned()), key.inline_table()].into_iter().flatten() {
+            if !table.is_empty() && !tables.contains(&table) {
+                tables.push(table);
+            }
+        }
+    }
+    tables
 }
 
 #[cfg(test)]
@@ -62,6 +195,7 @@ mod tests {
     use super::super::exclusions::GROUPS;
     use super::super::key::join;
     use super::*;
+    use crate::scene::schema::key::Key;
 
     #[test]
     fn every_path_is_there_once_and_every_group_member_is_a_key_or_table() {
@@ -79,5 +213,36 @@ mod tests {
                 }
             }
         }
+    }
+
+    #[test]
+    fn every_table_of_the_keys_is_explained_and_no_other() {
+        for path in keys().iter().map(Key::path) {
+            for (end, _) in path.match_indices('.') {
+                assert!(table_meaning(&path[..end]).is_some(), "{}", &path[..end]);
+            }
+        }
+        for (path, _) in TABLES {
+            assert!(is_table(path), "{path}");
+        }
+    }
+
+    #[test]
+    fn a_misplaced_or_mistyped_key_is_told_where_it_belongs() {
+        assert_eq!(unknown("mesh", "row"), "unknown key, did you mean \"rows\"?");
+        assert_eq!(unknown("", "contacts"), "unknown key, did you mean \"contact\"?");
+        assert_eq!(unknown("mesh", "normal_force"), "unknown key here, it belongs in [operation]");
+        assert_eq!(unknown("disc.prepare", "seed"), "unknown key here, it belongs in [disc.surface.synthetic]");
+        assert_eq!(unknown("contact", "level"), "unknown key here, it belongs in [disc.prepare] or [pin.prepare]");
+        assert_eq!(unknown("output", "title"), "unknown key here, it belongs at the top, before the first table");
+        assert_eq!(unknown("", "normal_forces"), "unknown key, did you mean \"normal_force\" in [operation]?");
+        assert_eq!(
+            unknown("operation", "operation"),
+            "unknown key, keys below [operation] stand without the name of the table before them"
+        );
+        assert!(unknown("disc.prepare", "disc").contains("keys below [disc.prepare] stand without the name"));
+        assert_eq!(unknown("contact", "zzz"), "unknown key, [contact] has foundation_height, load_tolerance");
+        assert!(unknown("materials.pin_resin", "specific_wear_rate").contains("give wear_height"));
+        assert!(unknown("materials.pin_primary", "wear_height").contains("give specific_wear_rate"));
     }
 }

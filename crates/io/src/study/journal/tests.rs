@@ -3,12 +3,8 @@
 use std::fs;
 use std::path::Path;
 
-use super::line::line;
-use super::merge::FEW;
-use super::shard::{COMPLETE, OPEN, shards};
-use super::{Journal, Shard, merge};
-use crate::study::identity::Identity;
-use crate::study::record::{Outcome, Record, Series};
+use super::{COMPLETE, FEW, Journal, OPEN, Shard, line, merge, next_line, shards};
+use crate::study::record::{Identity, Outcome, Record, Series};
 
 fn record(identity: &str, finished: bool) -> Record {
     let series = Series::new(vec!["time".into()], vec![vec![1.0, 2.0]]).pack();
@@ -199,4 +195,18 @@ fn what_is_no_file_is_no_shard() {
     fs::create_dir(folder.path().join("h_1_0-1.open")).unwrap();
     assert!(Journal::read(folder.path()).unwrap().is_empty());
     merge(folder.path(), "h").unwrap();
+}
+
+#[test]
+fn a_line_without_end_takes_no_memory() {
+    let mut text = "ab\ncdefghij\nkl\nmnop".as_bytes();
+    let (mut line, mut lines) = (Vec::new(), Vec::new());
+    loop {
+        match next_line(&mut text, &mut line, 4).unwrap() {
+            0 => break,
+            length => lines.push((length, String::from_utf8(line.clone()).unwrap())),
+        }
+    }
+    let expected = [(3, "ab\n"), (9, ""), (3, "kl\n"), (4, "")];
+    assert_eq!(lines, expected.map(|(length, text)| (length, text.to_owned())));
 }

@@ -4,13 +4,13 @@ use std::{fmt, io};
 
 use thiserror::Error;
 
-use crate::brief;
 use crate::hdf5_file::OpenError;
 use crate::memory::NoRoom;
 use crate::number;
 use crate::run_file::ReadError;
-use crate::surface::instrument::BY_SURFACE_TOPOGRAPHY;
+use crate::surface::format::CONVERSION;
 use crate::surface::options::MOST_POINTS;
+use crate::text::list;
 
 /// Why an HDF5 file gives no surface.
 #[derive(Debug, Error)]
@@ -74,9 +74,7 @@ pub enum Hdf5Error {
         problem: String,
     },
     /// A file of Zygo.
-    #[error(
-        "dataset {dataset} is of a Zygo file (.datx), which is not read; convert it to SDF: {BY_SURFACE_TOPOGRAPHY}"
-    )]
+    #[error("dataset {dataset} is of a Zygo file (.datx), which is not read as it is; {CONVERSION}")]
     Zygo {
         /// The dataset.
         dataset: String,
@@ -167,7 +165,7 @@ impl fmt::Display for AtTime<'_> {
         match self.0 {
             None => f.write_str(": output.maps of its scene says which are recorded"),
             Some((at, times)) => {
-                write!(f, " at {}, its maps are at {}", seconds(at), brief::list(times.iter().map(seconds), ", "))
+                write!(f, " at {}, its maps are at {}", seconds(at), list(times.iter().map(seconds), ", "))
             }
         }
     }

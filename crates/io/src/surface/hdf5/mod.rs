@@ -1,10 +1,8 @@
 //! Heights and fibre maps in HDF5 files, netCDF-4 and run files among them: shape (columns, rows) unless the dimensions are named
 //! x and y, heights in m.
 
-mod dimensions;
 mod error;
-mod heights;
-mod packing;
+mod netcdf;
 mod recorded;
 
 use std::path::Path;
@@ -12,6 +10,7 @@ use std::path::Path;
 use hdf5::Dataset;
 use hdf5::types::{TypeDescriptor, VarLenUnicode};
 use ndarray::ArrayView2;
+use netcdf::{Dimensions, Packing, is_metre, numbers, stated_unit};
 use plateau_core::model::state::Base;
 use plateau_core::surface::Patch;
 
@@ -19,11 +18,9 @@ use super::options::{MOST_POINTS, agreed_pitch};
 use crate::hdf5_file::{self, text_attribute};
 use crate::memory::refuse_beyond;
 use crate::text::short;
-use dimensions::{Dimensions, is_metre};
-use packing::{Packing, numbers};
 
 pub use error::Hdf5Error;
-pub(super) use heights::Heights;
+pub(super) use recorded::Heights;
 
 /// Datasets named in a message.
 const NAMED: usize = 12;
@@ -100,8 +97,23 @@ pub(super) fn heights(path: &Path, dataset: Option<&str>, at: Option<f64>) -> Re
         return Err(Hdf5Error::Infinite { dataset: name, count, points: heights.len() });
     }
     let ((columns, rows), heights) = dimensions.lay_out(shape, heights);
-    let notes = [Some(format!("dataset {name}")), dimensions.note(), packing.note()].into_iter().flatten().collect();
-    Ok(Heights { columns, rows, pitch, heights, body: None, notes, warnings: Vec::new() })
+    let converted = converted(&dataset)?;
+    let is_converted = converted.is_some();
+    let notes = [Some(format!("dataset {name}")), converted, dimensions.note(), packing.note()];
+    let notes = notes.into_iter().flatten().collect();
+    Ok(Heights { columns, rows, pitch, heights, is_converted, body: None, notes, warnings: Vec::new() })
+}
+
+/// From which file the heights were converted, and by what, if they were.
+fn converted(dataset: &Dataset) -> hdf5::Result<Option<String>> {
+    if dataset.attr("source_file").is_err() {
+        return Ok(None);
+    }
+    let text = |name: &str| text_attribute(dataset, name).map(Option::unwrap_or_default);
+    let (file, digest, by) = (text("source_file")?, text("source_sha256")?, text("converted_by")?);
+    let digest: String = digest.chars().filter(char::is_ascii_hexdigit).take(64).collect();
+    let [file, by] = [&file, &by].map(|text| short(text).escape_debug().to_string());
+    Ok(Some(format!("converted from {file} (SHA-256 {digest}) by {by}")))
 }
 
 /// The distance of points that the attribute `pitch` and the coordinates tell, m.
@@ -129,20 +141,6 @@ fn refuse_other_units(dataset: &Dataset) -> Result<(), Hdf5Error> {
     }
     let found = format!("units = \"{}\"", short(&found).escape_debug());
     Err(Hdf5Error::Attribute { dataset: dataset.name(), found, expected: "\"m\"" })
-}
-
-/// The text of the attribute `units`, if it is there.
-fn stated_unit(dataset: &Dataset) -> Result<Option<String>, Hdf5Error> {
-    let unit = text_attribute(dataset, "units")?;
-    if unit.is_none() && dataset.attr("units").is_ok() {
-        let found = match &numbers(dataset, "units")?[..] {
-            [] => "units, which is not one text".to_owned(),
-            numbers => format!("units = {numbers:?}"),
-        };
-        let expected = "the name of a unit as one text: correct it, or delete it where the numbers are in m";
-        return Err(Hdf5Error::Attribute { dataset: dataset.name(), found, expected });
-    }
-    Ok(unit)
 }
 
 /// The attribute `pitch`, m: one length, or those along x and y.

@@ -1,4 +1,4 @@
-//! Heights that a run recorded, as the surface of another run.
+//! Heights of an HDF5 file, and those that a run recorded, as the surface of another run.
 
 use std::path::Path;
 
@@ -6,11 +6,26 @@ use plateau_core::observe::{Map, MapValues};
 use plateau_core::surface::Body;
 
 use super::error::Hdf5Error;
-use super::heights::Heights;
-use crate::hdf5_file;
 use crate::memory::refuse_beyond;
-use crate::number;
 use crate::run_file::{ReadError, RunFile, State, map_path};
+use crate::{hdf5_file, number};
+
+/// Heights of an HDF5 file, column by column.
+pub(in crate::surface) struct Heights {
+    pub(in crate::surface) columns: usize,
+    pub(in crate::surface) rows: usize,
+    /// Distance of neighbouring points along x and y, m, if the dataset states it.
+    pub(in crate::surface) pitch: Option<[f64; 2]>,
+    pub(in crate::surface) heights: Vec<f64>,
+    /// They are those of an instrument, peaks positive, and were converted from its file.
+    pub(in crate::surface) is_converted: bool,
+    /// The body of which a run recorded them.
+    pub(in crate::surface) body: Option<Body>,
+    /// What they are, one fact a line.
+    pub(in crate::surface) notes: Vec<String>,
+    /// What is to be warned of.
+    pub(in crate::surface) warnings: Vec<String>,
+}
 
 /// Maps that are heights.
 const HEIGHTS: [Map; 4] = [Map::DiscHeight, Map::DiscSubstrate, Map::PinHeight, Map::PinSubstrate];
@@ -73,6 +88,7 @@ pub(super) fn heights(path: &Path, dataset: Option<&str>, at: Option<f64>) -> Re
         rows,
         pitch: Some([run.mesh().column_width(), run.mesh().row_height()]),
         heights,
+        is_converted: false,
         body: Some(body),
         notes: vec![format!("dataset /{}", map_path(map)), format!("recorded by a run at {} s", number::plain(time))],
         warnings,

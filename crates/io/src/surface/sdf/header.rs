@@ -1,11 +1,355 @@
-//! What the header of an SDF file says, checked.
+//! What an SDF file can be, hold and lack: dialects, types of numbers, the checked header, errors.
+
+use std::{fmt, io};
 
 use plateau_core::surface::Patch;
+use thiserror::Error;
 
-use super::error::{Position, SdfError};
-use super::kind::Dialect;
-use super::number::DataType;
 use crate::surface::profiles::Profiles;
+
+/// Where in a file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Position {
+    /// Line of a text, counted from 1.
+    Line(usize),
+    /// Byte, counted from 0.
+    Byte(usize),
+}
+
+impl fmt::Display for Position {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Line(line) => write!(f, "line {line}"),
+            Self::Byte(byte) => write!(f, "byte {byte}"),
+        }
+    }
+}
+
+/// Why an SDF file cannot be read.
+#[derive(Debug, Error)]
+pub enum SdfError {
+    /// The operating system refused.
+    #[error("cannot be read: {0}")]
+    System(#[from] io::Error),
+    /// It does not start as an SDF file does.
+    #[error(
+        "this is not an SDF file: starts with \"{found}\", expected \"aISO-1.0\", \"aISO-2.0\", \"aBCR-1.0\" or the same \
+         with \"b\""
+    )]
+    Magic {
+        /// First bytes.
+        found: String,
+    },
+    /// It ends too early.
+    #[error("the file is truncated: ends at byte {found}, expected {needed} bytes for {what}")]
+    Truncated {
+        /// Bytes that are there.
+        found: u64,
+        /// Bytes that are needed.
+        needed: u128,
+        /// What they are needed for.
+        what: String,
+    },
+    /// A record of an ASCII file does not end.
+    #[error("the file is truncated: the {record} ends at {at} without the line \"*\" that closes it")]
+    Unclosed {
+        /// Header or data.
+        record: &'static str,
+        /// Last line.
+        at: Position,
+    },
+    /// A line of the header is no field.
+    #[error("{at}: found \"{found}\", expected a header field \"Name = Value\", one of up to 100, or the line \"*\"")]
+    NotAField {
+        /// Where.
+        at: Position,
+        /// The line.
+        found: String,
+    },
+    /// A field of the header is missing.
+    #[error("{at}: the header ends without the field {field}")]
+    MissingField {
+        /// Where the header ends.
+        at: Position,
+        /// Which field.
+        field: &'static str,
+    },
+    /// A field of the header stands twice.
+    #[error("{at}: the field {field} stands twice")]
+    Twice {
+        /// Where the second stands.
+        at: Position,
+        /// Which field.
+        field: String,
+    },
+    /// A field of the header has a value that cannot be.
+    #[error("{at}: {field} is {found}, expected {expected}")]
+    Field {
+        /// Where.
+        at: Position,
+        /// Which field.
+        field: &'static str,
+        /// Its value.
+        found: String,
+        /// What can be.
+        expected: &'static str,
+    },
+    /// A height is none.
+    #[error("{at}: found the height \"{found}\", expected {expected}")]
+    Height {
+        /// Where.
+        at: Position,
+        /// The number as it stands in the file.
+        found: String,
+        /// What can be.
+        expected: &'static str,
+    },
+    /// Fewer heights than promised.
+    #[error("{at}: the data end after {found} heights, expected NumPoints x NumProfiles = {points} x {profiles}")]
+    Count {
+        /// Where the data end.
+        at: Position,
+        /// Heights found.
+        found: usize,
+        /// Points of a profile.
+        points: usize,
+        /// Profiles.
+        profiles: usize,
+    },
+    /// More heights than promised.
+    #[error("{at}: more heights than NumPoints x NumProfiles = {points} x {profiles}")]
+    TooMany {
+        /// Where the first height too many stands.
+        at: Position,
+        /// Points of a profile.
+        points: usize,
+        /// Profiles.
+        profiles: usize,
+    },
+}
+
+/// Document that defines a file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Dialect {
+    /// BCR-1.0 (the report of the Community Bureau of Reference), with unsigned integers too.
+    Bcr1,
+    /// Version 1.0 of ISO 25178-71.
+    Iso1,
+    /// Version 2.0 of ISO 25178-71:2026: more points a profile, more types of numbers.
+    Iso2,
+}
+
+/// How numbers are stored.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Encoding {
+    /// As text.
+    Ascii,
+    /// As they are in memory, little endian.
+    Binary,
+}
+
+/// A dialect of SDF and how it stores numbers.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct SdfKind {
+    /// The dialect.
+    pub dialect: Dialect,
+    /// How numbers are stored.
+    pub encoding: Encoding,
+}
+
+impl SdfKind {
+    const ALL: [Self; 6] = {
+        use {Dialect::*, Encoding::*};
+        [
+            Self { dialect: Bcr1, encoding: Ascii },
+            Self { dialect: Bcr1, encoding: Binary },
+            Self { dialect: Iso1, encoding: Ascii },
+            Self { dialect: Iso1, encoding: Binary },
+            Self { dialect: Iso2, encoding: Ascii },
+            Self { dialect: Iso2, encoding: Binary },
+        ]
+    };
+
+    /// The eight bytes that such a file starts with.
+    pub fn magic(self) -> &'static str {
+        match (self.encoding, self.dialect) {
+            (Encoding::Ascii, Dialect::Bcr1) => "aBCR-1.0",
+            (Encoding::Ascii, Dialect::Iso1) => "aISO-1.0",
+            (Encoding::Ascii, Dialect::Iso2) => "aISO-2.0",
+            (Encoding::Binary, Dialect::Bcr1) => "bBCR-1.0",
+            (Encoding::Binary, Dialect::Iso1) => "bISO-1.0",
+            (Encoding::Binary, Dialect::Iso2) => "bISO-2.0",
+        }
+    }
+
+    /// The kind of a file that starts like this. BCR-1.0 allows the first letter to be large.
+    pub(in crate::surface) fn from_magic(head: &[u8]) -> Option<Self> {
+        let (first, rest) = head.split_first()?;
+        Self::ALL.into_iter().find(|kind| {
+            let magic = kind.magic().as_bytes();
+            first.eq_ignore_ascii_case(&magic[0]) && rest.starts_with(&magic[1..])
+        })
+    }
+}
+
+impl fmt::Display for Dialect {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Bcr1 => "BCR-1.0",
+            Self::Iso1 => "ISO-1.0",
+            Self::Iso2 => "ISO-2.0",
+        })
+    }
+}
+
+impl fmt::Display for SdfKind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let encoding = match self.encoding {
+            Encoding::Ascii => "ASCII",
+            Encoding::Binary => "binary",
+        };
+        write!(f, "{} {encoding}", self.dialect)
+    }
+}
+
+/// Text without a byte order mark and leading blanks.
+pub(in crate::surface) fn without_margin(text: &[u8]) -> &[u8] {
+    text.strip_prefix(b"\xef\xbb\xbf").unwrap_or(text).trim_ascii_start()
+}
+
+/// Type of the stored numbers.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum DataType {
+    Uint8,
+    Uint16,
+    Uint32,
+    Binary32,
+    Int8,
+    Int16,
+    Int32,
+    Binary64,
+}
+
+/// From here on a binary32 or a binary64 number of BCR-1.0 marks a point that was not measured.
+const BCR_MISSING_32: f32 = 3.4e38;
+pub(super) const BCR_MISSING_64: f64 = 1.7e308;
+
+impl DataType {
+    /// The type with this code. Only BCR-1.0 has unsigned integers: ISO 25178-71 marks missing points by the smallest
+    /// number of a type, which for them is a height. ISO-1.0 itself has the codes 5 to 7; 3 and 4, which ISO-2.0
+    /// adds, mean the same wherever they occur.
+    pub(super) fn from_code(code: i64, dialect: Dialect) -> Option<Self> {
+        Some(match code {
+            0 if dialect == Dialect::Bcr1 => Self::Uint8,
+            1 if dialect == Dialect::Bcr1 => Self::Uint16,
+            2 if dialect == Dialect::Bcr1 => Self::Uint32,
+            3 => Self::Binary32,
+            4 => Self::Int8,
+            5 => Self::Int16,
+            6 => Self::Int32,
+            7 => Self::Binary64,
+            _ => return None,
+        })
+    }
+
+    /// The codes of a dialect, in words.
+    pub(super) fn codes(dialect: Dialect) -> &'static str {
+        match dialect {
+            Dialect::Bcr1 => {
+                "0 (uint8), 1 (uint16), 2 (uint32), 3 (binary32), 4 (int8), 5 (int16), 6 (int32) or 7 (binary64)"
+            }
+            Dialect::Iso1 | Dialect::Iso2 => "3 (binary32), 4 (int8), 5 (int16), 6 (int32) or 7 (binary64)",
+        }
+    }
+
+    /// Bytes of one number.
+    pub(super) fn size(self) -> usize {
+        match self {
+            Self::Uint8 | Self::Int8 => 1,
+            Self::Uint16 | Self::Int16 => 2,
+            Self::Uint32 | Self::Int32 | Self::Binary32 => 4,
+            Self::Binary64 => 8,
+        }
+    }
+
+    /// Smallest and largest number of an integer type.
+    fn integers(self) -> Option<(i64, i64)> {
+        match self {
+            Self::Uint8 => Some((u8::MIN.into(), u8::MAX.into())),
+            Self::Uint16 => Some((u16::MIN.into(), u16::MAX.into())),
+            Self::Uint32 => Some((u32::MIN.into(), u32::MAX.into())),
+            Self::Int8 => Some((i8::MIN.into(), i8::MAX.into())),
+            Self::Int16 => Some((i16::MIN.into(), i16::MAX.into())),
+            Self::Int32 => Some((i32::MIN.into(), i32::MAX.into())),
+            Self::Binary32 | Self::Binary64 => None,
+        }
+    }
+
+    pub(super) fn name(self) -> &'static str {
+        match self {
+            Self::Uint8 => "a uint8 number",
+            Self::Uint16 => "a uint16 number",
+            Self::Uint32 => "a uint32 number",
+            Self::Binary32 => "a binary32 number",
+            Self::Int8 => "an int8 number",
+            Self::Int16 => "an int16 number",
+            Self::Int32 => "an int32 number",
+            Self::Binary64 => "a binary64 number",
+        }
+    }
+
+    /// The number that a text states, NaN if it says that none was measured; nothing if it is no number of this type.
+    pub(super) fn parse(self, text: &[u8], dialect: Dialect) -> Option<f64> {
+        // NaN is not of the standard, but some programs write it.
+        if text.eq_ignore_ascii_case(b"BAD") || text.eq_ignore_ascii_case(b"NaN") {
+            return Some(f64::NAN);
+        }
+        let text = std::str::from_utf8(text).ok()?;
+        let bcr = dialect == Dialect::Bcr1;
+        if let Some((smallest, largest)) = self.integers() {
+            let integer: i64 = text.parse().ok()?;
+            let missing = bcr && integer == largest;
+            return (smallest..=largest).contains(&integer).then_some(if missing { f64::NAN } else { integer as f64 });
+        }
+        let number: f64 = text.parse().ok()?;
+        let from = if self == Self::Binary32 { f64::from(BCR_MISSING_32) } else { BCR_MISSING_64 };
+        Some(if bcr && number >= from { f64::NAN } else { number })
+    }
+
+    /// Gives `take` every number of `bytes`, NaN where none was measured: ISO 25178-71 marks those by the smallest
+    /// number of the type, BCR-1.0 by the largest; NaN is what some programs write.
+    pub(super) fn decode(self, bytes: &[u8], dialect: Dialect, mut take: impl FnMut(f64)) {
+        let bcr = dialect == Dialect::Bcr1;
+        macro_rules! integers {
+            ($type:ty) => {{
+                let missing = if bcr { <$type>::MAX } else { <$type>::MIN };
+                for raw in bytes.as_chunks().0 {
+                    let number = <$type>::from_le_bytes(*raw);
+                    take(if number == missing { f64::NAN } else { f64::from(number) });
+                }
+            }};
+        }
+        macro_rules! reals {
+            ($type:ty, $bcr_missing:expr) => {
+                for raw in bytes.as_chunks().0 {
+                    let number = <$type>::from_le_bytes(*raw);
+                    let missing = if bcr { number >= $bcr_missing } else { number == <$type>::MIN };
+                    take(if missing { f64::NAN } else { f64::from(number) });
+                }
+            };
+        }
+        match self {
+            Self::Uint8 => integers!(u8),
+            Self::Uint16 => integers!(u16),
+            Self::Uint32 => integers!(u32),
+            Self::Int8 => integers!(i8),
+            Self::Int16 => integers!(i16),
+            Self::Int32 => integers!(i32),
+            Self::Binary32 => reals!(f32, BCR_MISSING_32),
+            Self::Binary64 => reals!(f64, BCR_MISSING_64),
+        }
+    }
+}
 
 /// What an SDF file holds.
 #[derive(Debug, Clone, PartialEq)]

@@ -5,19 +5,12 @@
 //! number times `Zscale`, in m. A point that was not measured is `BAD` in ASCII and the smallest number of the data
 //! type in binary; in BCR-1.0 it is the largest number of the data type in both.
 
-mod ascii;
-mod binary;
-mod error;
 mod header;
-mod kind;
-mod lexer;
-mod number;
+mod read;
 mod write;
 
-pub use error::{Position, SdfError};
-pub use header::Surface;
-pub(super) use kind::without_margin;
-pub use kind::{Dialect, Encoding, SdfKind};
+pub(super) use header::without_margin;
+pub use header::{Dialect, Encoding, Position, SdfError, SdfKind, Surface};
 pub(super) use write::{check, most_points, write};
 
 use std::io::BufRead;
@@ -29,7 +22,7 @@ use std::io::BufRead;
 /// number, scale or count.
 pub fn read(mut source: impl BufRead, length: u64) -> Result<Surface, SdfError> {
     match source.fill_buf()?.first() {
-        Some(b'b' | b'B') => binary::read(source, length),
-        _ => ascii::read(source, length),
+        Some(b'b' | b'B') => read::binary(source, length),
+        _ => read::ascii(source, length),
     }
 }

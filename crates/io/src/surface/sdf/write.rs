@@ -5,8 +5,7 @@ use std::io::{self, Write};
 use plateau_core::surface::Patch;
 use thiserror::Error;
 
-use super::kind::{Dialect, Encoding, SdfKind};
-use super::number::BCR_MISSING_64;
+use super::header::{BCR_MISSING_64, Dialect, Encoding, SdfKind};
 use crate::surface::profiles::for_each_profile;
 
 /// Heights of an ASCII file in one line.

@@ -225,34 +225,6 @@ pub enum TextError {
         /// The line before.
         first: usize,
     },
-    /// A line of an instrument's header that cannot be read.
-    #[error("line {line}: found \"{found}\", expected {expected}")]
-    Header {
-        /// Where.
-        line: usize,
-        /// The line.
-        found: String,
-        /// What should be there.
-        expected: &'static str,
-    },
-    /// An export of something else.
-    #[error("line {line}: the file holds \"{found}\", expected heights: export these")]
-    NotHeights {
-        /// Where.
-        line: usize,
-        /// What it holds.
-        found: String,
-    },
-    /// A point outside of what the header states.
-    #[error("line {line}: the point {}, {} lies outside of the {} x {} points that the header states", found[0], found[1], size.0, size.1)]
-    Outside {
-        /// Where.
-        line: usize,
-        /// Its column and row.
-        found: [f64; 2],
-        /// Columns and rows.
-        size: (usize, usize),
-    },
     /// Every line is skipped.
     #[error("skip = {skip} leaves no line of the file")]
     AllSkipped {

@@ -1,9 +1,141 @@
-//! What stands before the numbers of a text file.
+//! What stands before the numbers of a text file: names with values, names of columns, units.
 
-use super::cells::number;
-use super::lengths::{length, length_unit, pitch, positive};
-use super::names::Names;
-use crate::delimited::Decimal;
+use crate::delimited::{Decimal, Separator};
+use crate::units::{self, Dimension};
+
+/// A number that a length can have.
+pub(super) fn positive(number: Option<f64>) -> Option<f64> {
+    number.filter(|number| *number > 0.0 && number.is_finite())
+}
+
+/// A length, m.
+pub(super) fn length(text: &str, decimal: Decimal) -> Option<f64> {
+    let point = match decimal {
+        Decimal::Point => text.to_owned(),
+        Decimal::Comma if text.contains('.') => return None,
+        Decimal::Comma => text.replacen(',', ".", 1),
+    };
+    positive(units::parse(&point, Dimension::Length).ok())
+}
+
+/// A unit of length, or a length.
+pub(super) fn length_unit(text: &str) -> Option<f64> {
+    length(text, Decimal::Point).or_else(|| unit_word(text))
+}
+
+/// A unit of length by its symbol or name, also a German, French, Italian or Spanish one.
+pub(super) fn unit_word(text: &str) -> Option<f64> {
+    match text.to_lowercase().trim_end_matches('s') {
+        "micron" | "micrometer" | "micrometre" | "mikrometer" | "micromètre" | "micrometro" | "micrómetro" => {
+            Some(1e-6)
+        }
+        "nanometer" | "nanometre" | "nanomètre" | "nanometro" | "nanómetro" => Some(1e-9),
+        "millimeter" | "millimetre" | "millimètre" | "millimetro" | "milímetro" => Some(1e-3),
+        _ => length(&format!("1 {text}"), Decimal::Point),
+    }
+}
+
+/// One or two lengths, parted by a comma (unless that is the decimal mark), a semicolon or "x".
+pub(super) fn pitch(text: &str, decimal: Decimal) -> Option<[f64; 2]> {
+    let marks: &[char] = if decimal == Decimal::Point { &[',', ';', 'x'] } else { &[';', 'x'] };
+    match text.split_once(marks) {
+        Some((x, y)) => Some([length(x.trim(), decimal)?, length(y.trim(), decimal)?]),
+        None => length(text, decimal).map(|pitch| [pitch; 2]),
+    }
+}
+
+/// Columns of a table that are used, by their place in a line.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Columns {
+    /// x, y and z of points of a surface.
+    Points([usize; 3]),
+    /// Distance along a profile, and height.
+    Profile([usize; 2]),
+}
+
+/// The names of columns.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Names {
+    /// Line that has them.
+    pub(super) line: usize,
+    /// How many there are.
+    pub(super) count: usize,
+    /// Which are coordinates and heights.
+    pub(super) columns: Columns,
+    /// Where 0 stands for points without a height.
+    pub(super) valid: Option<usize>,
+    /// What 1 stands for in each column, m.
+    pub(super) units: Vec<Option<f64>>,
+}
+
+/// The columns by what is named in them.
+const X: &[&str] = &["x", "lateral"];
+const Y: &[&str] = &["y", "y1"];
+const Z: &[&str] = &["z", "height", "höhe", "hoehe", "raw"];
+
+impl Names {
+    /// Reads names such as "x [um]; y [um]; z [nm]", or "x in µm, y in µm" of a profile; none if the columns of points or
+    /// of a profile are not among them, each once.
+    pub(super) fn read(line: usize, text: &str) -> Option<Self> {
+        let text = text.replace(" [", "[").replace(" (", "(");
+        let mut cells: Vec<&str> = Separator::of(&text).cells(&text, false).collect();
+        while cells.last().is_some_and(|cell| cell.is_empty()) {
+            cells.pop();
+        }
+        let places = |wanted: &[&str]| -> Vec<usize> {
+            (0..cells.len()).filter(|place| wanted.contains(&name(cells[*place]).as_str())).collect()
+        };
+        let columns = match (places(X).as_slice(), places(Y).as_slice(), places(Z).as_slice()) {
+            (&[x], &[y], &[z]) => Columns::Points([x, y, z]),
+            (&[x], [], &[z]) => Columns::Profile([x, z]),
+            // A profile is often given as y over x.
+            (&[x], &[y], []) => Columns::Profile([x, y]),
+            _ => return None,
+        };
+        let valid = places(&["valid"]).first().copied();
+        Some(Self { line, count: cells.len(), columns, valid, units: cells.iter().map(|cell| unit(cell)).collect() })
+    }
+
+    /// The first columns of a table that has no names.
+    pub(super) fn first(line: usize, count: usize, columns: Columns) -> Self {
+        Self { line, count, columns, valid: None, units: vec![None; count] }
+    }
+
+    /// Takes in a line of units below the names, such as "[mm];[mm];[um]"; tells whether it is one.
+    pub(super) fn read_units(&mut self, text: &str) -> bool {
+        let separator = Separator::of(text);
+        let cells: Vec<&str> = separator.cells(text, false).take(self.count + 1).collect();
+        let is_unit = |cell: &&str| bracketed(cell).is_some() || length_unit(cell).is_some() || cell.is_empty();
+        let units: Vec<_> = cells.iter().map(|cell| length_unit(bracketed(cell).unwrap_or(cell))).collect();
+        let fits = cells.len() == self.count && cells.iter().all(is_unit) && units.iter().any(Option::is_some);
+        if fits {
+            self.units = units;
+        }
+        fits
+    }
+}
+
+/// What stands in brackets.
+fn bracketed(cell: &str) -> Option<&str> {
+    let inner = |open, close| cell.strip_prefix(open)?.strip_suffix(close);
+    inner('[', ']').or_else(|| inner('(', ')'))
+}
+
+/// The first word of a name, in small letters.
+fn name(cell: &str) -> String {
+    let end = cell.find([' ', '_', '[', '(']).unwrap_or(cell.len());
+    cell[..end].to_lowercase()
+}
+
+/// The unit in a name: in brackets, or the last word.
+fn unit(cell: &str) -> Option<f64> {
+    let rest = &cell[cell.find([' ', '_', '[', '('])?..];
+    let rest = rest.trim_start_matches([' ', '_']);
+    match bracketed(rest) {
+        Some(unit) => length_unit(unit),
+        None => rest.rsplit(' ').next().and_then(|word| unit_word(word.trim_matches(['[', ']', '(', ')']))),
+    }
+}
 
 /// What stands between a name and its value, and before another name.
 const BEFORE_VALUES: [char; 3] = ['=', ':', '：'];
@@ -20,10 +152,6 @@ pub(super) struct Header {
     pub(super) pitch: Option<[f64; 2]>,
     /// Extent along x and y, m; every point stands for one pitch.
     pub(super) extent: [Option<f64>; 2],
-    /// The same without their unit.
-    pub(super) lengths: [Option<f64>; 2],
-    /// The header is that of SPIP, whose lengths are in nm.
-    pub(super) is_spip: bool,
     /// Columns and rows.
     pub(super) counts: [Option<u64>; 2],
     /// The names of the columns.
@@ -41,7 +169,7 @@ impl Header {
         if self.names.as_mut().is_some_and(|names| names.read_units(text)) {
             return true;
         }
-        // "h=305 w=75": several on a line.
+        // "rows=305 columns=75": several on a line.
         let words = || text.split_whitespace().map(|word| word.split_once('='));
         if words().all(|pair| pair.is_some_and(|(name, value)| !name.is_empty() && !value.is_empty())) {
             words().flatten().for_each(|(name, value)| self.fact(name, value, decimal));
@@ -55,10 +183,7 @@ impl Header {
     /// A name with its value. What is not known, or not understood, states nothing.
     fn fact(&mut self, name: &str, value: &str, decimal: Decimal) {
         let count = || value.parse().ok();
-        let number = || positive(number(value, decimal).ok());
         match name.to_lowercase().as_str() {
-            // Written by digital holographic microscopes, beside a data unit of rad.
-            "height conversion factor (-> m)" => self.unit = number(),
             "unit" | "units" | "z unit" | "z-unit" | "height unit" | "data unit" | "value units" | "einheit"
             | "einheiten" | "werteinheiten" | "z-einheit" | "unités" | "unità valore" | "unidades de valor"
             | "jednotky hodnot" => {
@@ -75,22 +200,15 @@ impl Header {
             "height" | "höhe" | "hoehe" | "hauteur" | "altezza" | "altura" | "výška" => {
                 self.extent[1] = length(value, decimal)
             }
-            "w" | "columns" | "x-pixels" => self.counts[0] = count(),
-            "h" | "rows" | "y-pixels" => self.counts[1] = count(),
-            // Written by SPIP; other programs give the unit of the lengths.
-            "file format" => self.is_spip = value.eq_ignore_ascii_case("ascii"),
-            "x-length" => self.lengths[0] = number(),
-            "y-length" => self.lengths[1] = number(),
-            "bit2nm" => self.unit = self.unit.or(number().map(|factor| factor * 1e-9)),
+            "columns" => self.counts[0] = count(),
+            "rows" => self.counts[1] = count(),
             _ => {}
         }
     }
 
     /// Distance of the points of a matrix, m.
     pub(super) fn matrix_pitch(&self, columns: usize, rows: usize) -> Option<[f64; 2]> {
-        let unit = self.lateral_unit.or(self.is_spip.then_some(1e-9));
-        let extent = |axis: usize| self.extent[axis].or_else(|| Some(self.lengths[axis]? * unit?));
-        let from_extent = || Some([extent(0)? / columns as f64, extent(1)? / rows as f64]);
+        let from_extent = || Some([self.extent[0]? / columns as f64, self.extent[1]? / rows as f64]);
         self.pitch.or_else(from_extent)
     }
 }
@@ -115,7 +233,59 @@ fn pair(text: &str) -> Option<(&str, &str)> {
 }
 
 #[cfg(test)]
-mod tests {
+mod names_tests {
+    use super::*;
+
+    #[test]
+    fn reads_the_names_of_columns() {
+        let read = |text| Names::read(1, text).unwrap();
+        let names = read("X [mm], Y [mm], Intensity, Z [nm]");
+        assert_eq!((names.columns, names.count), (Columns::Points([0, 1, 3]), 4));
+        assert_eq!(names.units, [Some(1e-3), Some(1e-3), None, Some(1e-9)]);
+        assert_eq!(read("\"x (µm)\";\"y (µm)\";\"height\"").units, [Some(1e-6), Some(1e-6), None]);
+        let german = read("X in mm; Y in mm; Hoehe in Mikrometer");
+        assert_eq!(
+            (german.columns, german.units),
+            (Columns::Points([0, 1, 2]), vec![Some(1e-3), Some(1e-3), Some(1e-6)])
+        );
+        assert_eq!(read("x y z").columns, Columns::Points([0, 1, 2]));
+        assert_eq!(read("X [mm] Y [mm] Z [um]").units, [Some(1e-3), Some(1e-3), Some(1e-6)]);
+        assert_eq!(read("X\tY\tZ [2.9e-8 m]").units, [None, None, Some(2.9e-8)]);
+        for none in ["x", "y z", "x y z z", "a b c", "xyz", "x x z", ""] {
+            assert_eq!(Names::read(1, none), None, "{none}");
+        }
+    }
+
+    #[test]
+    fn reads_the_names_of_profiles() {
+        let um = Some(1e-6);
+        for (text, columns, units) in [
+            ("x in µm,y in µm", [0, 1], vec![um, um]),
+            ("index, x in µm,y in µm", [1, 2], vec![None, um, um]),
+            ("X_(microns),y1", [0, 1], vec![um, None]),
+            ("Lateral um,Raw Micrometer,", [0, 1], vec![um, um]),
+            ("X;Y;valid", [0, 1], vec![None; 3]),
+            ("x [mm]\tz [um]", [0, 1], vec![Some(1e-3), um]),
+            ("x z", [0, 1], vec![None; 2]),
+        ] {
+            let names = Names::read(1, text).unwrap();
+            assert_eq!((names.columns, names.units), (Columns::Profile(columns), units), "{text}");
+        }
+    }
+
+    #[test]
+    fn reads_a_line_of_units() {
+        let mut names = Names::read(1, "X;Y;valid").unwrap();
+        for other in ["8.6;106.6;1", "[mm];[mm]", "[1];[1];[1]", "a;b;c"] {
+            assert!(!names.read_units(other), "{other}");
+        }
+        assert!(names.read_units("[mm];[um];[1/0]"));
+        assert_eq!(names.units, [Some(1e-3), Some(1e-6), None]);
+    }
+}
+
+#[cfg(test)]
+mod header_tests {
     use super::*;
 
     fn header(lines: &[&str]) -> Header {
@@ -151,16 +321,8 @@ mod tests {
 
     #[test]
     fn reads_what_programs_write() {
-        // A digital holographic microscope (shared example B), Gwyddion, and ours.
-        let holographic = header(&[
-            "h=305 w=75",
-            "pixel size=3.69862e-007 m",
-            "data unit=rad",
-            "height conversion factor (-> m)=2.91818e-008",
-        ]);
-        assert_eq!(holographic.unit, Some(2.91818e-8));
-        assert_eq!(holographic.pitch, Some([3.69862e-7; 2]));
-        assert_eq!(holographic.counts, [Some(75), Some(305)]);
+        // Gwyddion, and ours.
+        assert_eq!(header(&["rows=305 columns=75"]).counts, [Some(75), Some(305)]);
         let gwyddion = header(&["# Channel: Height", "# Width: 30 µm", "# Height: 20.0 µm", "# Value units: nm"]);
         assert_eq!(gwyddion.matrix_pitch(300, 100), Some([30e-6 / 300.0, 20e-6 / 100.0]));
         assert_eq!(gwyddion.unit, Some(1e-9));
@@ -172,20 +334,6 @@ mod tests {
         for nothing in ["unit: V", "unit: 0 m", "pitch = 5", "pitch = -5 um", "pitch=1 m, 2"] {
             assert_eq!(header(&[nothing]), Header::default(), "{nothing}");
         }
-    }
-
-    #[test]
-    fn reads_the_header_of_spip() {
-        let lines =
-            ["# File Format = ASCII", "# x-pixels = 4", "# y-pixels = 3", "# x-length = 2000", "# y-length = 1500"];
-        let spip = header(&[&lines[..], &["# z-unit = um", "# Start of Data:"]].concat());
-        assert_eq!((spip.counts, spip.unit), ([Some(4), Some(3)], Some(1e-6)));
-        assert_eq!(spip.matrix_pitch(4, 3), Some([2000.0 * 1e-9 / 4.0, 1500.0 * 1e-9 / 3.0]));
-        assert_eq!(header(&[&lines[..], &["# Bit2nm = 0.5"]].concat()).unit, Some(0.5 * 1e-9));
-        // Without the name of the format the unit has to be given.
-        assert_eq!(header(&lines[1..]).matrix_pitch(4, 3), None);
-        let stated = header(&[&lines[1..], &["# x-unit: um"]].concat());
-        assert_eq!(stated.matrix_pitch(4, 3), Some([2000.0 * 1e-6 / 4.0, 1500.0 * 1e-6 / 3.0]));
     }
 
     #[test]

@@ -2,39 +2,26 @@
 //!
 //! | file | what is in it |
 //! |---|---|
-//! | `block.rs` | which of several tables is read |
-//! | `cells.rs`, `dialect.rs` | the numbers of a line; what parts them, and their decimal mark |
-//! | `beginning.rs` | how many lines stand before the table, where they are not understood |
-//! | `header.rs`, `names.rs`, `numbers.rs` | what stands before the numbers, the names of columns, the whole table |
-//! | `labels.rs` | what stands beside a matrix and is no height |
-//! | `matrix.rs`, `list.rs`, `profile.rs`, `spacing.rs` | what becomes of the table |
-//! | `instrument/` | exports of instruments that have a form of their own |
+//! | `dialect.rs` | the numbers of a line; what parts them, and their decimal mark |
+//! | `header.rs` | what stands before the numbers: names with values, names of columns |
+//! | `numbers.rs` | the whole table: where it begins, which of several is read; a matrix |
+//! | `points.rs` | a list of points, or a profile |
 //!
 //! Each line of a matrix is a profile along x, the first at y = 0. A list is told by the names of its columns, by the
 //! file's ending .xyz, or by three columns of which the first two make a grid. A profile is what the scene takes as one.
 //! A separator that ends every line is no empty cell.
 
-mod beginning;
-mod block;
-mod cells;
 mod dialect;
 mod error;
 mod header;
-mod instrument;
-mod labels;
-mod lengths;
-mod list;
-mod matrix;
-mod names;
 mod numbers;
-mod profile;
-mod spacing;
-mod table;
+mod points;
 
 pub use error::TextError;
-use names::{Columns, Names};
-use numbers::Numbers;
-pub(super) use table::Table;
+use header::{Columns, Names};
+pub(super) use numbers::Table;
+use numbers::{Numbers, matrix};
+use points::{is_list, list, profile};
 
 use super::options::ReadOptions;
 use crate::delimited::{decode, lines, stated_separator};
@@ -52,13 +39,7 @@ const WIDEST: usize = 8;
 pub(super) fn read(content: &[u8], xyz: bool, options: &ReadOptions) -> Result<Table, TextError> {
     let text = decode(content);
     let stated = stated_separator(&text);
-    // The lines of a file that are skipped may be those that tell its form.
-    let Some(skip) = options.skip else {
-        return match instrument::read(&text, options)? {
-            Some(table) => Ok(table),
-            None => table(&Numbers::read(lines(&text), stated, options)?, xyz, options),
-        };
-    };
+    let Some(skip) = options.skip else { return table(&Numbers::read(lines(&text), stated, options)?, xyz, options) };
     let lines = lines(&text).filter(|(line, _)| *line as u64 > skip);
     if lines.clone().next().is_none() {
         return Err(TextError::AllSkipped { skip });
@@ -70,19 +51,19 @@ pub(super) fn read(content: &[u8], xyz: bool, options: &ReadOptions) -> Result<T
 fn table(numbers: &Numbers, xyz: bool, options: &ReadOptions) -> Result<Table, TextError> {
     let (columns, lines) = (numbers.columns, numbers.lines.len());
     if options.profile_lay.is_some() {
-        return profile::read(numbers, options);
+        return profile(numbers, options);
     }
     if let Some(names) = &numbers.header.names {
         return match names.columns {
-            Columns::Points(columns) => list::read(numbers, names, columns, options),
+            Columns::Points(columns) => list(numbers, names, columns, options),
             Columns::Profile(_) => Err(TextError::IsProfile { columns, lines }),
         };
     }
-    let is_list = list::is_likely(numbers);
+    let is_list = is_list(numbers);
     if xyz || is_list && columns == 3 {
         let three = Columns::Points([0, 1, 2]);
         let names = Names::first(numbers.first_line(), if xyz { columns.max(3) } else { 3 }, three);
-        return list::read(numbers, &names, [0, 1, 2], options);
+        return list(numbers, &names, [0, 1, 2], options);
     }
     if columns < 3 && lines > NARROW {
         return Err(TextError::IsProfile { columns, lines });
@@ -90,7 +71,7 @@ fn table(numbers: &Numbers, xyz: bool, options: &ReadOptions) -> Result<Table, T
     if columns == 3 && lines > NARROW {
         return Err(TextError::ThreeColumns { lines });
     }
-    let mut table = matrix::read(numbers, options)?;
+    let mut table = matrix(numbers, options)?;
     if columns == 3 {
         table.warnings.push("three columns on no grid: read as a matrix, not as a list x, y, z".to_owned());
     }

@@ -1,14 +1,123 @@
-//! The numbers of a file as they stand in it.
+//! The numbers of a table: where it begins, which of several is read, what all its lines hold; and a matrix of heights, of which each line is a
+//! profile along x, the first at y = 0, with what stands beside one and is no height.
 
-use super::beginning::lines_before;
-use super::block;
-use super::cells::{is_comment, number, shown, starts_numbers};
-use super::dialect::Dialect;
+use std::ops::Range;
+
+use super::dialect::{Dialect, Fault, is_comment, number, shown, starts_numbers};
 use super::error::TextError;
-use super::header::Header;
-use super::names::Names;
-use crate::delimited::{Decimal, Separator};
-use crate::surface::options::{ReadOptions, agreed};
+use super::header::{Header, Names};
+use crate::delimited::{Decimal, Kind, Separator, starts};
+use crate::surface::options::{ReadOptions, agreed, agreed_pitch};
+
+/// Heights of a text file, m, column by column. A profile has one row.
+#[derive(Debug, Default)]
+pub(in crate::surface) struct Table {
+    pub(in crate::surface) columns: usize,
+    pub(in crate::surface) rows: usize,
+    pub(in crate::surface) pitch: Option<[f64; 2]>,
+    /// The file does not say in which unit its distances are, and they were taken in that of its heights.
+    pub(in crate::surface) is_pitch_assumed: bool,
+    pub(in crate::surface) heights: Vec<f64>,
+    pub(in crate::surface) notes: Vec<String>,
+    pub(in crate::surface) warnings: Vec<String>,
+}
+
+/// Lines that are looked at: no header of an instrument is nearly as long.
+const MOST_LINES: usize = 1000;
+
+/// Lines to leave out, from the first line of the file, so that what is left is a header that is understood, if any, and a table; none where no
+/// table begins within [`MOST_LINES`] lines.
+///
+/// The table is the most numbers in lines of equal count that follow each other; comments between them do not count.
+pub(super) fn lines_before<'a>(lines: impl Iterator<Item = (usize, &'a str)> + Clone) -> Option<usize> {
+    let lines = lines.take(MOST_LINES);
+    let ways = |line| [Separator::of(line), Separator::Blanks, Separator::CommaAndBlank];
+    let tables =
+        [0, 1, 2].into_iter().filter_map(|way| largest(lines.clone().map(|(at, line)| (at, line, ways(line)[way]))));
+    let table = tables.reduce(|one, other| if other.numbers > one.numbers { other } else { one })?;
+    let mut header = Header::default();
+    let before = lines.take_while(|(line, _)| *line < table.first);
+    let odd = before.filter(|(line, text)| {
+        !is_comment(text) && (starts_numbers(text) || !header.read(*line, text, Decimal::Point))
+    });
+    odd.last().map(|(line, _)| line)
+}
+
+/// Lines of equally many numbers that follow each other.
+#[derive(Clone, Copy)]
+struct Block {
+    /// Its first line.
+    first: usize,
+    separator: Separator,
+    /// Numbers of a line, and of all.
+    columns: usize,
+    numbers: usize,
+}
+
+/// The block with the most numbers, the first of those.
+fn largest<'a>(lines: impl Iterator<Item = (usize, &'a str, Separator)>) -> Option<Block> {
+    let (mut largest, mut block): (Option<Block>, Option<Block>) = (None, None);
+    for (line, text, separator) in lines.filter(|(_, text, _)| !is_comment(text)) {
+        block = count(text, separator).map(|columns| match block {
+            Some(block) if (block.separator, block.columns) == (separator, columns) => {
+                Block { numbers: block.numbers + columns, ..block }
+            }
+            _ => Block { first: line, separator, columns, numbers: columns },
+        });
+        if let Some(block) = block.filter(|block| largest.is_none_or(|largest| block.numbers > largest.numbers)) {
+            largest = Some(block);
+        }
+    }
+    largest
+}
+
+/// Cells of a line, if each is a number or a missing point, with either decimal mark, and one at least a number.
+fn count(line: &str, separator: Separator) -> Option<usize> {
+    let (mut columns, mut has_number) = (0, false);
+    for cell in separator.cells(line, false) {
+        let found = number(cell, Decimal::Point).or_else(|_| number(cell, Decimal::Comma));
+        if matches!(found, Err(fault) if fault != Fault::Infinite) {
+            return None;
+        }
+        has_number |= found.is_ok_and(|number| !number.is_nan());
+        columns += 1;
+    }
+    has_number.then_some(columns)
+}
+
+/// Between which lines the table that is read stands, with its header; and what is wrong if there are several, and none is chosen.
+fn chosen<'a>(
+    lines: impl Iterator<Item = (usize, &'a str)>,
+    options: &ReadOptions,
+) -> Result<(Range<usize>, Option<TextError>), TextError> {
+    let starts: Vec<_> = starts(lines, kind).collect();
+    let number = table_number(options, starts.len() + 1)?;
+    let several = starts.first().filter(|_| options.dataset.is_none()).map(|start| TextError::Several {
+        line: start.line,
+        sign: start.sign,
+        found: shown(start.text.trim()),
+        tables: starts.len() + 1,
+    });
+    let from = if number == 1 { 0 } else { starts[number - 2].line };
+    let to = starts.get(number - 1).map_or(usize::MAX, |start| start.line);
+    Ok((from..to, several))
+}
+
+/// The number of the table that is read, of so many.
+fn table_number(options: &ReadOptions, tables: usize) -> Result<usize, TextError> {
+    let Some(dataset) = &options.dataset else { return Ok(1) };
+    let number = dataset.parse().ok().filter(|number| (1..=tables).contains(number));
+    number.ok_or_else(|| TextError::NoTable { dataset: shown(dataset), tables })
+}
+
+/// What a line is. One of words that no header has is nothing that begins a table.
+fn kind(text: &str) -> Kind {
+    let begins_word = |letter: char| letter.is_alphabetic() || "[(\"#%".contains(letter);
+    if !text.trim_start().starts_with(begins_word) || !is_comment(text) && starts_numbers(text) {
+        return Kind::Row;
+    }
+    if Header::default().read(0, text, Decimal::Point) { Kind::Header } else { Kind::Comment }
+}
 
 /// Numbers that stand for no height in files of many programs.
 const STAND_INS: [f64; 4] = [-9999.0, -99_999.0, -32_768.0, 9999.0];
@@ -31,7 +140,7 @@ impl Numbers {
         separator: Option<char>,
         options: &ReadOptions,
     ) -> Result<Self, TextError> {
-        let (range, several) = block::chosen(lines.clone(), options)?;
+        let (range, several) = chosen(lines.clone(), options)?;
         let below = lines.clone().skip_while(|(line, _)| *line < range.start);
         let lines = below.clone().take_while(|(line, _)| *line < range.end);
         let in_header = |text: &str| is_comment(text) || !starts_numbers(text);
@@ -184,4 +293,128 @@ fn odd_beginning<'a>(mut lines: impl Iterator<Item = (usize, &'a str)>) -> Optio
     let cells = |text: &str| Separator::of(text).cells(text, false).count();
     let first = lines.next()?;
     lines.next().is_none_or(|second| cells(first.1) != cells(second.1)).then_some(first)
+}
+
+/// Fewest numbers that are looked at: four heights in a row may be evenly spaced by chance.
+const FEWEST: usize = 6;
+/// Numbers that are off by no more than this, in steps, are evenly spaced: labels are often rounded.
+const OFF: f64 = 0.05;
+
+/// What of a matrix, in columns of so many rows, counts evenly while its neighbour does not: its first column, and its first line.
+pub(super) fn labels(heights: &[f64], rows: usize) -> impl Iterator<Item = String> {
+    let at = |column: usize, row: usize| heights[column * rows + row];
+    let columns = heights.len() / rows.max(1);
+    let line = move |row: usize| (1..columns).map(move |column| at(column, row)).collect::<Vec<_>>();
+    // The first number of each may be the corner of both.
+    let column = move |column: usize| (1..rows).map(move |row| at(column, row)).collect::<Vec<_>>();
+    let told = |what: &str, numbers: Vec<f64>, beside: Vec<f64>| {
+        let [first, last] = [*numbers.first()?, *numbers.last()?];
+        (is_even(&numbers) && !is_even(&beside)).then(|| {
+            format!(
+                "the first {what} counts evenly to {last}, from {first} on, and the next does not: if it has numbers of lines or coordinates, \
+                 take it out, for it is read as heights"
+            )
+        })
+    };
+    let has_next = columns > 1 && rows > 1;
+    let of_column = has_next.then(|| told("column", column(0), column(1))).flatten();
+    let of_line = has_next.then(|| told("line", line(0), line(1))).flatten();
+    of_column.into_iter().chain(of_line)
+}
+
+/// Whether numbers are evenly spaced, and not all the same.
+fn is_even(numbers: &[f64]) -> bool {
+    let [first, .., last] = *numbers else { return false };
+    let step = (last - first) / (numbers.len() - 1) as f64;
+    let is_there = |(place, number): (usize, &f64)| (number - first - step * place as f64).abs() <= OFF * step.abs();
+    numbers.len() >= FEWEST && step != 0.0 && numbers.iter().enumerate().all(is_there)
+}
+
+/// The heights of a matrix, m.
+pub(super) fn matrix(numbers: &Numbers, options: &ReadOptions) -> Result<Table, TextError> {
+    let (columns, rows) = (numbers.columns, numbers.lines.len());
+    let header = &numbers.header;
+    for (what, stated, found) in [("columns", header.counts[0], columns), ("rows", header.counts[1], rows)] {
+        if let Some(expected) = stated.filter(|stated| *stated != found as u64) {
+            return Err(TextError::Count { what, expected, found });
+        }
+    }
+    let unit = numbers.unit(header.unit, options)?;
+    let mut heights = Vec::with_capacity(numbers.values.len());
+    for column in 0..columns {
+        heights.extend(numbers.values.iter().skip(column).step_by(columns));
+    }
+    let warnings = Numbers::stand_in(&heights).into_iter().chain(labels(&heights, rows)).collect();
+    numbers.scale(&mut heights, unit)?;
+    let pitch = agreed_pitch(header.matrix_pitch(columns, rows), options.pitch)?;
+    let notes = vec![format!("matrix, 1 stands for {unit:e} m")];
+    Ok(Table { columns, rows, pitch, heights, notes, warnings, ..Table::default() })
+}
+
+#[cfg(test)]
+mod numbers_tests {
+    use super::*;
+    use crate::delimited::lines;
+
+    #[test]
+    fn the_table_begins_below_the_last_odd_line() {
+        let many = "line\n".repeat(MOST_LINES);
+        for (text, expected) in [
+            (
+                "Protocol\nDate;12.03.2026 14:05:11\nResolution X/Y\t5,0 um\nPoints 800 x 400\nBEGIN\n1,5\t2\t***\n3\t4\t5\n",
+                Some(5),
+            ),
+            // Counts, which are numbers themselves; a single line; blank lines and comments.
+            ("Sample 7\n3 2\n1,5 2,5 3\n4 5 6\n", Some(2)),
+            ("Sample 7\n1 2 3 4\n", Some(1)),
+            ("Sample 7\n\n# mean\n1 2\n# more\n3 4\n", Some(1)),
+            // A line that is shorter does not make the rest of the table its begin.
+            ("Sample 7\n1 2\n3 4\n5 6\n7\n8 9\n", Some(1)),
+            // What a header says right above the table is kept.
+            ("Sample 7\nunit: um\nMeasured\npitch = 5 um\n1 2\n3 4\n", Some(3)),
+            ("1,5, 2,5\n", None),
+            ("Sample 7\n1,5, 2,5\n3, 4,25\n", Some(1)),
+            ("Sample\nno numbers\n***\n", None),
+            (&format!("{many}1 2\n3 4\n"), None),
+        ] {
+            assert_eq!(lines_before(lines(text)), expected, "{text}");
+        }
+    }
+}
+
+#[cfg(test)]
+mod matrix_tests {
+    use super::*;
+
+    /// Rough heights of 8 columns by 7 rows, column by column.
+    fn rough() -> Vec<f64> {
+        (0..56).map(|point| f64::from(point * point % 17) / 7.0).collect()
+    }
+
+    #[test]
+    fn numbers_of_lines_and_coordinates_are_told() {
+        assert_eq!(labels(&rough(), 7).count(), 0);
+        // As pandas writes a table: numbers of lines in front of them, an empty corner, and numbers of columns above.
+        let mut table = rough();
+        (0..7).for_each(|row| table[row] = row as f64 - 1.0);
+        let told: Vec<_> = labels(&table, 7).collect();
+        assert_eq!(told.len(), 1, "{told:?}");
+        assert!(told[0].starts_with("the first column counts evenly to 5, from 0 on"), "{told:?}");
+        table[0] = f64::NAN;
+        // Coordinates in mm, rounded.
+        (1..8).for_each(|column| table[7 * column] = [0.33, 0.67, 1.0, 1.33, 1.67, 2.0, 2.33][column - 1]);
+        assert_eq!(labels(&table, 7).count(), 2);
+    }
+
+    #[test]
+    fn a_plane_steps_and_a_few_heights_have_none() {
+        let plane: Vec<f64> = (0..56).map(f64::from).collect();
+        let level = [1.0; 56];
+        assert_eq!([labels(&plane, 7).count(), labels(&level, 7).count()], [0, 0]);
+        // Four lines and four columns are too few to tell; a profile has nothing beside it.
+        let mut few: Vec<f64> = (0..16).map(|point| f64::from(point * point % 7)).collect();
+        (0..4).for_each(|row| few[row] = row as f64);
+        assert_eq!([labels(&few, 4).count(), labels(&plane, 1).count(), labels(&plane, 56).count()], [0; 3]);
+        assert_eq!(labels(&[], 0).count(), 0);
+    }
 }

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::delimited::Decimal;
-use crate::surface::stylus_profile::Lay;
+use crate::surface::options::Lay;
 
 fn options(unit: Option<f64>, pitch: Option<[f64; 2]>) -> ReadOptions {
     ReadOptions { unit, pitch, ..ReadOptions::default() }
@@ -194,10 +194,8 @@ fn of_several_tables_one_is_read_that_is_chosen() {
         let said = read(text, None).unwrap_err();
         assert!(said.starts_with(&format!("line {line}: another table begins here, {sign}")), "{said}");
     }
-    // What has no numbers below it is no table; a form that has one table has its first.
+    // What has no numbers below it is no table.
     assert_eq!(shape(&read("unit: um\n\n1 2\n# a b\n3 4\n\n# end: here\n\n", Some("1")).unwrap()), "1 2/3 4");
-    let wyko = read("Wyko ASCII Data File Format 0\t1\t1\n", Some("2")).unwrap_err();
-    assert!(wyko.ends_with("expected the number of a table of the file, which has 1"), "{wyko}");
 }
 
 /// 20 x 12 points 2 apart of which each is off by up to this, in steps, at random.
@@ -341,7 +339,7 @@ fn an_absurd_unit_gives_no_infinite_heights() {
 #[test]
 fn a_file_cut_anywhere_gets_an_answer() {
     let list = "\u{feff}# unit: um\r\nx [mm];y [mm];z\r\n0;0;1\r\n1;0;2\r\n0;1;\r\n1;1;NaN\r\n";
-    let matrix = "h=2 w=3\npixel size=1e-6 m\nheight conversion factor (-> m)=1e-9\n1 2 3\n4 5 6\n";
+    let matrix = "rows=2 columns=3\npixel size=1e-6 m\nunit=nm\n1 2 3\n4 5 6\n";
     for content in [list.as_bytes(), matrix.as_bytes()] {
         for length in 0..content.len() {
             let _ = read(&content[..length], false, &options(None, None));
@@ -410,14 +408,4 @@ fn what_is_no_profile_is_refused() {
     let found = profile("x [mm],z [um]\n0.0,1\n0.5,1\n", None, Some(1e-3)).unwrap_err().to_string();
     assert!(found.starts_with("the file states a pitch of 500 um, the scene 1 mm"), "{found}");
     assert!(error("0 1\nNaN 1\n").starts_with("line 2, column 1: a coordinate is missing, expected a number"));
-}
-
-#[test]
-fn a_profile_of_dektak_has_its_columns_below_what_was_set() {
-    let text = "Scan Parameters\r\r\nScan Type,Standard Scan\r\nResolution,0.156 um/sample\r\n\r\r\nScan Data\r\r\n\
-                Lateral um,Raw Micrometer,\r\n0.0,1.0,,\r\n0.2,2.0,,\r\n0.3,4.0,,\r\n0.5,4.0,,\r\n\r\r\n";
-    let table = profile(text, None, None).unwrap();
-    assert_eq!((shape(&table).as_str(), table.notes[0].as_str()), ("1 2 4 4", "Dektak CSV"));
-    assert!((table.pitch.unwrap()[0] - 0.5e-6 / 3.0).abs() < 1e-20);
-    assert!(um(text).unwrap_err().to_string().starts_with("4 lines of 3 numbers: for a profile say profile_lay"));
 }

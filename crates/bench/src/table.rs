@@ -1,0 +1,149 @@
+//! The table of a benchmark in Markdown, with machine, build and settings below it.
+
+use serde::Serialize;
+
+use crate::Session;
+use crate::machine::{Build, Machine};
+use crate::race::{Measurement, Pace, Spread};
+
+/// Results of one benchmark.
+#[derive(Debug, Serialize)]
+pub struct Results {
+    benchmark: &'static str,
+    machine: Machine,
+    build: Build,
+    /// File name of the scene.
+    scene: String,
+    /// Changes of the scene.
+    sets: Vec<String>,
+    /// Physical time for which the pin had worn in, s.
+    worn_in: f64,
+    pace: Pace,
+    /// Only a look at whether it runs: the numbers mean nothing.
+    quick: bool,
+    /// Times, in the order of the race.
+    pub measurements: Vec<Measurement>,
+    /// Sentences on how well the peer agrees with us.
+    pub agreements: Vec<String>,
+}
+
+impl Results {
+    /// Results of a benchmark that begins now, on this machine: none yet.
+    pub fn begin(benchmark: &'static str, session: &Session) -> Self {
+        let Session { source, pace, quick, .. } = session;
+        Self {
+            benchmark,
+            machine: Machine::this(),
+            build: Build::this(),
+            scene: source.name(),
+            sets: source.sets.clone(),
+            worn_in: source.worn_in,
+            pace: *pace,
+            quick: *quick,
+            measurements: Vec::new(),
+            agreements: Vec::new(),
+        }
+    }
+
+    /// The table, sentences on agreement, and the circumstances of the measurement.
+    pub fn markdown(&self) -> String {
+        let is_shared = self.measurements.iter().any(|one| one.workers > 1);
+        let mut text = String::from(
+            "| | mesh | workers | µs per step | range | ns per cell | load evaluations | against | ratio | range |",
+        );
+        text += if is_shared { " efficiency |\n" } else { "\n" };
+        text += "|---|---|---:|---:|---:|---:|---:|---|---:|---:|";
+        text += if is_shared { "---:|\n" } else { "\n" };
+        for one in &self.measurements {
+            text += &row(one, &self.measurements[one.against], is_shared);
+        }
+        for line in self.agreements.iter().chain([&self.circumstances()]) {
+            text += &format!("\n{line}\n");
+        }
+        text
+    }
+
+    /// Where, with what and how something was measured.
+    fn circumstances(&self) -> String {
+        let Self { machine, build, pace, .. } = self;
+        let sets: String = self.sets.iter().map(|set| format!(" `{set}`")).collect();
+        let worn_in = if self.worn_in > 0.0 { format!(", worn in for {} s", self.worn_in) } else { String::new() };
+        let quick = if self.quick { " Only a look at whether it runs: the numbers mean nothing." } else { "" };
+        format!(
+            "{machine}; {build}; {}{sets}{worn_in}; median of {} blocks of about {} ms, measured in turn; ratio: time of a cell over \
+             that of the row it is set against.{quick}",
+            self.scene,
+            pace.repeats,
+            pace.block.as_millis()
+        )
+    }
+}
+
+fn row(one: &Measurement, against: &Measurement, is_shared: bool) -> String {
+    let time = Spread::of(&one.microseconds_per_step);
+    let ratio = one.ratio_to(against);
+    let cell = time.median * 1e3 / one.mesh.pin_cells() as f64;
+    let mut cells = vec![
+        one.name.clone(),
+        one.mesh.to_string(),
+        one.workers.to_string(),
+        number(time.median),
+        range(time),
+        number(cell),
+        one.load_evaluations_per_step.map_or("–".to_owned(), number),
+        format!("{}, {}, {}", against.name, against.mesh, against.workers),
+        format!("{:.3}", ratio.median),
+        format!("{:.3} – {:.3}", ratio.minimum, ratio.maximum),
+    ];
+    if is_shared {
+        let workers = one.workers as f64 / against.workers as f64;
+        cells.push(if workers > 1.0 { format!("{:.0} %", 100.0 / (ratio.median * workers)) } else { "–".to_owned() });
+    }
+    format!("| {} |\n", cells.join(" | "))
+}
+
+/// Least and largest.
+fn range(spread: Spread) -> String {
+    format!("{} – {}", number(spread.minimum), number(spread.maximum))
+}
+
+/// At least three digits.
+fn number(value: f64) -> String {
+    let digits = match value {
+        100.0.. => 0,
+        10.0.. => 1,
+        _ => 2,
+    };
+    format!("{value:.digits$}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::case::MeshSize;
+
+    #[test]
+    fn a_row_has_times_ratio_and_efficiency() {
+        let measured = |name: &str, workers, times: [f64; 3]| Measurement {
+            name: name.to_owned(),
+            against: 0,
+            mesh: MeshSize::QUICK,
+            workers,
+            steps_per_block: 1,
+            load_evaluations_per_step: (workers == 1).then_some(1.25),
+            microseconds_per_step: times.to_vec(),
+        };
+        let (alone, two) = (measured("strong", 1, [8.0, 16.0, 8.0]), measured("strong", 2, [5.0, 12.0, 6.0]));
+        // By hand: 800 cells; ratios 5/8, 12/16, 6/8, and 1/(0.75 · 2).
+        assert_eq!(
+            row(&two, &alone, true),
+            "| strong | 20 x 40 on 691 | 2 | 6.00 | 5.00 – 12.0 | 7.50 | – | strong, 20 x 40 on 691, 1 | 0.750 | 0.625 – 0.750 | 67 % |\n"
+        );
+        assert!(row(&alone, &alone, false).ends_with("| 1.25 | strong, 20 x 40 on 691, 1 | 1.000 | 1.000 – 1.000 |\n"));
+    }
+
+    #[test]
+    fn numbers_have_three_digits() {
+        assert_eq!([1234.5, 123.4, 12.34, 1.234, 0.1234].map(number), ["1234", "123", "12.3", "1.23", "0.12"]);
+    }
+}

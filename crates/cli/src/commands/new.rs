@@ -1,0 +1,477 @@
+//! `plateau new`: write a commented scene to begin with, also for a measured disc.
+
+mod converted;
+
+use std::fmt;
+use std::path::{Path, PathBuf};
+
+use plateau_core::surface::describe::{Autocorrelation, Description, Grid, HeightParameters};
+use plateau_core::surface::{Condition, Extension, Length, Level, Spikes, implausible, level};
+use plateau_io::memory::refuse_beyond;
+use plateau_io::scene::{self, Problem, SceneError};
+use plateau_io::surface::{self, FileError, Lay, Measured, TextError};
+use plateau_io::units::{self, Dimension};
+use plateau_io::{number, plausibility, text};
+
+use self::converted::{can_convert, converted};
+use crate::arguments::{NewArguments, ReadArguments, as_options};
+use crate::failure::Failure;
+use crate::table::print;
+use crate::{invocation, message, output};
+
+/// The scene with places for what is the user's.
+const SCENE: &str = include_str!("new/scene.toml");
+
+/// The cell size of that scene, um.
+const CELL: f64 = 50.0;
+
+/// The disc of who has not measured one.
+const SYNTHETIC: &str = r#"synthetic = { seed = 1, rms_height = "3 um", correlation_length = "120 um" }     # <- or file = "surface.sdf"
+
+[disc.prepare]
+cutoff = "3 um"                         # peaks are cut at this height above the mean"#;
+
+/// Makes a scene, looks whether it can be run, writes it, and says what to do next.
+pub fn new(arguments: &NewArguments) -> Result<(), Failure> {
+    let path = &arguments.scene;
+    let inputs: Vec<_> = arguments.disc.iter().cloned().collect();
+    output::check(path, arguments.force, &inputs)?;
+    let Written { text, notes } = scene_text(arguments)?;
+    let scene = scene::of_text(path, &text).map_err(|error| refusal(arguments, &error))?;
+    output::write(path, text.as_bytes(), arguments.force)?;
+    scene.warnings.iter().chain(&plausibility::of_scene(&scene)).for_each(message::warning);
+    let (program, name) = (invocation::program(), invocation::argument(&path.to_string_lossy()));
+    let notes: String = notes.iter().map(|note| format!("note: {note}\n")).collect();
+    print(&format!(
+        "{notes}wrote {}: change what is yours, then\n  {program} check {name}\n  {program} surface --prepare {name}\n  \
+         {program} run {name}\n",
+        path.display()
+    ))
+}
+
+/// A scene, and what of it should be known before it is run.
+struct Written {
+    text: String,
+    notes: Vec<String>,
+}
+
+/// The scene with the values of the command line in their places.
+fn scene_text(arguments: &NewArguments) -> Result<Written, Failure> {
+    let NewArguments { scene, disc, pin_width, pin_length, diameter, radius, load, speed, duration, reading, .. } =
+        arguments;
+    let stem = scene.file_stem().unwrap_or_default().to_string_lossy();
+    let mesh = match diameter {
+        Some(diameter) => vec![("shape", "disc", "a round pin"), ("pin_width", diameter.as_str(), "<- its diameter")],
+        None => vec![
+            ("pin_width", pin_width.as_str(), "<- along the radius"),
+            ("pin_length", pin_length.as_str(), "<- along sliding"),
+        ],
+    };
+    let mean_radius = [("mean_radius", radius.as_str(), "<- where the middle of the pin slides")];
+    let mesh: Vec<String> =
+        mesh.iter().chain(&mean_radius).map(|(key, value, remark)| line(key, *value, remark)).collect();
+    let mut notes = Vec::new();
+    let disc = match disc {
+        Some(disc) => {
+            let (lines, said) = disc_lines(scene, disc, reading, arguments.force)?;
+            notes = said;
+            lines
+        }
+        None if reading.keys().is_empty() => SYNTHETIC.to_owned(),
+        None => {
+            let named: Vec<String> =
+                reading.keys().iter().map(|(key, _)| format!("--{}", key.replace('_', "-"))).collect();
+            let message = "says how the file of --disc is read, and none is given: give --disc FILE";
+            return Err(Failure::input(format!("{} {message}", named.join(", "))));
+        }
+    };
+    let speed_key = arguments.speed_key();
+    let other_speed = other_speed(speed_key, speed, radius).unwrap_or_default();
+    let operation = [
+        line("normal_force", load.as_str(), "<- on the whole pin"),
+        line(speed_key, speed.as_str(), &other_speed),
+        line("duration", duration.as_str(), "<-"),
+    ];
+    let name = invocation::argument(&scene.to_string_lossy());
+    let run = format!("{stem}.h5");
+    let places = [
+        (
+            "{cell_size}",
+            line("cell_size", format!("{CELL} um"), "local debris goes one cell far: keep it to compare runs"),
+        ),
+        ("{title}", line("title", stem.as_ref(), "<-")),
+        ("{mesh}", mesh.join("\n")),
+        ("{operation}", operation.join("\n")),
+        ("{disc}", disc),
+        ("{file}", line("file", run.as_str(), "in the folder in which the program is called")),
+        ("{name}", name),
+        ("{run}", invocation::argument(&run)),
+    ];
+    let text = places.iter().fold(SCENE.to_owned(), |text, (place, value)| text.replace(place, value));
+    Ok(Written { text, notes })
+}
+
+/// The remark beside the speed: the same by the other key.
+fn other_speed(key: &str, speed: &str, radius: &str) -> Option<String> {
+    let radius = units::parse(radius, Dimension::Length).ok()?;
+    Some(if key == "sliding_speed" {
+        let rotation = units::parse(speed, Dimension::Speed).ok()? / radius * 60.0 / std::f64::consts::TAU;
+        format!("<- at the mean radius, or rotational_speed = \"{} rpm\"", number::rounded(rotation, 4))
+    } else {
+        let sliding = units::parse(speed, Dimension::RotationalSpeed).ok()? * radius;
+        format!("<- or sliding_speed = \"{} m/s\" at the mean radius", number::rounded(sliding, 4))
+    })
+}
+
+/// A key with a value and a remark, as the others stand in the scene.
+fn line(key: &str, value: impl Into<toml::Value>, remark: &str) -> String {
+    let pair = format!("{key} = {}", value.into());
+    format!("{pair:<39} # {remark}")
+}
+
+/// The tables of the disc: the file read as it is, levelled, without spikes, filled where points are missing, and extended by its
+/// statistics; of the profile of a surface with grooves, tiled. Besides, what should be known of them.
+fn disc_lines(
+    scene: &Path,
+    disc: &Path,
+    reading: &ReadArguments,
+    force: bool,
+) -> Result<(String, Vec<String>), Failure> {
+    let (disc, measured, mut notes) = read_or_convert(scene, disc, reading, force)?;
+    let disc = disc.as_path();
+    let named = |reason: &dyn fmt::Display| Failure::input(format!("{}: {reason}", disc.display()));
+    if measured.pitch.is_none() {
+        return Err(named(&"it does not say how far its points are apart: give --pitch, such as --pitch \"5 um\""));
+    }
+    let too_small = smaller_than_cells(&measured);
+    if let (Some(_), true, [warning, ..]) = (&too_small, measured.is_pitch_assumed, &measured.warnings[..]) {
+        return Err(named(&format_args!("{warning}{}", as_options(warning))));
+    }
+    let mut lines = vec![line("file", path_from(scene, disc).map_err(|reason| named(&reason))?, "<-")];
+    lines.extend(reading.keys().into_iter().map(|(key, value)| line(key, value, "<-")));
+    lines.extend([String::new(), "[disc.prepare]".to_owned()]);
+    let condition = condition(&measured);
+    if measured.profile_lay.is_none() {
+        let form = condition.map_or(Level::Plane, |condition| condition.form);
+        let (rotate, remark) = match lay(&measured, form) {
+            None => (
+                "90 deg".to_owned(),
+                "x of the file is along sliding: turn it where the lay would be across".to_owned(),
+            ),
+            Some(lay) => {
+                notes.push(format!("{}: {}", disc.display(), lay.told()));
+                (lay.rotate(), lay.remark())
+            }
+        };
+        lines.push(format!("{:40}# {remark}", format!("# rotate = \"{rotate}\"")));
+    }
+    match &condition {
+        Some(Condition { form: Level::Quadratic, rms_of_forms: [plane, quadratic], .. }) => {
+            let bow = format!(
+                "the surface is bowed: rms {} once a plane is taken out, {} once second order is",
+                Length(*plane),
+                Length(*quadratic)
+            );
+            lines.push(line("level", "quadratic", &format!("<- {bow}")));
+            notes.push(format!("{}: {bow}: level = \"quadratic\" takes that out", disc.display()));
+        }
+        _ => lines.push(line("level", "plane", "form that is taken out: mean, plane, quadratic")),
+    }
+    let spikes = condition.and_then(|condition| condition.spikes);
+    if let Some(spikes) = &spikes {
+        lines.push(line("outliers", Spikes::LIMIT as i64, &format!("<- {}", spikes_in_words(spikes))));
+        notes.push(format!(
+            "{}: {}: outliers = {} takes them out",
+            disc.display(),
+            spikes_in_words(spikes),
+            Spikes::LIMIT
+        ));
+    }
+    if let Some((pixel, note)) = too_small {
+        lines.extend(pixel);
+        notes.push(format!("{}: {note}", disc.display()));
+    }
+    if spikes.is_some() || measured.heights.iter().any(|height| height.is_nan()) {
+        lines.push(line("fill", "interpolate", "points that are missing get heights between those around them"));
+    }
+    match measured.profile_lay {
+        Some(Lay::Along | Lay::Across) => {
+            lines.push(line("repeat", true, "the profile again and again, mirrored, where it is too short"));
+        }
+        lay @ (Some(Lay::Isotropic) | None) => {
+            let remark = match lay {
+                Some(_) => "a whole ring with the statistics of the profile in every direction",
+                None => "a whole ring like this patch; or repeat = true for tiles",
+            };
+            lines.push(line("extend", "statistics", remark));
+            lines.push(line("extend_seed", 1, "another seed is another ring of the same kind"));
+        }
+    }
+    let rms = condition.map(|condition| condition.rms_height());
+    warn(disc, &measured, rms);
+    if let Some(rms) = rms.filter(|rms| *rms > 0.0 && rms.is_finite()) {
+        let cutoff = format!("cutoff = \"{}\"", rounded(rms));
+        lines.push(format!(
+            "{:40}# <- cuts peaks at this height above the mean, here one rms height",
+            format!("# {cutoff}")
+        ));
+        notes.push(format!(
+            "{}: no peaks are cut. With {cutoff}, one rms height as in the paper, the contact area is several times as large: \
+             docs/scenes.md says when to give it",
+            disc.display()
+        ));
+    }
+    Ok((lines.join("\n"), notes))
+}
+
+/// Says what of the file can hardly be meant.
+fn warn(disc: &Path, measured: &Measured, rms: Option<f64>) {
+    let stand_in = implausible::stand_in(&measured.heights);
+    let units = || implausible::odd_units(&measured.heights, measured.rows, measured.pitch, rms.unwrap_or_default());
+    // Numbers that stand for no height make odd heights of any unit.
+    let found = stand_in.map_or_else(|| units().collect(), |found| vec![found]);
+    for warning in measured.warnings.iter().cloned().chain(found) {
+        message::warning(format_args!("{}: {warning}", disc.display()));
+    }
+}
+
+/// A length of two digits, as a scene has it.
+fn rounded(length: f64) -> String {
+    if length < 1e-6 {
+        format!("{} nm", number::rounded(length * 1e9, 2))
+    } else {
+        format!("{} um", number::rounded(length * 1e6, 2))
+    }
+}
+
+/// Form, spikes and rms height of a patch; of a profile neither bow nor spikes are looked for.
+fn condition(measured: &Measured) -> Option<Condition> {
+    let Measured { rows, ref heights, .. } = *measured;
+    if measured.profile_lay.is_none() {
+        return Condition::of(heights, rows);
+    }
+    let mut heights = heights.clone();
+    level(&mut heights, rows, Level::Plane, false);
+    let rms = HeightParameters::of(&heights)?.root_mean_square_height;
+    Some(Condition { form: Level::Plane, rms_of_forms: [rms; 2], spikes: None })
+}
+
+/// Spikes, in words.
+fn spikes_in_words(spikes: &Spikes) -> String {
+    let Spikes { count, points, kurtosis, rms } = *spikes;
+    let (kurtosis, [before, after]) = (number::rounded(kurtosis, 3), rms.map(Length));
+    format!("{count} of {points} points are spikes: kurtosis {kurtosis}, rms {before}, without them {after}")
+}
+
+/// Reads the file, or what the Python package converts it to, and which that is; besides, what should be known of it.
+fn read_or_convert(
+    scene: &Path,
+    disc: &Path,
+    reading: &ReadArguments,
+    force: bool,
+) -> Result<(PathBuf, Measured, Vec<String>), Failure> {
+    let read = |path: PathBuf, found: Result<Measured, FileError>, notes| {
+        let measured = measured(found).map_err(|reason| Failure::input(format!("{}: {reason}", path.display())))?;
+        Ok((path, measured, notes))
+    };
+    match surface::read(disc, &reading.options()) {
+        Err(reason) if reason.may_be_converted() && can_convert() => {
+            let path = converted(scene, disc, force)?;
+            let notes = vec![format!("{}: converted to {}, which the scene names", disc.display(), path.display())];
+            let found = surface::read(&path, &reading.options());
+            read(path, found, notes)
+        }
+        found => read(disc.to_owned(), found, Vec::new()),
+    }
+}
+
+/// What was read; a profile whose lay is not said is asked for it.
+fn measured(found: Result<Measured, FileError>) -> Result<Measured, String> {
+    let found = match found {
+        Ok(Measured { profile_lay: None, columns, rows, .. }) if columns == 1 || rows == 1 => {
+            format!("{columns} x {rows} points")
+        }
+        Ok(measured) => return Ok(measured),
+        Err(FileError::Text(TextError::IsProfile { columns, lines })) => format!("{lines} lines of {columns} numbers"),
+        Err(reason) => return Err(format!("{reason}{}", as_options(&reason.to_string()))),
+    };
+    Err(format!(
+        "{found} are a profile, which does not say how the surface goes on beside it: give --profile-lay along for grooves along \
+         sliding, --profile-lay across for grooves across sliding, or --profile-lay isotropic for a surface without a direction; \
+         and --unit and --pitch, if the file does not state them"
+    ))
+}
+
+/// Str below which a lay is told.
+const CLEAR_LAY: f64 = 0.3;
+/// A lay that runs along or across sliding but for this angle is said to, deg.
+const ALONG: f64 = 5.0;
+
+/// The lay of a patch.
+struct ClearLay {
+    /// Str, or what it is less than.
+    aspect_ratio: String,
+    /// The form without which the heights are looked at.
+    form: Level,
+    /// Std, deg, from along sliding towards outward.
+    direction: f64,
+}
+
+/// The lay of a patch, if it has a clear one and there is memory to look for it.
+fn lay(measured: &Measured, form: Level) -> Option<ClearLay> {
+    let Measured { columns, rows, pitch, ref heights, .. } = *measured;
+    refuse_beyond(Description::memory_needed(columns, rows)).ok()?;
+    let mut heights = heights.clone();
+    level(&mut heights, rows, form, false);
+    let mean = HeightParameters::of(&heights)?.mean;
+    let found = Autocorrelation::of(&Grid { columns, rows, pitch, heights: &heights }, mean)?;
+    let largest = found.largest_aspect_ratio();
+    // As `plateau surface` has them.
+    let is_bound = found.aspect_ratio.is_nan();
+    let aspect_ratio = if is_bound { number::less_than(largest, 3) } else { number::significant(largest, 3) };
+    let is_clear = largest < CLEAR_LAY && !found.direction.is_nan();
+    is_clear.then(|| ClearLay { aspect_ratio, form, direction: found.direction.to_degrees() })
+}
+
+impl ClearLay {
+    /// Which way it runs, in words.
+    fn runs(&self) -> String {
+        let Self { aspect_ratio, form, direction } = self;
+        let way = match direction.abs() {
+            ..=ALONG => "along sliding, x of the file",
+            angle if angle >= 90.0 - ALONG => "across sliding, along y of the file",
+            _ => "oblique to sliding, x of the file",
+        };
+        // `plateau surface` takes a plane out unless told otherwise.
+        let beside = if *form == Level::Quadratic { ", with --level quadratic" } else { "" };
+        // Added to 0, what is rounded to it has no sign.
+        let tenths = (10.0 * direction).round() / 10.0 + 0.0;
+        format!("{way} (Str {aspect_ratio}, Std {} deg{beside})", number::rounded(tenths, 3))
+    }
+
+    /// The angle that turns it along sliding; of one that runs along, across.
+    fn rotate(&self) -> String {
+        let is_oblique = (ALONG..90.0 - ALONG).contains(&self.direction.abs());
+        let degrees = if is_oblique { -self.direction.round() } else { 90.0 };
+        format!("{} deg", number::plain(degrees))
+    }
+
+    /// Where that turns it.
+    fn to(&self) -> &'static str {
+        if self.direction.abs() <= ALONG { "across sliding" } else { "along sliding" }
+    }
+
+    /// What stands beside the key in the scene.
+    fn remark(&self) -> String {
+        format!("<- the lay runs {}: this turns it {}", self.runs(), self.to())
+    }
+
+    /// Statement about it.
+    fn told(&self) -> String {
+        let (runs, rotate, to) = (self.runs(), self.rotate(), self.to());
+        format!("its lay runs {runs}: rotate = \"{rotate}\" turns it {to}, where the disc has it so")
+    }
+}
+
+/// The path of the surface as the scene has it: relative where it is in or below the scene's folder.
+fn path_from(scene: &Path, disc: &Path) -> Result<String, String> {
+    let folder = std::path::absolute(scene).ok().and_then(|scene| scene.parent().map(Path::to_owned));
+    let path = std::path::absolute(disc).map_err(|reason| reason.to_string())?;
+    let path = folder.and_then(|folder| path.strip_prefix(folder).ok().map(Path::to_owned)).unwrap_or(path);
+    path.to_str().map(str::to_owned).ok_or_else(|| "its path is not UTF-8, as a scene is: rename it".to_owned())
+}
+
+/// Lines of the scene about a patch that is smaller than the fewest cells that are needed of it, and what that means; it is not read as
+/// larger unless the user says so.
+fn smaller_than_cells(measured: &Measured) -> Option<(Vec<String>, String)> {
+    let Measured { columns, rows, pitch, profile_lay, .. } = *measured;
+    let [x, y] = pitch?;
+    let (least, fewest) = match profile_lay {
+        Some(Lay::Along | Lay::Across) => (columns as f64 * x, 1),
+        Some(Lay::Isotropic) => (columns as f64 * x, Extension::FEWEST_CELLS),
+        None => ((columns as f64 * x).min(rows as f64 * y), Extension::FEWEST_CELLS),
+    };
+    if least >= fewest as f64 * CELL * 1e-6 {
+        return None;
+    }
+    let cells = if fewest == 1 { "a cell".to_owned() } else { format!("{fewest} cells") };
+    let size = |x: f64, y: f64| match profile_lay {
+        Some(_) => format!("{} long", Length(columns as f64 * x)),
+        None => format!("{} by {}", Length(columns as f64 * x), Length(rows as f64 * y)),
+    };
+    let (is, read_as) = (size(x, y), size(CELL * 1e-6, CELL * 1e-6));
+    let pixel = format!("pixel = \"{CELL} um\"");
+    let most = Length(least / fewest as f64);
+    let lines = vec![
+        format!("{:40}# <- the patch is {is}, less than {cells}: it does not run before you", format!("# {pixel}")),
+        format!("{:40}# take smaller cells (cell_size of at most {most}) or a larger patch, or read it as larger", ""),
+    ];
+    let note = format!(
+        "it is {is}, less than {cells} of {CELL} um, and the scene does not run as it is: take a cell_size of at most {most}, or \
+         measure a larger area. With {pixel} it would be read as {read_as}, with the heights as they are: a much smoother disc than \
+         the measured one. If this is not its size, correct the pitch"
+    );
+    Some((lines, note))
+}
+
+/// Reason why the scene that the arguments ask for cannot be run; nothing is written.
+fn refusal(arguments: &NewArguments, error: &SceneError) -> Failure {
+    let told = text::problems(error.problems().iter().map(|problem| with_options(arguments, problem)));
+    Failure::input(format!("{told}\nnothing is written"))
+}
+
+/// A problem with the option that it comes from, or with its key where it comes from none.
+fn with_options(arguments: &NewArguments, Problem { key, message, .. }: &Problem) -> String {
+    let key = key.as_deref().unwrap_or_default();
+    let name = key.rsplit('.').next().unwrap_or_default();
+    let options = options(arguments);
+    let message = options.iter().fold(message.clone(), |message, (name, option, _)| message.replace(name, option));
+    match options.iter().find(|(known, ..)| *known == name) {
+        Some((_, option, value)) => format!("{option} \"{value}\": {message}"),
+        None => format!("{key}: {message}"),
+    }
+}
+
+/// Keys of the scene, each with the option that it comes from and its value.
+fn options(arguments: &NewArguments) -> [(&'static str, &'static str, &str); 6] {
+    let NewArguments { pin_width, pin_length, diameter, radius, load, speed, duration, .. } = arguments;
+    let width = match diameter {
+        Some(diameter) => ("pin_width", "--diameter", diameter.as_str()),
+        None => ("pin_width", "--pin-width", pin_width.as_str()),
+    };
+    [
+        width,
+        ("pin_length", "--pin-length", pin_length),
+        ("mean_radius", "--radius", radius),
+        ("normal_force", "--load", load),
+        (arguments.speed_key(), "--speed", speed),
+        ("duration", "--duration", duration),
+    ]
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use clap::Parser as _;
+    use plateau_io::scene;
+
+    use super::*;
+    use crate::arguments::{Arguments, Command};
+
+    #[test]
+    fn a_pin_that_does_not_fit_is_told_by_its_option() {
+        for (options, expected) in [
+            (&["--diameter", "60 mm"][..], "--diameter \"60 mm\": a pin of 60 mm does not fit"),
+            (&["--diameter", "43.9 mm"], "--diameter \"43.9 mm\": a round pin of 43.9 mm"),
+            (&["--pin-length", "200 mm"], "a larger --radius"),
+        ] {
+            let line = [&["plateau", "new", "nothing/mine.toml"][..], options].concat();
+            let Command::New(arguments) = Arguments::try_parse_from(line).unwrap().command else { panic!("new") };
+            let text = super::scene_text(&arguments).unwrap().text;
+            let error = scene::of_text(Path::new("nothing/mine.toml"), &text).unwrap_err();
+            let Failure::Input(message) = refusal(&arguments, &error) else { panic!("input") };
+            assert!(message.contains(expected) && message.contains("nothing is written"), "{message}");
+        }
+    }
+}

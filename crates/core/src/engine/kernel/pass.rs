@@ -1,0 +1,181 @@
+//! One pass over the pin: deposits and wear of a step, and the pairs of the next step against a bracket (model 4L, 4.2, and
+//! 4.1 of the next step).
+//!
+//! In the next step the disc column under pin column j lies under column j + 1. So when column j + 1 has been updated, the
+//! new heights of that pair are at hand, and are read on the way. Which pairs touch is known from the reading. Some columns
+//! of a strip at a time, debris first comes upon open cells, as [`super::deposit`] has it; that leaves what touches as it is
+//! at the start of the step, and then that wears.
+//!
+//! In most steps nothing out of the ordinary happens to most cells. Eight such cells at a time are done with few
+//! instructions ([`super::ordinary`]), which also show where something else happens; those eight are then done by all rules.
+
+use super::deposit::{COLUMNS, deposit};
+use super::edge::Edge;
+use super::instructions::{InstructionSet, kernel};
+use super::moved::{Moved, SeldomEvent, StripMoved, note_broken, note_worn_through};
+use super::ordinary::pass_over_ordinary;
+use super::pairs::Pairs;
+use super::read::Span;
+use super::reading::{Reading, StripReading};
+use super::rules::{Conditions, Rules, StripRules};
+use super::strip::{Behind, Strip};
+use super::worn::{Cells, wear};
+use crate::engine::lanes::{Chunk, LANES, Lanes, Mask};
+use crate::engine::parts::{Needs, build_up};
+use crate::engine::pin_strips::PinStrips;
+use crate::engine::strips::DiscSector;
+
+/// Columns of a strip with something out of the ordinary after which it is not looked for any more.
+const MOST_UNUSUAL: usize = 12;
+
+/// A pass over a span; the flag tells whether the pair of its first pin column with the disc column before its first
+/// is to be read for the next step.
+pub type Pass =
+    fn(InstructionSet, &Rules, &Conditions, &mut PinStrips, &mut DiscSector, Span, bool, &mut Moved, &mut Reading);
+
+/// The pass that does what a scene needs and nothing else; chosen once per run.
+pub fn pass(needs: Needs) -> Pass {
+    match (needs.build_up(), needs.disc_wears) {
+        (build_up::NONE, false) => pass_over_span::<{ build_up::NONE }, false>,
+        (build_up::NONE, true) => pass_over_span::<{ build_up::NONE }, true>,
+        (build_up::ALIKE, false) => pass_over_span::<{ build_up::ALIKE }, false>,
+        (build_up::ALIKE, true) => pass_over_span::<{ build_up::ALIKE }, true>,
+        (build_up::BRITTLE, false) => pass_over_span::<{ build_up::BRITTLE }, false>,
+        (build_up::BRITTLE, true) => pass_over_span::<{ build_up::BRITTLE }, true>,
+        (_, false) => pass_over_span::<{ build_up::DISTINCT }, false>,
+        (_, true) => pass_over_span::<{ build_up::DISTINCT }, true>,
+    }
+}
+
+kernel! {
+    /// Passes over a span.
+    pub fn pass_over_span<const BUILD_UP: u8, const DISC_WEARS: bool>(
+        rules: &Rules,
+        conditions: &Conditions,
+        pin: &mut PinStrips,
+        disc: &mut DiscSector,
+        span: Span,
+        joined: bool,
+        moved: &mut Moved,
+        reading: &mut Reading,
+    ) = pass_over_strips
+}
+
+#[inline(always)]
+#[expect(clippy::too_many_arguments, reason = "the kernel's own")]
+fn pass_over_strips<L: Lanes, const BUILD_UP: u8, const DISC_WEARS: bool>(
+    rules: &Rules,
+    conditions: &Conditions,
+    pin: &mut PinStrips,
+    disc: &mut DiscSector,
+    span: Span,
+    joined: bool,
+    moved: &mut Moved,
+    reading: &mut Reading,
+) {
+    for index in 0..pin.height.strips() {
+        let mut strip = Strip::new::<L, BUILD_UP>(index, pin, disc, span, joined);
+        let strip_rules = StripRules::<L>::new(rules, conditions, index);
+        let (mut strip_moved, mut next) = (StripMoved::<L>::new(), StripReading::<L, BUILD_UP>::new());
+        // Over a transport length it has been compacted before the pass.
+        let deposits = BUILD_UP != build_up::NONE && rules.transport.is_none();
+        let edge = Edge::strip(conditions.ahead.filter(|_| deposits), index);
+        if deposits {
+            strip.pin.touches[span.columns] = edge.touches;
+        }
+        let some = strip.extent.clone();
+        let mut behind = strip.behind::<L, BUILD_UP>(some.start);
+        let mut unusual = 0;
+        for first in some.clone().step_by(COLUMNS) {
+            if deposits {
+                deposit::<BUILD_UP, DISC_WEARS>(rules, conditions, &edge, &mut strip, first, moved);
+            }
+            let (mut column, end) = (first, some.end.min(first + COLUMNS));
+            while column < end {
+                if BUILD_UP != build_up::DISTINCT && rules.shortcut && unusual <= MOST_UNUSUAL {
+                    column = pass_over_ordinary::<L, BUILD_UP, DISC_WEARS>(
+                        &strip_rules,
+                        &mut strip,
+                        column..end,
+                        &mut behind,
+                        &mut next,
+                    );
+                    if column == end {
+                        break;
+                    }
+                    unusual += 1;
+                }
+                behind = update::<L, BUILD_UP, DISC_WEARS>(
+                    &strip_rules,
+                    &mut strip,
+                    column,
+                    behind,
+                    &mut strip_moved,
+                    &mut moved.seldom,
+                    &mut next,
+                    reading,
+                );
+                column += 1;
+            }
+        }
+        strip_moved.store::<BUILD_UP>(index, moved);
+        next.store(index, reading);
+    }
+}
+
+/// Wears the eight cells of a column, and reads what they do with what lies behind; returns what lies behind the next.
+#[inline(always)]
+#[expect(clippy::too_many_arguments, reason = "what is summed stays in registers")]
+fn update<L: Lanes, const BUILD_UP: u8, const DISC_WEARS: bool>(
+    rules: &StripRules<L>,
+    strip: &mut Strip,
+    column: usize,
+    behind: Behind<L>,
+    moved: &mut StripMoved<L>,
+    seldom: &mut Vec<SeldomEvent>,
+    next: &mut StripReading<L, BUILD_UP>,
+    reading: &mut Reading,
+) -> Behind<L> {
+    let fields = [&*strip.pin.height, &*strip.pin.substrate, &*strip.disc_height, &*strip.disc_substrate];
+    let cells = Cells::<L>::load::<BUILD_UP, DISC_WEARS>(fields, strip.pin.resin[column], [column, column]);
+    let worn = wear::<L, BUILD_UP, DISC_WEARS>(rules, cells);
+    if BUILD_UP == build_up::DISTINCT {
+        moved.lost_pin = rules.plus_loss(moved.lost_pin, worn.lost_pin);
+        if DISC_WEARS {
+            moved.lost_disc = rules.plus_loss(moved.lost_disc, worn.lost_disc);
+        }
+    } else if worn.worn_through.any() {
+        let (mut heights, mut gaps) = (Chunk([0.0; LANES]), Chunk([0.0; LANES]));
+        (worn.b_p - cells.z_p).store(&mut heights);
+        (cells.z_p - cells.z_d).store(&mut gaps);
+        note_worn_through(seldom, &heights, &gaps, worn.worn_through.byte(), rules.strip);
+    }
+    if (BUILD_UP == build_up::BRITTLE || BUILD_UP == build_up::DISTINCT) && worn.broken.any() {
+        let mut heights = Chunk([0.0; LANES]);
+        (worn.b_p - worn.z_p).store(&mut heights);
+        note_broken(seldom, &heights, worn.broken.byte(), rules.strip);
+    }
+    let nothing = L::Mask::of_byte(0);
+    let (mut z_p, mut pin_secondary) = (worn.z_p, nothing);
+    if BUILD_UP != build_up::NONE {
+        z_p = L::select(worn.worn_through | worn.broken, worn.b_p, z_p);
+        let b_p = worn.b_p.greater(z_p);
+        b_p.store(&mut strip.pin.substrate[column]);
+        pin_secondary = z_p.below(b_p);
+        strip.pin.plateau[column] = (pin_secondary | !worn.on_resin).byte();
+    }
+    z_p.store(&mut strip.pin.height[column]);
+    if DISC_WEARS {
+        worn.z_d.store(&mut strip.disc_height[column]);
+        if BUILD_UP != build_up::NONE {
+            worn.b_d.store(&mut strip.disc_substrate[column]);
+        }
+    }
+
+    // 4.1 of the next step.
+    let pairs = Pairs { on_resin: worn.on_resin, pin_secondary, disc_secondary: behind.secondary };
+    let place = [strip.index, strip.first + column];
+    strip.pin.touches[column] = next.add(z_p - behind.height, pairs, &rules.bracket, place, reading).byte();
+    let secondary = if BUILD_UP == build_up::DISTINCT { worn.b_d.below(worn.z_d) } else { nothing };
+    Behind { height: worn.z_d, secondary }
+}

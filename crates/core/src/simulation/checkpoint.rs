@@ -1,0 +1,90 @@
+//! The complete state of a simulation between two steps: what a stopped run needs to go on as if nothing had happened.
+
+use serde::{Deserialize, Serialize};
+
+use crate::engine::execution::Engine;
+use crate::engine::memory::EngineMemory;
+use crate::model::clock::Clock;
+use crate::model::error::WrongMesh;
+use crate::model::memory::{Heights, Memory};
+use crate::model::mesh::Mesh;
+use crate::observe::Sample;
+
+/// The complete state of a simulation between two steps.
+///
+/// A simulation of the same parameters and initial surfaces that is given it takes the coming steps bit for bit as the one
+/// that it was taken of, with any number of workers and any instruction set,
+/// on the same engine.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Checkpoint {
+    /// Heights of both surfaces.
+    pub heights: Heights,
+    /// What the last step showed, where it may be reported once more: in a pause.
+    pub(crate) contact: Option<LastContact>,
+    /// What is kept beside the heights.
+    pub(crate) memory: Memory,
+    /// What the engine keeps beside it; the plain model needs nothing more.
+    pub(crate) engine: Option<EngineMemory>,
+}
+
+/// What the last step showed, kept while the pin rests.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(crate) struct LastContact {
+    pub sample: Sample,
+    /// p of every pin cell, Pa, column by column.
+    pub pressure: Vec<f64>,
+}
+
+impl Checkpoint {
+    /// Steps done.
+    pub fn steps(&self) -> u64 {
+        self.memory.course.steps
+    }
+
+    /// What took its steps.
+    pub fn engine(&self) -> Engine {
+        if self.engine.is_some() { Engine::Fast } else { Engine::Plain }
+    }
+
+    /// When its steps end.
+    pub fn clock(&self) -> Clock {
+        self.memory.clock
+    }
+
+    /// t, s.
+    pub fn time(&self) -> f64 {
+        self.memory.course.time
+    }
+
+    /// Whether it is of so many cells.
+    ///
+    /// # Errors
+    /// [`WrongMesh`].
+    pub fn check(&self, mesh: &Mesh) -> Result<(), WrongMesh> {
+        let Heights { disc_height, disc_substrate, pin_height, pin_substrate } = &self.heights;
+        let fields = [
+            ("disc", disc_height, mesh.disc_cells()),
+            ("disc", disc_substrate, mesh.disc_cells()),
+            ("pin", pin_height, mesh.pin_cells()),
+            ("pin", pin_substrate, mesh.pin_cells()),
+        ];
+        let wrong = fields.into_iter().find(|(_, field, expected)| field.len() != *expected);
+        wrong.map_or(Ok(()), |(body, field, expected)| Err(WrongMesh { body, found: field.len(), expected }))
+    }
+
+    /// What of it is not as a simulation of the same run has it, in words; none where all of it is.
+    pub(crate) fn misfit(&self, own: &Memory, own_engine: Option<&EngineMemory>) -> Option<&'static str> {
+        let both = self.engine.as_ref().zip(own_engine);
+        let differs =
+            |is_other: fn(&EngineMemory, &EngineMemory) -> bool| both.is_some_and(|(found, own)| is_other(found, own));
+        let memory = &self.memory;
+        [
+            (memory.account.pools.len() != own.account.pools.len(), "debris pools"),
+            (differs(|found, own| found.contact.has_statuses() != own.contact.has_statuses()), "sums of the contact"),
+            (differs(|found, own| found.forecast.revolution() != own.forecast.revolution()), "past displacements"),
+            (memory.accounts.is_some() != own.accounts.is_some(), "friction, heat and emission"),
+        ]
+        .into_iter()
+        .find_map(|(differs, what)| differs.then_some(what))
+    }
+}

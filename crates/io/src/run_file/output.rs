@@ -1,0 +1,156 @@
+//! Output path of a run file: a new file appears there complete, or not at all, and the file before it can be kept beside it.
+
+use std::fs::{self, File};
+use std::io::{self, ErrorKind, Write as _};
+use std::path::{Path, PathBuf};
+
+use thiserror::Error;
+
+use super::RunFileError;
+use crate::temporary::Temporary;
+
+/// An output path and the temporary file beside it that becomes the output once it is set up.
+pub(super) struct Output {
+    path: PathBuf,
+    temporary: Temporary,
+    overwrite: bool,
+}
+
+impl Output {
+    /// Checks that a file may be written at `path` and starts the temporary with the given bytes.
+    pub(super) fn prepare(path: &Path, overwrite: bool, start: &[u8]) -> Result<Self, RunFileError> {
+        let path = resolve(path, overwrite)?;
+        let started = Temporary::create(&path).and_then(|(temporary, mut file)| {
+            file.write_all(start)?;
+            Ok(temporary)
+        });
+        let temporary = started.map_err(|error| match error.kind() {
+            // That is not the user's mistake, and nothing that writing elsewhere in the folder would mend.
+            ErrorKind::StorageFull | ErrorKind::QuotaExceeded | ErrorKind::FileTooLarge => {
+                RunFileError::not_made(path.clone(), error.to_string())
+            }
+            _ => refused_in(&path)(error),
+        })?;
+        Ok(Self { path, temporary, overwrite })
+    }
+
+    /// Path that the file will have.
+    pub(super) fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// Path of the file until it is published.
+    pub(super) fn temporary(&self) -> &Path {
+        self.temporary.path()
+    }
+
+    /// Replaces the file that is there, so that one of both is whole even if the power fails.
+    pub(super) fn publish_durably(self) -> Result<PathBuf, RunFileError> {
+        let Self { path, temporary, .. } = self;
+        temporary.publish_durably().map_err(refused_in(&path))?;
+        Ok(path)
+    }
+
+    /// Gives the temporary its final name; replaces an existing file only where that was asked for.
+    pub(super) fn publish(self) -> Result<PathBuf, RunFileError> {
+        let Self { path, temporary, overwrite } = self;
+        match temporary.publish(overwrite) {
+            Err(error) if !overwrite && error.kind() == ErrorKind::AlreadyExists => Err(RunFileError::Exists { path }),
+            published => published.map_err(refused_in(&path)).map(|()| path),
+        }
+    }
+}
+
+/// Says whether a run file may be written at `path`, before any work is done for it; touches nothing.
+///
+/// # Errors
+/// As [`RunWriter::create`](super::RunWriter::create) for a path that cannot be written.
+pub fn check_output(path: &Path, overwrite: bool) -> Result<(), RunFileError> {
+    resolve(path, overwrite).map(|_| ())
+}
+
+/// The file that is meant by an output path: absolute, so that a change of the working directory does no harm, and
+/// where a symbolic link is to be replaced, the file that it points to.
+///
+/// # Errors
+/// As [`RunWriter::create`](super::RunWriter::create) for a path that cannot be written.
+pub fn resolve(path: &Path, overwrite: bool) -> Result<PathBuf, RunFileError> {
+    let not_a_file = || RunFileError::NotAFile { path: path.into() };
+    let (Some(parent), Some(name)) = (path.parent(), path.file_name()) else { return Err(not_a_file()) };
+    let names_a_folder = path.as_os_str().as_encoded_bytes().ends_with(b"/");
+    if names_a_folder || fs::metadata(path).is_ok_and(|there| !there.is_file()) {
+        return Err(not_a_file());
+    }
+    let parent = if parent.as_os_str().is_empty() { Path::new(".") } else { parent };
+    if !parent.is_dir() {
+        return Err(RunFileError::NoDirectory { path: path.into(), directory: parent.into() });
+    }
+    let refused = |error: io::Error| RunFileError::Directory { directory: parent.into(), reason: error.to_string() };
+    let mut resolved = fs::canonicalize(parent).map_err(refused)?.join(name);
+    if fs::symlink_metadata(&resolved).is_ok() {
+        resolved = fs::canonicalize(&resolved).map_err(|_| RunFileError::LinkToNothing {
+            path: path.into(),
+            to: fs::read_link(path).unwrap_or_default(),
+        })?;
+        if !overwrite {
+            return Err(RunFileError::Exists { path: path.into() });
+        }
+    }
+    if resolved.to_str().is_none() {
+        return Err(RunFileError::NotUtf8 { path: path.into() });
+    }
+    Ok(resolved)
+}
+
+/// The system's numbers of the error of too many open files, in all and of one process.
+const ENFILE: i32 = 23;
+const EMFILE: i32 = 24;
+
+/// An error of the directory in which `path` is.
+fn refused_in(path: &Path) -> impl Fn(io::Error) -> RunFileError + '_ {
+    move |error| match error.raw_os_error() {
+        // Of the system, and of this process.
+        Some(ENFILE | EMFILE) => RunFileError::NoHandle { path: path.into(), reason: error.to_string() },
+        _ => RunFileError::Directory { directory: path.parent().unwrap_or(path).into(), reason: error.to_string() },
+    }
+}
+
+/// Reason why a file is not made anew.
+#[derive(Debug, Error)]
+#[error("cannot keep a copy of {} as {}: {error}; nothing was changed", path.display(), copy.display())]
+pub struct KeepError {
+    /// The file.
+    pub path: PathBuf,
+    /// Its copy.
+    pub copy: PathBuf,
+    /// Message of the system.
+    #[source]
+    pub error: io::Error,
+}
+
+/// Gives a file a second name, or where there are no links, copies it.
+///
+/// # Errors
+/// [`KeepError`].
+pub fn keep(path: &Path) -> Result<PathBuf, KeepError> {
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    let names = (1..).map(|number| match number {
+        1 => format!("{name}.before-repair"),
+        number => format!("{name}.before-repair-{number}"),
+    });
+    for copy in names.map(|name| path.with_file_name(name)) {
+        match fs::hard_link(path, &copy) {
+            Err(error) if error.kind() == ErrorKind::AlreadyExists => {}
+            Ok(()) => return Ok(copy),
+            Err(_) => {
+                let made = File::create_new(&copy);
+                if made.as_ref().is_err_and(|error| error.kind() == ErrorKind::AlreadyExists) {
+                    continue;
+                }
+                let copied = made.and_then(|mut made| io::copy(&mut File::open(path)?, &mut made));
+                return copied.map(|_| copy.clone()).map_err(|error| KeepError { path: path.into(), copy, error });
+            }
+        }
+    }
+    unreachable!("there is always another number")
+}

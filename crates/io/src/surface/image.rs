@@ -1,0 +1,353 @@
+//! Images (PNG, TIFF): as heights, and as grey levels.
+//!
+//! The first line of an image is at the top, where y is largest. Stored numbers are taken as they are: colour profiles
+//! and gamma are for the eye.
+
+use std::io::Cursor;
+
+use plateau_core::surface::micrograph::Picture;
+use png::{BitDepth, ColorType, Transformations};
+use thiserror::Error;
+use tiff::decoder::{Decoder, DecodingResult, Limits};
+use tiff::tags::Tag;
+
+use super::format::Format;
+use super::options::{MOST_POINTS, ReadOptions, inflated};
+use crate::memory::{NoRoom, refuse_beyond};
+
+/// Why an image gives no surface.
+#[derive(Debug, Error)]
+pub enum ImageError {
+    /// A damaged PNG image.
+    #[error("cannot be read as PNG: {0}")]
+    Png(#[from] png::DecodingError),
+    /// A damaged or unusual TIFF image.
+    #[error("cannot be read as TIFF: {0}")]
+    Tiff(#[from] tiff::TiffError),
+    /// Pixels of a kind that is not read.
+    #[error("the image has {found}, expected {expected}")]
+    Pixels {
+        /// What its pixels are.
+        found: String,
+        /// What they should be, and what to do.
+        expected: &'static str,
+    },
+    /// More pixels than are read, or than the file can hold.
+    #[error(
+        "the image has {width} x {height} pixels, which a file of {bytes} bytes does not hold or memory should not"
+    )]
+    TooLarge {
+        /// Pixels of a line.
+        width: u64,
+        /// Lines.
+        height: u64,
+        /// Size of the file.
+        bytes: usize,
+    },
+    /// More than memory holds.
+    #[error("{width} x {height} pixels need {no_room}")]
+    Memory {
+        /// Pixels of a line.
+        width: u64,
+        /// Lines.
+        height: u64,
+        /// How much is needed, and is there.
+        no_room: NoRoom,
+    },
+    /// The image is to be turned before it is shown.
+    #[error("the image is stored turned (TIFF orientation {found}), expected 1, its first line at the top: save it so")]
+    Orientation {
+        /// The tag's value.
+        found: u32,
+    },
+    /// The heights of black and white are unknown.
+    #[error("an image does not say its heights: height_range = [\"0 um\", \"10 um\"] gives those of black and white")]
+    NoHeightRange,
+    /// The unit of decimal pixels is unknown.
+    #[error("the pixels are decimal heights of an unknown unit: unit = \"um\" gives it, in place of height_range")]
+    NoUnit,
+    /// A unit for pixels that are levels.
+    #[error("the pixels are grey levels, so unit has no meaning: leave it out and give height_range")]
+    Unit,
+    /// Pixels that are infinite.
+    #[error("{count} of {points} pixels are not finite heights, expected finite numbers, NaN for a missing point")]
+    Infinite {
+        /// Infinite pixels.
+        count: usize,
+        /// All pixels.
+        points: usize,
+    },
+}
+
+/// Pixels line by line, the first line at the top.
+#[derive(Debug, PartialEq)]
+struct Raster {
+    width: usize,
+    height: usize,
+    colour: Colour,
+    /// As many samples a pixel as the colour has.
+    samples: Samples,
+    /// What is left out of the file.
+    warnings: Vec<String>,
+}
+
+/// What a pixel is made of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Colour {
+    Grey,
+    GreyAlpha,
+    Rgb,
+    RgbAlpha,
+}
+
+/// The numbers of an image.
+#[derive(Debug, PartialEq)]
+enum Samples {
+    U8(Vec<u8>),
+    U16(Vec<u16>),
+    F32(Vec<f32>),
+}
+
+const EXPECTED: &str = "grey or RGB pixels of 8 or 16 bits, or grey ones of 32 bits float: save it so";
+
+impl Raster {
+    /// Decodes a PNG image; palettes and less than 8 bits are expanded.
+    fn png(content: &[u8]) -> Result<Self, ImageError> {
+        let bytes = content.len();
+        // What is not the picture (texts, profiles) is left out.
+        let limits = png::Limits { bytes: inflated(bytes).saturating_add(1 << 20) };
+        let mut decoder = png::Decoder::new_with_limits(Cursor::new(content), limits);
+        decoder.set_ignore_text_chunk(true);
+        decoder.set_ignore_iccp_chunk(true);
+        decoder.set_transformations(Transformations::EXPAND);
+        let header = decoder.read_header_info()?;
+        let (width, height) = (u64::from(header.width), u64::from(header.height));
+        let bits = header.bits_per_pixel() as u64;
+        let line = width.saturating_mul(bits).div_ceil(8);
+        refuse_promise(width, height, line.saturating_mul(height), inflated(bytes), bytes)?;
+        let mut reader = decoder.read_info()?;
+        let size = reader.output_buffer_size().ok_or(ImageError::TooLarge { width, height, bytes })?;
+        let mut buffer = vec![0; size];
+        let info = reader.next_frame(&mut buffer)?;
+        // The checksum of the last part, and that the file ends where it should.
+        reader.finish()?;
+        let colour = match info.color_type {
+            ColorType::Grayscale => Colour::Grey,
+            ColorType::GrayscaleAlpha => Colour::GreyAlpha,
+            ColorType::Rgb | ColorType::Indexed => Colour::Rgb,
+            ColorType::Rgba => Colour::RgbAlpha,
+        };
+        buffer.truncate(info.buffer_size());
+        let samples = match info.bit_depth {
+            BitDepth::Sixteen => {
+                Samples::U16(buffer.chunks_exact(2).map(|pair| u16::from_be_bytes([pair[0], pair[1]])).collect())
+            }
+            _ => Samples::U8(buffer),
+        };
+        let raster =
+            Self { width: info.width as usize, height: info.height as usize, colour, samples, warnings: Vec::new() };
+        raster.checked()
+    }
+
+    /// Decodes the first image of a TIFF file.
+    fn tiff(content: &[u8]) -> Result<Self, ImageError> {
+        let bytes = content.len();
+        let mut limits = Limits::default();
+        limits.ifd_value_size = bytes;
+        let mut decoder = Decoder::new(Cursor::new(content))?.with_limits(limits.clone());
+        let (width, height) = decoder.dimensions()?;
+        let kind = decoder.colortype()?;
+        let (colour, sample_bytes) = match kind {
+            tiff::ColorType::Gray(bits @ (8 | 16 | 32)) => (Colour::Grey, u64::from(bits) / 8),
+            tiff::ColorType::GrayA(bits @ (8 | 16)) => (Colour::GreyAlpha, u64::from(bits) / 4),
+            tiff::ColorType::RGB(bits @ (8 | 16)) => (Colour::Rgb, u64::from(bits) / 8 * 3),
+            tiff::ColorType::RGBA(bits @ (8 | 16)) => (Colour::RgbAlpha, u64::from(bits) / 8 * 4),
+            other => return Err(ImageError::Pixels { found: format!("{other:?} pixels"), expected: EXPECTED }),
+        };
+        if let Some(found) = decoder.find_tag_unsigned(Tag::Orientation)?.filter(|orientation| *orientation != 1) {
+            return Err(ImageError::Orientation { found });
+        }
+        let (width, height) = (u64::from(width), u64::from(height));
+        let needed = width.saturating_mul(height).saturating_mul(sample_bytes);
+        // LZW makes strings of up to 4096 bytes of a code of 12 bits at most.
+        refuse_promise(width, height, needed, bytes.saturating_mul(4096), bytes)?;
+        limits.decoding_buffer_size = needed as usize;
+        limits.intermediate_buffer_size = (needed as usize).saturating_add(bytes).saturating_add(1 << 16);
+        let mut decoder = decoder.with_limits(limits);
+        if decoder.image_buffer_layout()?.planes > 1 {
+            return Err(ImageError::Pixels { found: "a plane for every colour".to_owned(), expected: EXPECTED });
+        }
+        let samples = match decoder.read_image()? {
+            DecodingResult::U8(samples) => Samples::U8(samples),
+            DecodingResult::U16(samples) => Samples::U16(samples),
+            DecodingResult::F32(samples) => Samples::F32(samples),
+            _ => return Err(ImageError::Pixels { found: "signed or wide integers".to_owned(), expected: EXPECTED }),
+        };
+        let mut warnings = Vec::new();
+        if decoder.more_images() {
+            warnings.push("the file has several images: the first is read".to_owned());
+        }
+        Self { width: width as usize, height: height as usize, colour, samples, warnings }.checked()
+    }
+
+    /// Refuses pixels that do not fill the image, whatever a decoder did.
+    fn checked(self) -> Result<Self, ImageError> {
+        let found = match &self.samples {
+            Samples::U8(samples) => samples.len(),
+            Samples::U16(samples) => samples.len(),
+            Samples::F32(samples) => samples.len(),
+        };
+        if found == self.width * self.height * self.colour.samples() && found > 0 {
+            Ok(self)
+        } else {
+            Err(ImageError::Pixels { found: format!("{found} samples"), expected: "as many as its size says" })
+        }
+    }
+}
+
+impl Colour {
+    /// Numbers of a pixel.
+    fn samples(self) -> usize {
+        match self {
+            Self::Grey => 1,
+            Self::GreyAlpha => 2,
+            Self::Rgb => 3,
+            Self::RgbAlpha => 4,
+        }
+    }
+}
+
+/// Refuses an image that promises more than its file can hold, than is read, or than memory holds. `needed` are the bytes of its
+/// pixels.
+fn refuse_promise(width: u64, height: u64, needed: u64, most: usize, bytes: usize) -> Result<(), ImageError> {
+    let points = width.checked_mul(height).filter(|points| *points <= MOST_POINTS as u64);
+    if points.is_none() || needed > most as u64 {
+        return Err(ImageError::TooLarge { width, height, bytes });
+    }
+    // The pixels as they are stored and as numbers, and a height of each.
+    let heights = width.saturating_mul(height).saturating_mul(size_of::<f64>() as u64);
+    refuse_beyond(needed.saturating_mul(2).saturating_add(heights)).map_err(|no_room| ImageError::Memory {
+        width,
+        height,
+        no_room,
+    })
+}
+
+/// Heights of an image, m, column by column.
+#[derive(Debug)]
+pub(super) struct HeightMap {
+    pub(super) columns: usize,
+    pub(super) rows: usize,
+    /// NaN where a decimal image has no number.
+    pub(super) heights: Vec<f64>,
+    pub(super) notes: Vec<String>,
+    pub(super) warnings: Vec<String>,
+}
+
+/// Decodes an image by its format.
+fn decode(content: &[u8], format: Format) -> Result<Raster, ImageError> {
+    if format == Format::Png { Raster::png(content) } else { Raster::tiff(content) }
+}
+
+/// Reads an image as heights: grey levels lie evenly between the heights of black and white, decimal pixels are heights
+/// themselves.
+///
+/// # Errors
+/// [`ImageError`] when the image is damaged, has colours or transparency, or its heights are not told.
+pub(super) fn heights(content: &[u8], format: Format, options: &ReadOptions) -> Result<HeightMap, ImageError> {
+    let Raster { width, height, colour, samples, warnings } = decode(content, format)?;
+    let refuse = |found: &str| {
+        let expected = "grey pixels without transparency: colours are not heights, save the image as grey levels";
+        Err(ImageError::Pixels { found: found.to_owned(), expected })
+    };
+    match colour {
+        Colour::Grey => {}
+        Colour::GreyAlpha => return refuse("transparency"),
+        Colour::Rgb | Colour::RgbAlpha => return refuse("colours"),
+    }
+    let place = (width, height);
+    let (heights, note) = match &samples {
+        Samples::U8(levels) => (graded(levels, place, u8::MAX.into(), options)?, "8 bits"),
+        Samples::U16(levels) => (graded(levels, place, u16::MAX.into(), options)?, "16 bits"),
+        Samples::F32(pixels) => (decimal(pixels, place, options)?, "decimal heights"),
+    };
+    let count = heights.iter().filter(|height| height.is_infinite()).count();
+    if count > 0 {
+        return Err(ImageError::Infinite { count, points: heights.len() });
+    }
+    Ok(HeightMap { columns: width, rows: height, heights, notes: vec![note.to_owned()], warnings })
+}
+
+/// Heights of grey levels up to `white`.
+fn graded<T: Copy + Into<f64>>(
+    levels: &[T],
+    place: (usize, usize),
+    white: f64,
+    options: &ReadOptions,
+) -> Result<Vec<f64>, ImageError> {
+    if options.unit.is_some() {
+        return Err(ImageError::Unit);
+    }
+    let [black_height, white_height] = options.height_range.ok_or(ImageError::NoHeightRange)?;
+    // Weighted so that black and white have exactly their heights.
+    Ok(by_columns(levels, place, |level| {
+        let share = level.into() / white;
+        black_height * (1.0 - share) + white_height * share
+    }))
+}
+
+/// Heights that are stored as such.
+fn decimal(pixels: &[f32], place: (usize, usize), options: &ReadOptions) -> Result<Vec<f64>, ImageError> {
+    match (options.unit, options.height_range) {
+        (Some(unit), None) => Ok(by_columns(pixels, place, |pixel| f64::from(pixel) * unit)),
+        _ => Err(ImageError::NoUnit),
+    }
+}
+
+/// Pixels column by column, the lowest line first.
+fn by_columns<T: Copy>(pixels: &[T], (width, height): (usize, usize), of: impl Fn(T) -> f64) -> Vec<f64> {
+    let places = (0..width).flat_map(|x| (0..height).rev().map(move |line| line * width + x));
+    places.map(|at| of(pixels[at])).collect()
+}
+
+/// Reads an image as grey levels from black 0 to white 1. Colours become their luma of ITU-R BT.709,
+/// 0.2126 R + 0.7152 G + 0.0722 B. Gives besides what the image is, in words.
+///
+/// # Errors
+/// [`ImageError`] when the image is damaged, transparent somewhere, or has decimal pixels beyond 0 and 1.
+pub(super) fn grey(content: &[u8], format: Format) -> Result<(Picture<f32>, String), ImageError> {
+    let Raster { width, height, colour, samples, warnings } = decode(content, format)?;
+    let (pixels, bits) = match &samples {
+        Samples::U8(samples) => (levels(samples, colour, u8::MAX.into())?, "8 bits"),
+        Samples::U16(samples) => (levels(samples, colour, u16::MAX.into())?, "16 bits"),
+        Samples::F32(samples) => (levels(samples, colour, 1.0)?, "decimal levels"),
+    };
+    if pixels.iter().any(|level| !(0.0..=1.0).contains(level)) {
+        let found = "decimal pixels beyond 0 to 1".to_owned();
+        return Err(ImageError::Pixels { found, expected: "grey levels from black 0 to white 1" });
+    }
+    let kind = match colour {
+        Colour::Grey | Colour::GreyAlpha => "grey",
+        Colour::Rgb | Colour::RgbAlpha => "colours, taken as their luma",
+    };
+    let warnings: String = warnings.iter().map(|warning| format!(", {warning}")).collect();
+    Ok((Picture { width, height, pixels }, format!("{width} x {height} pixels, {kind}, {bits}{warnings}")))
+}
+
+/// Grey levels of pixels whose samples go up to `white`.
+fn levels<T: Copy + Into<f64>>(samples: &[T], colour: Colour, white: f64) -> Result<Vec<f32>, ImageError> {
+    let value = |sample: &T| (*sample).into() / white;
+    let luma = |rgb: &[T]| match rgb {
+        [red, green, blue, ..] => 0.2126 * value(red) + 0.7152 * value(green) + 0.0722 * value(blue),
+        [grey, ..] => value(grey),
+        [] => 0.0,
+    };
+    let pixels = || samples.chunks_exact(colour.samples());
+    let transparent = matches!(colour, Colour::GreyAlpha | Colour::RgbAlpha)
+        && pixels().any(|pixel| pixel.last().is_some_and(|alpha| value(alpha) < 1.0));
+    if transparent {
+        let expected = "opaque ones: save the image without transparency";
+        return Err(ImageError::Pixels { found: "transparent pixels".to_owned(), expected });
+    }
+    Ok(pixels().map(|pixel| (luma(pixel) as f32).min(1.0)).collect())
+}

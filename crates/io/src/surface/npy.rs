@@ -1,0 +1,591 @@
+//! NumPy arrays (.npy) and archives of them (.npz): shape (columns, rows), heights in m.
+
+use std::fs::File;
+use std::io::{self, BufWriter, Cursor, Read, Write};
+use std::path::Path;
+
+use plateau_core::surface::Patch;
+use thiserror::Error;
+use zip::ZipArchive;
+
+use super::options::{MOST_POINTS, inflated};
+use crate::memory::{NoRoom, refuse_beyond};
+use crate::text::short;
+
+/// Why a NumPy file gives no surface.
+#[derive(Debug, Error)]
+pub enum NpyError {
+    /// The header is damaged.
+    #[error("the header is damaged: found {found}, expected {expected}")]
+    Header {
+        /// What stands there.
+        found: String,
+        /// What should.
+        expected: &'static str,
+    },
+    /// The array holds something else.
+    #[error("the array has type {found}, expected floating-point numbers or integers")]
+    Type {
+        /// Its type as NumPy writes it.
+        found: String,
+    },
+    /// The array has other than two dimensions, or no points.
+    #[error("the array has shape {found}, expected 2 dimensions (columns, rows), none of them 0")]
+    Shape {
+        /// Its shape.
+        found: String,
+    },
+    /// More points than are read, or than the file can hold.
+    #[error("the array has shape ({}, {}), which is more than the {most} points that are read of a file of this size", shape.0, shape.1)]
+    TooLarge {
+        /// Its shape.
+        shape: (u64, u64),
+        /// The most that are read.
+        most: usize,
+    },
+    /// More than memory holds.
+    #[error("its heights need {0}")]
+    Memory(NoRoom),
+    /// The data end too early, or too late.
+    #[error("the data have {found} bytes, expected {expected} for shape ({}, {})", shape.0, shape.1)]
+    Length {
+        /// Bytes of data.
+        found: u64,
+        /// Bytes that the shape needs.
+        expected: usize,
+        /// The shape.
+        shape: (u64, u64),
+    },
+    /// Infinite heights.
+    #[error("{count} of {points} heights are infinite, expected heights in m, NaN for a missing point")]
+    Infinite {
+        /// Infinite heights.
+        count: usize,
+        /// All heights.
+        points: usize,
+    },
+    /// The archive is damaged.
+    #[error("cannot be read as a zip archive: {0}")]
+    Zip(#[from] zip::result::ZipError),
+    /// A member of the archive cannot be decompressed.
+    #[error("cannot be decompressed: {0}")]
+    Inflate(std::io::Error),
+    /// The array asked for is not there, or there is not one with two dimensions.
+    #[error("{problem}; {present}")]
+    Choice {
+        /// What is wrong.
+        problem: String,
+        /// The arrays of the archive.
+        present: String,
+    },
+    /// What is wrong with one array of an archive.
+    #[error("array \"{}\": {reason}", short(name))]
+    Member {
+        /// Name of the array.
+        name: String,
+        /// What is wrong.
+        reason: Box<NpyError>,
+    },
+}
+
+impl NpyError {
+    /// No one array is that of this name, or the only one with two dimensions.
+    fn choice(name: Option<&str>, present: impl Iterator<Item = String>) -> Self {
+        const NAMED: usize = 12;
+        let mut present: Vec<String> = present.collect();
+        let more = present.len().saturating_sub(NAMED);
+        present.truncate(NAMED);
+        if more > 0 {
+            present.push(format!("and {more} more"));
+        }
+        Self::Choice {
+            problem: match name {
+                Some(name) => format!("the archive has no one array \"{}\"", short(name).escape_debug()),
+                None => "expected one array of two dimensions: name it with dataset = \"...\"".to_owned(),
+            },
+            present: match present.as_slice() {
+                [] => "the archive has no arrays".to_owned(),
+                names => format!("it has {}", names.join(", ")),
+            },
+        }
+    }
+}
+
+/// A type of number.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+struct Number {
+    kind: Kind,
+    /// Bytes: 1, 2, 4 or 8.
+    size: usize,
+    big_endian: bool,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Kind {
+    Float,
+    Signed,
+    Unsigned,
+}
+
+impl Number {
+    /// Reads a type such as `<f8`.
+    fn of(descr: &str) -> Result<Self, NpyError> {
+        let unknown = || NpyError::Type { found: format!("\"{}\"", short(descr).escape_debug()) };
+        let mut characters = descr.chars();
+        let (order, kind, size) = (characters.next(), characters.next(), characters.as_str());
+        let kind = match kind {
+            Some('f') => Kind::Float,
+            Some('i') => Kind::Signed,
+            Some('u') => Kind::Unsigned,
+            _ => return Err(unknown()),
+        };
+        let size = match (size, kind) {
+            ("1", Kind::Signed | Kind::Unsigned) => 1,
+            ("2", _) => 2,
+            ("4", _) => 4,
+            ("8", _) => 8,
+            _ => return Err(unknown()),
+        };
+        match (order, size) {
+            (Some('<'), _) | (Some('|'), 1) => Ok(Self { kind, size, big_endian: false }),
+            (Some('>'), _) => Ok(Self { kind, size, big_endian: true }),
+            _ => Err(unknown()),
+        }
+    }
+
+    /// Bytes of a number.
+    fn size(self) -> usize {
+        self.size
+    }
+
+    fn is_integer(self) -> bool {
+        self.kind != Kind::Float
+    }
+
+    /// Reads numbers as doubles; integers of more than 53 bits are rounded.
+    fn read(self, data: &[u8]) -> Vec<f64> {
+        data.chunks_exact(self.size).map(|bytes| self.one(bytes)).collect()
+    }
+
+    fn one(self, bytes: &[u8]) -> f64 {
+        // Sign-extended later: the number's bytes, the most significant first, at the end of eight.
+        let mut raw = [0; 8];
+        for (at, byte) in bytes.iter().enumerate() {
+            raw[if self.big_endian { 8 - self.size + at } else { 7 - at }] = *byte;
+        }
+        let bits = u64::from_be_bytes(raw);
+        match (self.kind, self.size) {
+            (Kind::Unsigned, _) => bits as f64,
+            (Kind::Signed, _) => {
+                let unused = 64 - 8 * self.size;
+                ((bits << unused) as i64 >> unused) as f64
+            }
+            (Kind::Float, 2) => half(bits as u16),
+            (Kind::Float, 4) => f64::from(f32::from_bits(bits as u32)),
+            (Kind::Float, _) => f64::from_bits(bits),
+        }
+    }
+}
+
+/// A number of IEEE 754 binary16.
+fn half(bits: u16) -> f64 {
+    let sign = if bits >> 15 == 1 { -1.0 } else { 1.0 };
+    let exponent = i32::from(bits >> 10 & 0x1f);
+    let fraction = f64::from(bits & 0x3ff) / 1024.0;
+    sign * match exponent {
+        0 => fraction * 2.0_f64.powi(-14),
+        31 if fraction == 0.0 => f64::INFINITY,
+        31 => f64::NAN,
+        _ => (1.0 + fraction) * 2.0_f64.powi(exponent - 15),
+    }
+}
+
+const MAGIC: &[u8] = b"\x93NUMPY";
+
+/// NumPy itself refuses longer headers.
+const LONGEST: usize = 10_000;
+
+/// Bytes from which a header can be read, if the file is that long.
+pub(super) const HEAD: usize = MAGIC.len() + 2 + 4 + LONGEST;
+
+/// What a header says.
+#[derive(Debug, Clone, PartialEq)]
+struct Header {
+    /// Type as NumPy writes it, for instance `<f8`.
+    descr: String,
+    fortran_order: bool,
+    shape: Vec<u64>,
+    /// Where the data start.
+    data: usize,
+}
+
+impl Header {
+    /// Reads the start of a file.
+    fn read(content: &[u8]) -> Result<Self, NpyError> {
+        let wrong = |found: &[u8], expected| {
+            let found = format!("\"{}\"", found[..found.len().min(60)].escape_ascii());
+            Err(NpyError::Header { found, expected })
+        };
+        let Some(rest) = content.strip_prefix(MAGIC) else { return wrong(content, "\"\\x93NUMPY\"") };
+        let (length, start) = match *rest {
+            [1, 0, a, b, ..] => (usize::from(u16::from_le_bytes([a, b])), 4),
+            [2 | 3, 0, a, b, c, d, ..] => (u32::from_le_bytes([a, b, c, d]) as usize, 6),
+            [1..=3, 0, ..] => return wrong(rest, "the length of the header"),
+            _ => return wrong(&rest[..rest.len().min(2)], "version 1.0, 2.0 or 3.0"),
+        };
+        if length > LONGEST {
+            return wrong(&rest[..start], "a header of at most 10000 bytes");
+        }
+        let Some(text) = rest.get(start..start + length) else { return wrong(rest, "a header as long as it says") };
+        let text = String::from_utf8_lossy(text);
+        let mut header = Dictionary { rest: text.trim() }.read()?;
+        header.data = MAGIC.len() + start + length;
+        Ok(header)
+    }
+
+    /// Columns and rows, and how many points they are.
+    fn grid(&self) -> Result<(usize, usize, usize), NpyError> {
+        let [columns, rows] = self.shape[..] else { return Err(NpyError::Shape { found: self.shown_shape() }) };
+        if columns == 0 || rows == 0 {
+            return Err(NpyError::Shape { found: self.shown_shape() });
+        }
+        let points = columns.checked_mul(rows).and_then(|points| usize::try_from(points).ok());
+        match points.filter(|points| *points <= MOST_POINTS) {
+            Some(points) => Ok((columns as usize, rows as usize, points)),
+            None => Err(NpyError::TooLarge { shape: (columns, rows), most: MOST_POINTS }),
+        }
+    }
+
+    fn shown_shape(&self) -> String {
+        let sizes: Vec<String> = self.shape.iter().map(u64::to_string).collect();
+        format!("({})", sizes.join(", "))
+    }
+}
+
+/// The literal of a dictionary, read from the front.
+struct Dictionary<'a> {
+    rest: &'a str,
+}
+
+impl<'a> Dictionary<'a> {
+    fn read(mut self) -> Result<Header, NpyError> {
+        let (mut descr, mut fortran_order, mut shape) = (None, None, None);
+        self.expect('{')?;
+        while !self.take('}') {
+            let key = self.quoted()?;
+            self.expect(':')?;
+            match key {
+                "descr" => descr = Some(self.descr()?),
+                "fortran_order" => fortran_order = Some(self.boolean()?),
+                "shape" => shape = Some(self.shape()?),
+                _ => return self.wrong("the keys descr, fortran_order and shape"),
+            }
+            if !self.take(',') {
+                self.expect('}')?;
+                break;
+            }
+        }
+        match (descr, fortran_order, shape) {
+            (Some(descr), Some(fortran_order), Some(shape)) => Ok(Header { descr, fortran_order, shape, data: 0 }),
+            _ => self.wrong("the keys descr, fortran_order and shape"),
+        }
+    }
+
+    fn wrong<T>(&self, expected: &'static str) -> Result<T, NpyError> {
+        let found: String = self.rest.chars().take(40).flat_map(char::escape_debug).collect();
+        Err(NpyError::Header { found: format!("\"{found}\""), expected })
+    }
+
+    fn take(&mut self, mark: char) -> bool {
+        self.rest = self.rest.trim_start();
+        let rest = self.rest.strip_prefix(mark);
+        self.rest = rest.unwrap_or(self.rest);
+        rest.is_some()
+    }
+
+    fn expect(&mut self, mark: char) -> Result<(), NpyError> {
+        if self.take(mark) {
+            Ok(())
+        } else {
+            self.wrong("a dictionary {'descr': ..., 'fortran_order': ..., 'shape': ...}")
+        }
+    }
+
+    fn quoted(&mut self) -> Result<&'a str, NpyError> {
+        for quote in ['\'', '"'] {
+            if self.take(quote) {
+                let Some((text, rest)) = self.rest.split_once(quote) else { return self.wrong("a string that ends") };
+                self.rest = rest;
+                return Ok(text);
+            }
+        }
+        self.wrong("a string in quotes")
+    }
+
+    /// A type; a list of named fields is one too, but holds no heights.
+    fn descr(&mut self) -> Result<String, NpyError> {
+        match self.quoted() {
+            Err(_) if self.rest.starts_with('[') => Err(NpyError::Type { found: "record".to_owned() }),
+            other => other.map(str::to_owned),
+        }
+    }
+
+    fn boolean(&mut self) -> Result<bool, NpyError> {
+        self.rest = self.rest.trim_start();
+        for (word, value) in [("True", true), ("False", false)] {
+            if let Some(rest) = self.rest.strip_prefix(word) {
+                self.rest = rest;
+                return Ok(value);
+            }
+        }
+        self.wrong("True or False")
+    }
+
+    fn shape(&mut self) -> Result<Vec<u64>, NpyError> {
+        self.expect('(')?;
+        let mut shape = Vec::new();
+        while !self.take(')') {
+            self.rest = self.rest.trim_start();
+            let digits = self.rest.find(|c: char| !c.is_ascii_digit()).unwrap_or(self.rest.len());
+            let (number, rest) = self.rest.split_at(digits);
+            let Ok(number) = number.parse() else { return self.wrong("a size of 64 bits") };
+            shape.push(number);
+            // Python 2 marked long integers.
+            self.rest = rest.strip_prefix('L').unwrap_or(rest);
+            if !self.take(',') {
+                self.expect(')')?;
+                break;
+            }
+        }
+        Ok(shape)
+    }
+}
+
+/// Bytes before the dictionary: mark, version and length.
+const PREFIX: usize = 10;
+
+/// The bytes before the data of an array of that type, as NumPy writes it, and shape; the last index runs fastest.
+///
+/// # Errors
+/// When the array has so many dimensions that their sizes find no room.
+fn preamble(descr: &str, shape: &[usize]) -> io::Result<Vec<u8>> {
+    // A tuple of one has a comma after it.
+    let sizes: String = shape.iter().map(|size| format!("{size}, ")).collect();
+    let dictionary = format!("{{'descr': '{descr}', 'fortran_order': False, 'shape': ({}), }}", sizes.trim_end());
+    // The data start at a multiple of 64 bytes; the header ends with a line feed.
+    let padded = (PREFIX + dictionary.len() + 1).next_multiple_of(64) - PREFIX - 1;
+    let dictionary = format!("{dictionary:padded$}\n");
+    let length = u16::try_from(dictionary.len()).map_err(io::Error::other)?;
+    Ok([b"\x93NUMPY\x01\x00", &length.to_le_bytes()[..], dictionary.as_bytes()].concat())
+}
+
+/// An array as heights, column by column.
+#[derive(Debug)]
+pub(super) struct Array {
+    pub(super) columns: usize,
+    pub(super) rows: usize,
+    /// NaN where there is none.
+    pub(super) heights: Vec<f64>,
+    /// Type as NumPy writes it.
+    pub(super) descr: String,
+    /// Whether the array holds integers.
+    pub(super) integers: bool,
+}
+
+/// Reads the whole content of an .npy file; a number 1 stands for `unit` m.
+///
+/// # Errors
+/// [`NpyError`] when the header is damaged, the array holds no real numbers in two dimensions, or the data are longer or
+/// shorter than the header says.
+pub(super) fn read(content: &[u8], unit: f64) -> Result<Array, NpyError> {
+    let header = Header::read(content)?;
+    let (number, columns, rows) = grid_of(&header, content.len() as u64)?;
+    let points = columns * rows;
+    // Heights, and once more where they are to be transposed.
+    refuse_beyond((2 * points * size_of::<f64>()) as u64).map_err(NpyError::Memory)?;
+    let mut heights = number.read(&content[header.data..]);
+    if header.fortran_order {
+        let transposed = (0..columns).flat_map(|column| heights.iter().skip(column).step_by(columns).copied());
+        heights = transposed.collect();
+    }
+    if unit != 1.0 {
+        heights.iter_mut().for_each(|height| *height *= unit);
+    }
+    let count = heights.iter().filter(|height| height.is_infinite()).count();
+    if count > 0 {
+        return Err(NpyError::Infinite { count, points });
+    }
+    Ok(Array { columns, rows, heights, integers: number.is_integer(), descr: header.descr })
+}
+
+/// Refuses an .npy file that is not as long as its first [`HEAD`] bytes say, before the rest is read: it may have gigabytes of holes.
+///
+/// # Errors
+/// [`NpyError`] as for [`read`].
+pub(super) fn check_length(head: &[u8], bytes: u64) -> Result<(), NpyError> {
+    grid_of(&Header::read(head)?, bytes).map(drop)
+}
+
+/// What an .npy file of so many bytes holds: type of its numbers, columns and rows.
+fn grid_of(header: &Header, bytes: u64) -> Result<(Number, usize, usize), NpyError> {
+    let number = Number::of(&header.descr)?;
+    let (columns, rows, points) = header.grid()?;
+    let found = bytes.saturating_sub(header.data as u64);
+    // At most 2^28 points of 8 bytes: this does not overflow.
+    let expected = points * number.size();
+    if found != expected as u64 {
+        return Err(NpyError::Length { found, expected, shape: (columns as u64, rows as u64) });
+    }
+    Ok((number, columns, rows))
+}
+
+/// Reads an array of an archive: the one that is named, or the only one with two dimensions. Gives its name too.
+///
+/// # Errors
+/// [`NpyError`] as for [`read`], and when the archive is damaged or leaves no one choice.
+pub(super) fn read_archive(content: &[u8], name: Option<&str>, unit: f64) -> Result<(String, Array), NpyError> {
+    let mut archive = ZipArchive::new(Cursor::new(content))?;
+    let members = members(&mut archive)?;
+    let wanted = |member: &Member| match name {
+        Some(name) => member.name == name,
+        // What is damaged may be the one, and is told as such.
+        None => member.header.as_ref().map_or(true, |header| header.shape.len() == 2),
+    };
+    let (chosen, others): (Vec<_>, Vec<_>) = members.into_iter().partition(wanted);
+    let [Member { index, name, header }] = <[Member; 1]>::try_from(chosen)
+        .map_err(|chosen| NpyError::choice(name, chosen.into_iter().chain(others).map(|member| member.describe())))?;
+    let wrap = |reason| NpyError::Member { name: name.clone(), reason: Box::new(reason) };
+    let header = header.map_err(wrap)?;
+    let number = Number::of(&header.descr).map_err(wrap)?;
+    let (columns, rows, points) = header.grid().map_err(wrap)?;
+    let needed = header.data + points * number.size();
+    let most = inflated(content.len());
+    if needed > most {
+        let shape = (columns as u64, rows as u64);
+        return Err(wrap(NpyError::TooLarge { shape, most: most / number.size() }));
+    }
+    refuse_beyond(needed as u64).map_err(|no_room| wrap(NpyError::Memory(no_room)))?;
+    // One byte more than needed, so that what is too long is found and the checksum at the end is verified.
+    let bytes = inflate(&mut archive, index, needed as u64 + 1).map_err(wrap)?;
+    let array = read(&bytes, unit).map_err(wrap)?;
+    Ok((name, array))
+}
+
+/// An array of an archive.
+struct Member {
+    index: usize,
+    name: String,
+    header: Result<Header, NpyError>,
+}
+
+impl Member {
+    fn describe(&self) -> String {
+        let what = match &self.header {
+            Ok(header) => format!("{}, shape {}", short(&header.descr).escape_debug(), header.shown_shape()),
+            Err(_) => "unreadable".to_owned(),
+        };
+        format!("{} ({what})", short(&self.name).escape_debug())
+    }
+}
+
+/// Members that are searched; more are no measurement.
+const MOST_MEMBERS: usize = 1000;
+
+fn members(archive: &mut ZipArchive<Cursor<&[u8]>>) -> Result<Vec<Member>, NpyError> {
+    let mut members = Vec::new();
+    for index in 0..archive.len().min(MOST_MEMBERS) {
+        let Some(Ok(file)) = archive.name_for_index(index) else { continue };
+        let Some(name) = file.strip_suffix(".npy").map(str::to_owned) else { continue };
+        let header = inflate(archive, index, HEAD as u64).and_then(|start| Header::read(&start));
+        members.push(Member { index, name, header });
+    }
+    Ok(members)
+}
+
+/// The first bytes of a member.
+fn inflate(archive: &mut ZipArchive<Cursor<&[u8]>>, index: usize, bytes: u64) -> Result<Vec<u8>, NpyError> {
+    let mut content = Vec::new();
+    archive.by_index(index)?.take(bytes).read_to_end(&mut content).map_err(NpyError::Inflate)?;
+    Ok(content)
+}
+
+/// Writes the heights of a patch as an .npy file: float64, shape (columns, rows), m, NaN where a point is missing. The
+/// format has no place for the pitch.
+///
+/// # Errors
+/// What the operating system says, or that the patch has other than columns times rows heights.
+pub fn write(path: &Path, patch: &Patch) -> io::Result<()> {
+    if patch.columns.checked_mul(patch.rows) != Some(patch.heights.len()) {
+        return Err(io::Error::new(io::ErrorKind::InvalidInput, "the patch has other than columns times rows heights"));
+    }
+    write_array(path, "<f8", &[patch.columns, patch.rows], patch.heights.iter().flat_map(|height| height.to_le_bytes()))
+}
+
+/// Writes an .npy file of this type and shape.
+///
+/// # Errors
+/// Those of the system.
+pub fn write_array(path: &Path, descr: &str, shape: &[usize], bytes: impl Iterator<Item = u8>) -> io::Result<()> {
+    let mut file = BufWriter::new(File::create(path)?);
+    file.write_all(&preamble(descr, shape)?)?;
+    for byte in bytes {
+        file.write_all(&[byte])?;
+    }
+    file.into_inner()?.sync_all()
+}
+
+#[cfg(test)]
+mod number_tests {
+    use super::*;
+
+    #[test]
+    fn every_type_in_both_orders() {
+        for (descr, bytes, expected) in [
+            ("|u1", vec![0xfe], 254.0),
+            ("|i1", vec![0xfe], -2.0),
+            ("<i1", vec![0x7f], 127.0),
+            ("<u2", vec![0x34, 0x12], 4660.0),
+            (">u2", vec![0x12, 0x34], 4660.0),
+            ("<i2", vec![0xff, 0xff], -1.0),
+            (">i4", vec![0xff, 0xff, 0xff, 0x00], -256.0),
+            ("<u4", vec![0, 0, 0, 0x80], 2_147_483_648.0),
+            ("<i8", (-5_i64).to_le_bytes().to_vec(), -5.0),
+            (">u8", u64::MAX.to_be_bytes().to_vec(), 18_446_744_073_709_551_616.0),
+            ("<f4", 0.1_f32.to_le_bytes().to_vec(), f64::from(0.1_f32)),
+            (">f8", (-1.5e-6_f64).to_be_bytes().to_vec(), -1.5e-6),
+            // Examples of IEEE 754 binary16: 1/3, the largest number, the smallest subnormal one, -2.
+            ("<f2", vec![0x55, 0x35], 0.333_251_953_125),
+            (">f2", vec![0x7b, 0xff], 65504.0),
+            ("<f2", vec![0x01, 0x00], 5.960_464_477_539_063e-8),
+            ("<f2", vec![0x00, 0xc0], -2.0),
+            ("<f2", vec![0x00, 0xfc], f64::NEG_INFINITY),
+        ] {
+            let number = Number::of(descr).unwrap();
+            assert_eq!((number.size(), number.read(&bytes)), (bytes.len(), vec![expected]), "{descr}");
+        }
+        assert!(Number::of("<f2").unwrap().read(&[0x01, 0x7c])[0].is_nan());
+    }
+
+    #[test]
+    fn what_is_no_real_number_is_refused() {
+        for descr in ["|b1", "<c16", "|O", "<U3", "|S5", "<f16", "<M8[ns]", "f8", "|f8", "=f8", "<f1", "", "<", "é"] {
+            assert!(Number::of(descr).is_err(), "{descr}");
+        }
+    }
+}
+
+#[cfg(test)]
+mod header_tests {
+    use super::{Header, preamble};
+
+    #[test]
+    fn any_number_of_dimensions_is_read_back() {
+        for shape in [&[][..], &[7], &[3, 5], &[2, 3, 5]] {
+            let bytes = preamble("<f8", shape).unwrap();
+            let header = Header::read(&bytes).unwrap();
+            let expected: Vec<u64> = shape.iter().map(|size| *size as u64).collect();
+            assert_eq!((header.descr.as_str(), header.fortran_order, header.shape), ("<f8", false, expected));
+            assert_eq!((header.data, bytes.len() % 64), (bytes.len(), 0));
+        }
+    }
+}

@@ -1,0 +1,248 @@
+//! One run of a study, from its scene to its record. After a signal its surfaces are given up while they are made.
+
+use std::collections::BTreeSet;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::mpsc::{RecvTimeoutError, channel};
+use std::thread;
+use std::time::Duration;
+
+use plateau_core::observe::event::event_quantities;
+use plateau_core::observe::pulse::pulse_time;
+use plateau_core::observe::{Quantity, Sample, quantities};
+use plateau_core::simulation::{Execution, Simulation, SimulationError};
+use plateau_io::scene::Scene;
+use plateau_io::study::Study;
+use plateau_io::study::record::{CONTACT_TIME, Identity, Outcome, REVOLUTIONS, Series};
+use plateau_io::study::response::Response;
+use plateau_io::surface::{self, Loaded, SurfaceError};
+
+use super::under_way::UnderWay;
+use crate::assembly::Assembly;
+use crate::error::RunError;
+use crate::time_loop::Sink;
+
+/// Observer of one run of a study.
+pub trait Watcher: Sync {
+    /// Told how many steps were taken since the last time, about ten times a second; the signal that ends the run, if
+    /// there was one.
+    fn steps(&self, count: u64) -> Option<u8>;
+
+    /// Told of the surfaces of a run before its first step.
+    fn surfaces(&self, scene: &Scene, loaded: &Loaded);
+
+    /// Told when a run does not begin at its beginning.
+    fn goes_on(&self, steps: u64);
+}
+
+/// A signal ended the run.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Stopped(pub u8);
+
+/// Reason why a run did not finish.
+pub enum Ended {
+    /// A signal came.
+    Stopped(u8),
+    /// The problem.
+    Failed(String),
+}
+
+impl From<SimulationError> for Ended {
+    fn from(error: SimulationError) -> Self {
+        Self::Failed(error.to_string())
+    }
+}
+
+impl From<RunError> for Ended {
+    fn from(error: RunError) -> Self {
+        Self::Failed(error.to_string())
+    }
+}
+
+/// A run that has ended.
+pub struct MadeRun {
+    /// How.
+    pub outcome: Outcome,
+    /// Identity of the run, by what was read of its files; none if it failed before that was known.
+    pub of: Option<Identity>,
+}
+
+/// Makes a run.
+///
+/// # Errors
+/// [`Stopped`] when it was not to be ended; what fails is an outcome.
+pub fn make(request: &Request<'_>, watcher: &dyn Watcher, under_way: &mut UnderWay<'_>) -> Result<MadeRun, Stopped> {
+    let mut of = None;
+    // A panic is a mistake of this program; it ends the run, not the study.
+    let made = catch_unwind(AssertUnwindSafe(|| request.finish(watcher, under_way, &mut of)));
+    let outcome = match made {
+        Ok(Ok(outcome)) => outcome,
+        Ok(Err(Ended::Stopped(signal))) => return Err(Stopped(signal)),
+        Ok(Err(Ended::Failed(error))) => Outcome::Failed { error },
+        Err(_) => Outcome::Failed { error: "the program panicked: this is a mistake of the program".into() },
+    };
+    Ok(MadeRun { outcome, of })
+}
+
+/// A run that is to be made.
+pub struct Request<'a> {
+    /// Of which study.
+    pub study: &'a Study,
+    /// Its scene.
+    pub scene: &'a Scene,
+    /// Identity that the run is expected to have.
+    pub expected: &'a Identity,
+    /// Series that are kept besides those that the study wants.
+    pub besides: &'a BTreeSet<String>,
+    /// Threads.
+    pub workers: usize,
+    /// Name, version and revision of the program.
+    pub program: String,
+}
+
+impl Request<'_> {
+    fn finish(
+        &self,
+        watcher: &dyn Watcher,
+        under_way: &mut UnderWay<'_>,
+        of: &mut Option<Identity>,
+    ) -> Result<Outcome, Ended> {
+        let loaded = surfaces(self.scene, watcher, under_way)?;
+        watcher.surfaces(self.scene, &loaded);
+        let read = of.insert(Identity::of(self.scene, &loaded.inputs));
+        if read != self.expected {
+            under_way.is_another();
+        }
+        let surfaces = loaded.surfaces;
+        // A study keeps no maps.
+        let mut scene = self.scene.clone();
+        scene.output.maps.clear();
+        let execution = Execution { workers: self.workers, ..Execution::default() };
+        let pulse_time = pulse_time(&scene.parameters, &surfaces.pin_base);
+        let mut assembly = Assembly::new(&scene, surfaces, execution)?;
+        let mut recorder = Recorder::new(self, &scene, watcher, under_way);
+        let state = recorder.under_way.find(&scene.parameters.mesh, &recorder.program, &recorder.names());
+        if let Some(state) = state {
+            assembly.restore(&state.simulation)?;
+            let steps = state.simulation.run.steps();
+            watcher.goes_on(steps);
+            (recorder.columns, recorder.told) = (state.columns, steps);
+        }
+        assembly.run_to_end(&mut recorder)?;
+        let steps = assembly.simulation.steps_done();
+        recorder.watcher.steps(steps - recorder.told);
+        let events = (!assembly.events().is_empty()).then(|| {
+            let extras = scene.extras(false);
+            let quantities = || event_quantities(&extras);
+            let columns = quantities().map(|quantity| assembly.events().iter().map(quantity.value).collect());
+            Series::new(quantities().map(|quantity| quantity.name.to_owned()).collect(), columns.collect()).pack()
+        });
+        Ok(Outcome::Finished { steps, until: scene.duration, series: recorder.series().pack(), events, pulse_time })
+    }
+}
+
+/// Keeps the series that the study wants.
+struct Recorder<'a, 'o> {
+    kept: Vec<&'static Quantity>,
+    disc_columns: usize,
+    /// Time and simulated revolutions, then the series.
+    columns: Vec<Vec<f64>>,
+    watcher: &'a dyn Watcher,
+    /// Steps that the watcher was told of.
+    told: u64,
+    under_way: &'a mut UnderWay<'o>,
+    program: String,
+    signal: Option<u8>,
+}
+
+impl<'a, 'o> Recorder<'a, 'o> {
+    fn new(request: &Request<'_>, scene: &Scene, watcher: &'a dyn Watcher, under_way: &'a mut UnderWay<'o>) -> Self {
+        let study = request.study;
+        let asked: BTreeSet<&str> = study.responses.iter().flat_map(Response::needs).collect();
+        let is_kept = |name: &str| {
+            let is_wanted = study.series.as_ref().is_none_or(|series| series.iter().any(|wanted| wanted == name));
+            // Means of the contact area are taken from its integral, and over the time in contact.
+            let of_area = ["contact_area_integral", CONTACT_TIME].contains(&name)
+                && asked.iter().any(|series| series.starts_with("contact_area"));
+            is_wanted || of_area || asked.contains(name) || request.besides.contains(name)
+        };
+        let extras = scene.extras(scene.adaptive.is_some());
+        let kept: Vec<_> = quantities(&extras).filter(|quantity| is_kept(quantity.name)).collect();
+        let disc_columns = scene.parameters.mesh.disc_columns();
+        Self {
+            columns: vec![Vec::new(); 2 + kept.len()],
+            kept,
+            disc_columns,
+            watcher,
+            told: 0,
+            under_way,
+            program: request.program.clone(),
+            signal: None,
+        }
+    }
+
+    fn names(&self) -> Vec<String> {
+        let names = ["time", REVOLUTIONS].into_iter().chain(self.kept.iter().map(|quantity| quantity.name));
+        names.map(str::to_owned).collect()
+    }
+
+    fn series(self) -> Series {
+        Series::new(self.names(), self.columns)
+    }
+}
+
+impl Sink for Recorder<'_, '_> {
+    type Error = Ended;
+
+    fn sample(&mut self, sample: Sample) -> Result<(), Ended> {
+        let revolutions = sample.step as f64 / self.disc_columns as f64;
+        let values =
+            [sample.time, revolutions].into_iter().chain(self.kept.iter().map(|quantity| quantity.value(&sample)));
+        self.columns.iter_mut().zip(values).for_each(|(column, value)| column.push(value));
+        Ok(())
+    }
+
+    fn look(&mut self, simulation: &Simulation, steps: u64) -> Result<u64, Ended> {
+        self.under_way.touch();
+        let done = simulation.steps_done();
+        self.signal = self.watcher.steps(done - self.told);
+        self.told = done;
+        Ok(steps)
+    }
+
+    fn rest(&mut self, assembly: &mut Assembly) -> Result<(), Ended> {
+        if self.signal.is_some() || self.under_way.is_due() {
+            self.under_way.keep(assembly, self.program.clone(), &self.columns, self.names())?;
+        }
+        self.signal.map_or(Ok(()), |signal| Err(Ended::Stopped(signal)))
+    }
+}
+
+/// Time between two looks at signals.
+const SIGNAL_LOOK: Duration = Duration::from_millis(50);
+
+/// Reads or makes the surfaces of a scene. Nothing is written meanwhile, so after a signal nobody waits for them: the thread that makes
+/// them ends with the program. Other runs that are made at the same time keep what they have.
+///
+/// # Errors
+/// [`Ended`], with the signal or with what is wrong.
+fn surfaces(scene: &Scene, watcher: &dyn Watcher, under_way: &mut UnderWay<'_>) -> Result<Loaded, Ended> {
+    let (give, take) = channel();
+    let its_own = scene.clone();
+    let load = move || drop(give.send(surface::load(&its_own)));
+    let loaded = if thread::Builder::new().name("surfaces".into()).spawn(load).is_ok() {
+        loop {
+            match take.recv_timeout(SIGNAL_LOOK) {
+                Ok(loaded) => break loaded,
+                Err(RecvTimeoutError::Timeout) => {
+                    under_way.touch();
+                    watcher.steps(0).map_or(Ok(()), |signal| Err(Ended::Stopped(signal)))?
+                }
+                Err(RecvTimeoutError::Disconnected) => panic!("the thread that makes surfaces panicked"),
+            }
+        }
+    } else {
+        // No thread is to be had: a signal is heard with the first step.
+        surface::load(scene)
+    };
+    loaded.map_err(|error: SurfaceError| Ended::Failed(error.to_string()))
+}

@@ -1,0 +1,234 @@
+//! Scenes of the runs of a study, built before any run is made, and the identities by which their results are known.
+
+use std::collections::{BTreeMap, BTreeSet, HashSet};
+use std::path::PathBuf;
+
+use plateau_io::scene::Scene;
+use plateau_io::study::Study;
+use plateau_io::study::plan::Plan;
+use plateau_io::study::record::{Digests, EVENT, Identity};
+use plateau_io::study::response::Response;
+use plateau_io::study::response_series::lacking;
+use plateau_io::{input, text};
+use rayon::prelude::*;
+
+use super::error::SweepError;
+use super::observer::SweepObserver;
+use super::run_length::{RunLength, seconds};
+use super::warnings::{Found, SceneWarnings, of_scene};
+
+/// Problems that are shown.
+const SHOWN: usize = 10;
+
+/// A run before it is made.
+#[derive(Debug, Clone)]
+pub struct ResolvedRun {
+    /// By what its result is known: the name of [`of`](Self::of).
+    pub identity: String,
+    /// Identity of the run.
+    pub of: Identity,
+    /// Its steps.
+    pub steps: u64,
+    /// Its length.
+    pub length: RunLength,
+    /// Series and quantities of events that the responses of the study need and its scene records.
+    pub needed: BTreeSet<String>,
+}
+
+/// Runs before they are made.
+#[derive(Debug)]
+pub struct Resolved {
+    /// By their numbers.
+    pub runs: BTreeMap<usize, ResolvedRun>,
+    /// Values of the scenes that can hardly be meant.
+    pub warnings: SceneWarnings,
+    /// The files of the scenes, and those that they read.
+    pub files: BTreeSet<PathBuf>,
+    /// Runs that repeat one of these before them.
+    repeats: BTreeSet<usize>,
+    /// Of every response that some runs do not record: its place, how many, and what their scenes lack.
+    unrecorded: BTreeMap<usize, (usize, String)>,
+}
+
+/// A run as its scene tells it.
+struct Known {
+    run: ResolvedRun,
+    warnings: Vec<Found>,
+    /// For each response what it lacks to record its series, if anything.
+    lacking: Vec<Option<String>>,
+    files: Vec<(PathBuf, String)>,
+}
+
+impl Resolved {
+    /// Runs up to which every scene is built where no run is made, to see what there is to know of them.
+    pub const MOST_AT_ONCE: usize = 20_000;
+
+    /// Tells whether a run repeats another one of these, so that it has its result.
+    pub fn is_repeat(&self, number: usize) -> bool {
+        self.repeats.contains(&number)
+    }
+
+    /// Number of runs that repeat another one.
+    pub fn repeats(&self) -> usize {
+        self.repeats.len()
+    }
+
+    /// By what results are known, in the order of the design.
+    pub fn identities(&self) -> Vec<String> {
+        self.runs.values().map(|run| run.identity.clone()).collect()
+    }
+
+    /// Lengths of the runs.
+    pub fn lengths(&self) -> Vec<RunLength> {
+        self.runs.values().map(|run| run.length).collect()
+    }
+
+    /// Warns of responses that ask for a time after the end of some run, or of all, which then give none. Another question to the same runs costs
+    /// none of them, so nothing is refused.
+    pub fn warn_of_late_questions(&self, study: &Study, observer: &dyn SweepObserver) {
+        let ends = || self.runs.values().map(|run| run.length.duration);
+        let (shortest, longest) = (ends().fold(f64::INFINITY, f64::min), ends().fold(0.0, f64::max));
+        let is_after = |time: f64, end: f64| time > end * (1.0 + 1e-9);
+        for response in &study.responses {
+            let Some(time) = response.latest_time().filter(|time| is_after(*time, shortest)) else { continue };
+            let why = if is_after(time, longest) {
+                format!("every run ends at {} or before: none has a value of it", seconds(longest))
+            } else {
+                format!("the shortest run ends at {}: runs that end before have no value of it", seconds(shortest))
+            };
+            let (file, name) = (study.path.display(), &response.name);
+            observer.warning(&format_args!("{file}: response \"{name}\" asks for {}, and {why}", seconds(time)));
+        }
+    }
+
+    /// Refuses responses to series that no run records, before any is made, and warns of those that some do not.
+    ///
+    /// # Errors
+    /// [`SweepError::Input`] with what the scenes lack.
+    pub fn refuse_unrecorded(&self, study: &Study, observer: &dyn SweepObserver) -> Result<(), SweepError> {
+        let file = study.path.display();
+        let mut refused = Vec::new();
+        for (place, (runs, lacking)) in &self.unrecorded {
+            let Response { name, series, .. } = &study.responses[*place];
+            let dataset = if series.starts_with(EVENT) { format!("/{series}") } else { format!("/series/{series}") };
+            let told = format!("{file}: response \"{name}\": {dataset} is recorded only with {lacking}");
+            if *runs == self.runs.len() {
+                refused.push(format!("{told}; add it to the base scene, or to `set` in the study"));
+            } else {
+                let all = self.runs.len();
+                observer.warning(&format_args!("{told}, which {runs} of {all} runs do not have: they give no value"));
+            }
+        }
+        if refused.is_empty() { Ok(()) } else { Err(SweepError::Input(text::list(refused, "\n"))) }
+    }
+
+    /// Builds the scene of every run.
+    ///
+    /// # Errors
+    /// Those of [`of_runs`](Self::of_runs).
+    pub fn of(plan: &Plan) -> Result<Self, SweepError> {
+        Self::of_runs(plan, (1..=plan.runs()).collect())
+    }
+
+    /// Builds the scenes of some runs, by their numbers.
+    ///
+    /// # Errors
+    /// [`SweepError::Input`] with the runs whose scenes cannot be built, before any is made.
+    pub fn of_runs(plan: &Plan, numbers: Vec<usize>) -> Result<Self, SweepError> {
+        refuse_without_scene(plan)?;
+        let digests = Digests::default();
+        let study = plan.study();
+        // What is imported asks no series.
+        let asked: Vec<&str> = study.responses.iter().map(|response| response.series.as_str()).collect();
+        let resolve = |number: usize| {
+            let scene = plan.scene(&plan.run(number)).map_err(SweepError::input)?;
+            let of = Identity::expected(&scene, &digests).map_err(|(path, error)| {
+                SweepError::because(&error, format_args!("cannot read {}: {error}", path.display()))
+            })?;
+            let run = ResolvedRun {
+                identity: of.name(),
+                of,
+                steps: scene.steps,
+                length: RunLength::of(&scene),
+                needed: needed(study, &scene),
+            };
+            Ok(Known {
+                run,
+                warnings: of_scene(&scene),
+                lacking: asked.iter().map(|series| lacking(&scene, series)).collect(),
+                files: scene.files,
+            })
+        };
+        let all: Vec<(usize, Result<Known, SweepError>)> =
+            numbers.into_par_iter().map(|number| (number, resolve(number))).collect();
+        let of_all = all.len();
+        let problems: Vec<(usize, &SweepError)> =
+            all.iter().filter_map(|(number, result)| Some((*number, result.as_ref().err()?))).collect();
+        if problems.is_empty() {
+            let (mut runs, mut files) = (BTreeMap::new(), BTreeSet::from_iter(digests.files()));
+            let (mut warnings, mut unrecorded) = (SceneWarnings::default(), BTreeMap::new());
+            for (number, known) in all.into_iter().filter_map(|(number, known)| Some((number, known.ok()?))) {
+                runs.insert(number, known.run);
+                warnings.add(known.warnings);
+                files.extend(known.files.into_iter().map(|(file, _)| file));
+                for (place, lacking) in known.lacking.into_iter().enumerate() {
+                    if let Some(lacking) = lacking {
+                        unrecorded.entry(place).or_insert((0, lacking)).0 += 1;
+                    }
+                }
+            }
+            let mut seen = HashSet::new();
+            let is_repeat =
+                |(number, run): (&usize, &ResolvedRun)| (!seen.insert(run.identity.clone())).then_some(*number);
+            let repeats = runs.iter().filter_map(is_repeat).collect();
+            return Ok(Self { runs, warnings, files, repeats, unrecorded });
+        }
+        // The same mistake shows in many runs.
+        let mut said = Vec::new();
+        let heading = format!("{}: {} of {of_all} runs cannot be made", study.path.display(), problems.len());
+        let mut lines = Vec::new();
+        for (number, problem) in &problems {
+            let problem = problem.to_string();
+            if !said.contains(&problem) && said.len() < SHOWN {
+                said.push(problem.clone());
+                lines.push(format!("{}:\n{problem}", run_in_words(plan, *number)));
+            }
+        }
+        let message = format!("{heading}\n{}", text::list(lines, "\n"));
+        // What the system lacks at the moment is no mistake of the study.
+        let is_lack = problems.iter().any(|(_, problem)| matches!(problem, SweepError::Failed(_)));
+        Err(if is_lack { SweepError::Failed(message) } else { SweepError::Input(message) })
+    }
+}
+
+/// Series that the responses of a study need of a run of this scene; what the scene does not record is lacking in every run of it, which is said
+/// elsewhere.
+pub fn needed(study: &Study, scene: &Scene) -> BTreeSet<String> {
+    let needs = study.responses.iter().flat_map(|response| response.needs());
+    needs.filter(|series| lacking(scene, series).is_none()).map(str::to_owned).collect()
+}
+
+/// A run with its settings: `run 2 (debris = contact)`.
+pub fn run_in_words(plan: &Plan, number: usize) -> String {
+    let levels = plan.run(number).levels;
+    let settings = plan.study().factors.iter().zip(&levels);
+    let settings = settings.map(|(factor, level)| format!("{} = {}", factor.name, level.label));
+    format!("run {number} ({})", text::list(settings, ", "))
+}
+
+/// Refuses a study that has no scene to run.
+///
+/// # Errors
+/// [`SweepError::Input`].
+pub(super) fn refuse_without_scene(plan: &Plan) -> Result<(), SweepError> {
+    let path = plan.study().path.display();
+    match &plan.study().base {
+        Some(base) => input::open(base).map(drop).map_err(|error| {
+            let problem = format!("{}: cannot read the scene: {error}", base.display());
+            SweepError::because(&error, format_args!("{}: base: {problem}", plan.study().base_place))
+        }),
+        None => Err(SweepError::Input(format!(
+            "{path}: no base scene, so there is nothing to run; `plateau sweep import` takes in its responses"
+        ))),
+    }
+}

@@ -1,0 +1,75 @@
+//! Runs of a study as another program makes them.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use plateau_run::Job;
+use plateau_run::sweep::{self, Sweep, SweepError, SweepObserver, SweepOptions, SweepSummary};
+
+/// Counts runs that ended, and stops all after so many.
+struct Counter {
+    ended: AtomicUsize,
+    stop_after: usize,
+}
+
+impl Counter {
+    fn new(stop_after: usize) -> Self {
+        Self { ended: AtomicUsize::new(0), stop_after }
+    }
+}
+
+impl SweepObserver for Counter {
+    fn run_ended(&self, _failed: bool) {
+        self.ended.fetch_add(1, Ordering::Relaxed);
+    }
+
+    fn asked_to_stop(&self) -> Option<u8> {
+        (self.ended.load(Ordering::Relaxed) >= self.stop_after).then_some(2)
+    }
+}
+
+/// A study of the quick scene with these levels of the load, in a folder.
+fn study(folder: &Path, levels: &str) -> PathBuf {
+    let base = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../data/scenes/quick.toml");
+    let text = format!(
+        "version = 1\nbase = \"{}\"\nset = [\"operation.duration=2 s\"]\ndesign = \"full-factorial\"\n\n\
+         [[factor]]\nname = \"load\"\nkey = \"operation.normal_force\"\nlevels = [{levels}]\n\n\
+         [[response]]\nname = \"area\"\ndataset = \"/series/contact_area\"\nat = \"end\"\n",
+        base.display()
+    );
+    let path = folder.join("loads.toml");
+    fs::write(&path, text).unwrap();
+    path
+}
+
+fn make(path: &Path, observer: &dyn SweepObserver) -> Result<SweepSummary, SweepError> {
+    let plan = sweep::load(path)?;
+    let mut job = Job::start().unwrap();
+    Sweep::prepare(&plan, SweepOptions::default(), &job, observer)?.run(&mut job, observer)
+}
+
+#[test]
+fn a_sweep_that_was_stopped_makes_what_is_left() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = study(folder.path(), "\"20 N\", \"30 N\", \"40 N\", \"50 N\"");
+    let first = make(&path, &Counter::new(2)).unwrap();
+    assert_eq!((first.runs, first.finished, first.left, first.signal), (4, 2, 2, Some(2)));
+    let counter = Counter::new(usize::MAX);
+    let second = make(&path, &counter).unwrap();
+    assert_eq!((second.finished_before, second.finished, second.failed, second.left), (2, 2, 0, 0));
+    assert_eq!((second.signal, counter.ended.into_inner()), (None, 2));
+    let journal = sweep::journal(sweep::load(&path).unwrap().study()).unwrap();
+    assert_eq!((journal.len(), journal.damaged), (4, 0));
+    let plan = sweep::load(&path).unwrap();
+    assert!(Sweep::prepare(&plan, SweepOptions::default(), &Job::start().unwrap(), &()).unwrap().pending().is_empty());
+}
+
+#[test]
+fn a_scene_that_cannot_be_built_is_a_wrong_input_and_nothing_is_made() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = study(folder.path(), "\"20 N\", \"30 s\"");
+    let said = make(&path, &()).unwrap_err();
+    assert!(matches!(said, SweepError::Study(_) | SweepError::Input(_)), "{said:?}");
+    assert!(!folder.path().join("loads").exists());
+}

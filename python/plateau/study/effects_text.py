@@ -1,0 +1,70 @@
+"""Effects in words and tables for people."""
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+import pandas
+
+from plateau.study.model import MODELS
+from plateau.study.text_tables import aligned
+from plateau.units import Unit, unit_for, with_digits, with_minus
+
+if TYPE_CHECKING:
+    from plateau.study.analysis import ResponseEffects
+
+
+def told(one: "ResponseEffects") -> tuple[list[str], list[list[str]], list[str]]:
+    """What is said of a response, the rows of its table with their heads, and what stands below it."""
+    if (fit := one.fit) is None:
+        return [one.response.name, one.error], [], []
+    unit, table, summary = unit_for(one.unit, float(np.abs(fit.values).max())), one.table, one.summary
+    unit = Unit(one.unit, 1.0) if unit.offset else unit
+    scale, symbol = unit.per_si, f" {unit.symbol}".rstrip()
+    lines = [one.response.name, f"model: {MODELS[fit.model]}" + (f"; {fit.reason}" if fit.reason else "")]
+    if fit.left_out is not None:
+        kept, left = (", ".join(fit.label(term) for term in terms) for terms in (fit.terms, fit.left_out))
+        lines[-1] = f"model: {kept or 'the mean alone'}; chosen from {MODELS[fit.model]}"
+        of_all = f" instead of {fit.aicc_of_all:.5g} with all" if np.isfinite(fit.aicc_of_all) else ""
+        lines.append(f"terms left out: {left or 'none'}; AICc {fit.aicc:.5g}{of_all}")
+    names = {"R²": "r_squared", "adjusted R²": "adjusted_r_squared", "predicted R²": "predicted_r_squared"}
+    quality = [f"{name} {summary[key]:.4f}" for name, key in names.items() if np.isfinite(summary[key])]
+    p, why = fit.lack_of_fit[2], "nothing is left for it" if fit.scatter[0].freedom else "no point has replicates"
+    quality.append(f"lack of fit not tested: {why}" if np.isnan(p) else f"lack of fit p {'< 0.0001' if p < 1e-4 else f'= {p:.2g}'}")
+    error = f"error {'' if np.isnan(fit.error) else 'from '}{summary['error_from']}"
+    error += f"; residual {with_digits(fit.error**0.5 * scale)}{symbol}" if np.isfinite(fit.error) else ""
+    if fit.residual_freedom == 0:
+        error += ", so no interval can be told: give [replicates] of seeds, such as those of the disc, or a smaller model, such as "
+        error += "--model main"
+    for _, margins in table[["margin_of_error", "simultaneous_margin_of_error"]].dropna().head(1).iterrows():
+        error += ", margin of error {}, simultaneous {} (Lenth)".format(*(with_digits(value * scale) for value in margins))
+    missing = f", {fit.missing} without a response" if fit.missing else ""
+    lines += [", ".join(quality), f"{len(fit.values)} runs{missing}, mean {with_digits(fit.mean * scale)}{symbol}, {error}"]
+    lines += [f"all results are those of {one.title}"] if one.response.transform != "none" else []
+    lines += [f"caution: {caution}" for caution in one.cautions] + ([one.advice] if one.advice else [])
+    interval = f"{100 * fit.confidence:.4g} % interval"
+    rows = [["term", f"effect,{symbol}" if symbol else "effect", interval, "share", "df", "error df", "F", "p"]]
+    parts = ["lack of fit", "pure error"] if fit.lack_of_fit[0].freedom > 0 else []
+    left_over = table[table["factors"].isna() & table["term"].isin(["residual", *parts])]
+    for row in pandas.concat([one.terms.sort_values("share", ascending=False, kind="stable"), left_over]).to_dict("records"):
+        width = (row["high"] - row["low"]) / 2 * scale
+        interval = " … ".join(with_digits(row[end] * scale, width) for end in ("low", "high")) if np.isfinite(width) else ""
+        freedom = f"{row['error_freedom']:.3g}" if np.isfinite(row["error_freedom"]) else ""
+        name = ("  " if row["term"] in parts else "") + row["term"]
+        cells = [name, with_digits(row["effect"] * scale, width), interval, f"{100 * row['share']:.1f} %"]
+        rows.append([*cells, str(row["degrees_of_freedom"]), freedom, with_digits(row["f"]), with_digits(row["p"])])
+    aliased = [(row["term"], ", ".join(row["aliased_with"])) for row in table.to_dict("records") if row["aliased_with"]]
+    below = [f"{term} cannot be told from {others}" for term, others in aliased]
+    for units, products in one.equations.items():
+        said = "in coded units, −1 to 1 over each range" if units == "coded" else "in the units of the study"
+        signed = [("−" if value < 0 else "+", abs(value) * scale, words) for words, value in products.itertuples(index=False)]
+        pieces = [f"{sign} {value:.6g} {words}".strip() for sign, value, words in signed]
+        below += [f"{said}:", f"  {one.title}{f' [{unit.symbol}]' if symbol else ''} = {' '.join(pieces).removeprefix('+ ')}"]
+    if any("[centre points]" in words for products in one.equations.values() for words in products["variables"]):
+        below.append("[centre points] is 1 at the centre points, where a curve shows that is left out elsewhere, and 0 at all other points")
+    return list(map(with_minus, lines)), rows, list(map(with_minus, below))
+
+
+def text_of(one: "ResponseEffects") -> str:
+    """What the command prints of a response."""
+    lines, rows, below = told(one)
+    return "\n  ".join([*lines, *(aligned(rows, indent="") if rows else []), *below]) + "\n"

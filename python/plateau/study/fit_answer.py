@@ -1,0 +1,354 @@
+"""What a fit tells of keys and responses, and what is to be known before it is used."""
+
+import itertools
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+import pandas
+from scipy import stats
+
+from plateau.output_folder import plain
+from plateau.study.calibration import ENDS, Outcome
+from plateau.study.data import Factor, Numbers, Study
+from plateau.study.key_intervals import products, profile, region
+from plateau.study.likelihood import SETTLED, Likelihood, Target
+from plateau.study.text_tables import aligned
+from plateau.units import shown_unit, unit_for, with_minus
+
+CHECKED = {
+    "held": "the last runs, at the most likely place, agree with what was forecast there",
+    "failed": "failed: runs at the most likely place contradict what was forecast there, so there is no interval",
+    "none": "none: no runs were left for the most likely place",
+}
+# What else makes intervals shorter, by the end of the fit.
+MORE = {
+    "no gain": "all runs that [fit] allows besides would hardly lessen it: runs scatter too much. More sets of seeds in [replicates] lessen that.",
+    "no runs": "more points in the design make the intervals shorter.",
+}
+RESPONSES = ["response", "unit", "measured", "uncertainty", "forecast", "surrogate_deviation", "seeds_deviation", "seed_to_seed"]
+RESPONSES += ["leave_one_out_error", "discrepancy"]
+
+
+@dataclass(frozen=True, repr=False)
+class Fit:
+    """What a fit tells of keys and responses, in SI units.
+
+    Attributes
+    ----------
+    study : Study
+        As it was after the first runs.
+    target : Target
+    outcome : Outcome
+    confidence : float
+    most : int
+        Runs at most.
+    runs : pandas.DataFrame
+        All runs.
+    """
+
+    study: Study
+    target: Target
+    outcome: Outcome
+    confidence: float
+    most: int
+    runs: pandas.DataFrame
+
+    @property
+    def _likelihood(self) -> Likelihood:
+        return self.outcome.likelihood
+
+    @property
+    def _threshold(self) -> float:
+        return float(stats.chi2.ppf(self.confidence, 1))
+
+    @cached_property
+    def _profiles(self) -> list[tuple[Factor, Numbers, Numbers, list[tuple[float, float]]]]:
+        return [(one, *profile(self._likelihood, at, self._threshold)) for at, one in enumerate(self.study.factors)]
+
+    @cached_property
+    def keys(self) -> pandas.DataFrame:
+        """A row for each piece of the interval of each key: ``key``, ``unit``, ``most_likely``, ``low``, ``high``, ``open_below``, ``open_above``.
+
+        NaN where a key may be anywhere, or where runs contradict the forecast.
+        """
+        rows, has_failed = [], self.outcome.has_failed
+        for at, (factor, _, _, pieces) in enumerate(self._profiles):
+            likely = math.nan if has_failed or pieces == [(-1.0, 1.0)] else float(factor.value(self._likelihood.best[at]))
+            for low, high in [(math.nan, math.nan)] if has_failed else pieces:
+                about = {"key": factor.name, "unit": factor.unit, "most_likely": likely}
+                ends = {"low": float(factor.value(low)), "high": float(factor.value(high))}
+                rows.append({**about, **ends, "open_below": low == -1.0, "open_above": high == 1.0})
+        return pandas.DataFrame(rows)
+
+    @property
+    def table(self) -> pandas.DataFrame:
+        """The keys."""
+        return self.keys
+
+    @property
+    def profiles(self) -> pandas.DataFrame:
+        """How far -2 ln L rises where a key is held at a value, and the threshold of its interval."""
+        parts = [pandas.DataFrame({"key": one.name, "value": one.value(at), "rise": rises}) for one, at, rises, _ in self._profiles]
+        return pandas.concat(parts, ignore_index=True).assign(threshold=self._threshold)
+
+    @cached_property
+    def regions(self) -> list[tuple[str, str, Numbers, Numbers, Numbers]]:
+        """For each pair of keys: their names, values of both, and how far -2 ln L rises, a row for each value of the second."""
+        found = []
+        for (one, x), (other, y) in itertools.combinations(enumerate(self.study.factors), 2):
+            across, along, rises = region(self._likelihood, one, other)
+            found.append((x.name, y.name, x.value(across), y.value(along), rises))
+        return found
+
+    @cached_property
+    def _moments(self) -> tuple[Numbers, Numbers, Numbers]:
+        """Means, variances of the processes and of the seeds at the most likely place, by term."""
+        means, own, seeds = (each[0] for each in self._likelihood.moments(self._likelihood.best[None]))
+        return means, own, seeds
+
+    def _scatter(self, number: int) -> float:
+        """Standard deviation of runs with other seeds, of a term."""
+        process = self._likelihood.terms[number].process
+        return math.sqrt(process.run_variance + self._moments[2][number] * process.seeds) if process.seeds > 1 else math.nan
+
+    def _terms(self, at: int) -> list[int]:
+        return [number for number, term in enumerate(self._likelihood.terms) if term.of == at]
+
+    @cached_property
+    def responses(self) -> pandas.DataFrame:
+        """Single values at the most likely place: ``measured``, ``uncertainty``, ``forecast``, ``surrogate_deviation`` (for want of runs),
+        ``seeds_deviation`` (for want of seeds), ``seed_to_seed`` (of runs), ``leave_one_out_error``, ``discrepancy`` (that the model is given).
+        """
+        rows, (means, own, seeds) = [], self._moments
+        for at in self.target.singles:
+            (number,), one = self._terms(at), self.target.measured[at]
+            error = float(np.sqrt(np.square(self._likelihood.terms[number].process.loo()[0]).mean()))
+            deviations = [math.sqrt(own[number]), math.sqrt(seeds[number]), self._scatter(number), error]
+            measured = [one.response.name, one.response.unit, one.values[0], one.uncertainties[0], means[number]]
+            rows.append([*measured, *deviations, abs(self.target.discrepancies[at] * one.values[0])])
+        return pandas.DataFrame(rows, columns=RESPONSES)
+
+    @cached_property
+    def series(self) -> pandas.DataFrame:
+        """Measured series beside what runs give at the most likely place, by time."""
+        parts, (means, own, seeds) = [], self._moments
+        for at, components in self._likelihood.components.items():
+            one, terms = self.target.measured[at], self._terms(at)
+            forecast = components.root @ (components.mean + components.basis @ means[terms])
+            deviation = np.sqrt(np.square(components.root @ components.basis) @ (own + seeds)[terms])
+            columns = {"response": one.response.name, "unit": one.response.unit, "time": one.times, "measured": one.values}
+            columns |= {"uncertainty": one.uncertainties, "forecast": forecast, "forecast_deviation": deviation}
+            parts.append(pandas.DataFrame(columns))
+        return pandas.concat(parts, ignore_index=True) if parts else pandas.DataFrame(columns=["response"])
+
+    @property
+    def checks(self) -> pandas.DataFrame:
+        """Runs at most likely places against what was forecast there, for each response (a series as its components)."""
+        rows = []
+        for number, check in enumerate(self.outcome.checks, 1):
+            keys = {one.name: float(one.value(at)) for one, at in zip(self.study.factors, check["place"], strict=True)}
+            for at, of in enumerate(check["of"]):
+                one = self.target.measured[of]
+                about = {"response": one.response.name, "unit": "uncertainties, of a component" if one.is_series else one.response.unit}
+                numbers = {what: float(check[what][at]) for what in ("forecast", "deviation", "runs")}
+                rows.append({"check": number, **keys, **about, **numbers, "held": check["held"]})
+        return pandas.DataFrame(rows)
+
+    @cached_property
+    def misfit(self) -> float:
+        """Squares of forecast less measured over the variances of measurement, stated discrepancy and seeds."""
+        return float(self._likelihood.misfit(self._likelihood.best[None], with_processes=False)[0])
+
+    @property
+    def freedom(self) -> int:
+        """Measurements less keys."""
+        return self._likelihood.freedom
+
+    @property
+    def p(self) -> float:
+        """Probability of a larger misfit; NaN without degrees of freedom."""
+        return float(stats.chi2.sf(self.misfit, self.freedom)) if self.freedom else math.nan
+
+    @property
+    def tables(self) -> dict[str, pandas.DataFrame]:
+        """Tables by the names of their files."""
+        found = {"keys.csv": self.keys, "responses.csv": self.responses, "profiles.csv": self.profiles, "runs.csv": self.runs}
+        return found | {name: table for name, table in {"series.csv": self.series, "checks.csv": self.checks}.items() if len(table)}
+
+    @cached_property
+    def determined(self) -> str | None:
+        """Products of keys that are determined where the keys are not, or far better than they are; None where there is nothing to say."""
+        factors, best = self.study.factors, self._likelihood.best
+        ends = np.array([factor.ends for factor in factors])
+        if self.outcome.has_failed or (ends <= 0.0).any():
+            return None
+        halves = 0.5 * np.log(ends[:, 1] / ends[:, 0])
+        values = np.array([float(factor.value(at)) for factor, at in zip(factors, best, strict=True)])
+        by_log = np.where([factor.logarithmic for factor in factors], 1.0 / halves, 2.0 * values / (ends[:, 1] - ends[:, 0]))
+        found, better = products(self._likelihood.slopes(best) * (by_log * halves), halves, self._threshold)
+
+        def words(row: Numbers, times: float) -> str:
+            order = sorted(np.flatnonzero(row).tolist(), key=lambda at: (row[at] != 1.0, at))
+            powers = [(factors[at], round(float(row[at]), 4), values[at]) for at in order]
+            name = " × ".join(factor.name if power == 1.0 else with_minus(f"{factor.name}^{power:g}") for factor, power, _ in powers)
+            value = math.prod(float(factor.in_study_unit(value)) ** power for factor, power, value in powers)
+            units = " and ".join(shown_unit(factor.study_unit) for factor, _, _ in powers if factor.study_unit)
+            return f"{name} = {value:.4g} ({value / times:.4g} … {value * times:.4g}{', with ' + units if units else ''})"
+
+        said = " and ".join(words(*one) for one in found or better)
+        verb = "is" if len(found or better) == 1 else "are"
+        if found is None:
+            return f"{said} {verb} known far better than the keys in it, near the most likely values." if better else None
+        if not found:
+            is_closed = (~self.keys["open_below"] & ~self.keys["open_above"]).any()
+            return None if is_closed else "Near the most likely values these data determine none of the keys."
+        if all(np.count_nonzero(row) < 2 for row, _ in found):
+            return None
+        return f"Only {said} {verb} determined by these data, near the most likely values."
+
+    @cached_property
+    def cautions(self) -> list[str]:
+        """What is to be known before intervals are used: a sentence each."""
+        said, outcome = list[str](), self.outcome
+        if outcome.has_failed:
+            check = outcome.checks[-1]
+            places = zip(self.study.factors, check["place"], strict=True)
+            where = ", ".join(f"{factor.name} = {factor.shown(float(factor.value(at)), 4)}" for factor, at in places)
+            worst = int(np.nanargmax(np.abs(check["runs"] - check["forecast"]) / check["deviation"]))
+            most = self.target.measured[check["of"][worst]].response.name
+            said.append(f"Runs at the most likely place ({where}) contradict the forecast, most in {most}, and no runs were left to find another")
+            said[-1] += " place: there are no most likely values and no intervals. More runs in [fit] go on from here."
+        elif not outcome.checks:
+            said.append("No runs were made at the most likely place, so the forecast there is not checked.")
+        if self.p < 0.05:
+            test = f"misfit χ² = {self.misfit:.3g} with {_degrees(self.freedom)}, p = {self.p:.2g}"
+            said.append(f"No values within these ranges give all that was measured: {test}. The intervals are those of a model that does not fit;")
+            said[-1] += " [fit] discrepancy states by how much it may be off."
+        if self.study.seeds < 2 and outcome.ended != "no runs":
+            said.append("Each point was run with one set of surfaces, so what differs from one to the next is not known, and intervals may be too")
+            said[-1] += " short. [replicates] with several seeds tells it."
+        for at, one in enumerate(self.target.measured):
+            said += self._of_seeds(at, one.response.name, 1.0 if one.is_series else one.uncertainties[0])
+        for row in self.responses.to_dict("records") if not self.freedom else ():
+            far = abs(row["forecast"] - row["measured"]) / math.hypot(row["uncertainty"], row["seeds_deviation"], row["discrepancy"])
+            if far > 2.0:
+                said.append(f"At the most likely values {row['response']} of the runs is {far:.2g} standard deviations away from what was measured:")
+                said[-1] += " no values within these ranges give all that was measured."
+        for at in self._likelihood.components:
+            said += self._of_series(at)
+        shares = self._likelihood.share_by_term()
+        if shares.max() > SETTLED:
+            part = f"{100.0 * shares.max():.0f} % of" if shares.max() < 2.0 else f"{shares.max():.2g} times"
+            name = self.target.measured[self._likelihood.terms[int(shares.argmax())].of].response.name
+            more = MORE.get(outcome.ended, "more runs in [fit] make the intervals shorter.")
+            said.append(f"The forecasts are not exact: near the most likely values their variance is up to {part} that of the measurement of {name}; {more}")
+        return said
+
+    def _of_seeds(self, at: int, name: str, uncertainty: float) -> list[str]:
+        """Where seeds scatter by as much as is known of what was measured."""
+        said, terms = list[str](), self._terms(at)
+        if max(map(self._scatter, terms)) > uncertainty:
+            said.append(f"Runs with other seeds scatter in {name} by more than the uncertainty of the measurement. Specimens may do the same: unless")
+            said[-1] += " the measurement is a mean of many specimens, add that scatter to its uncertainty."
+        if self._moments[2][terms].max() > 0.25 * uncertainty**2:
+            said.append(f"The mean of {name} over the seeds is known no better than to half the uncertainty of the measurement: more seeds in")
+            said[-1] += " [replicates] make the intervals shorter."
+        return said
+
+    def _of_series(self, at: int) -> list[str]:
+        """Where successive points of a series deviate alike."""
+        one, components = self.target.measured[at], self._likelihood.components[at]
+        # Deviations from what runs give, independent and of deviation 1.
+        away = components.measured - components.mean - components.basis @ self._moments[0][self._terms(at)]
+        alike = float((away[1:] * away[:-1]).sum() / max((away**2).sum(), 1e-300))
+        if len(away) < 8 or alike <= 2.0 / math.sqrt(len(away)):
+            return []
+        time = -float(np.median(np.diff(one.times))) / math.log(min(alike, 0.99))
+        advice = "a longer correlation_time" if one.correlation_time else f'correlation_time = "{time:.2g} s"'
+        said = f"Successive points of {one.response.name} deviate alike (correlation {alike:.2g}), and the intervals are too short. If the errors of the"
+        return [f"{said} measurement are like that, give {advice} in its [[response]]; if not, the runs cannot follow the series."]
+
+    @property
+    def _check(self) -> str:
+        return "failed" if self.outcome.has_failed else "held" if self.outcome.checks else "none"
+
+    def document(self, files: Sequence[str] = ()) -> dict[str, Any]:
+        """The JSON of ``plateau fit --json``; None where there is no number."""
+        keys = []
+        for factor in self.study.factors:
+            rows = self.keys[self.keys["key"] == factor.name]
+            pieces = rows[rows["low"].notna()][["low", "high", "open_below", "open_above"]].to_dict("records")
+            is_open = len(pieces) == 1 and pieces[0]["open_below"] and pieces[0]["open_above"]
+            about = {"name": factor.name, "keys": factor.keys.split(", "), "unit": factor.unit, "most_likely": rows["most_likely"].iloc[0]}
+            keys.append({**about, "interval": pieces, "undetermined": is_open})
+        found: dict[str, Any] = {"study": self.study.title, "keys": keys}
+        found |= {"responses": self.responses.rename(columns={"response": "name"}).to_dict("records")}
+        found |= {"confidence": self.confidence, "misfit": self.misfit, "degrees_of_freedom": self.freedom, "p": self.p}
+        found |= {"determined": self.determined, "notes": self.cautions, "runs": len(self._likelihood.runs.x), "runs_at_most": self.most}
+        found |= {"rounds": self.outcome.rounds, "ended": self.outcome.ended, "check": self._check}
+        found |= {"surrogate_share": float(self._likelihood.share_by_term().max())}
+        return dict(plain(found | {"checks": self.checks.to_dict("records"), "files": list(files)}))
+
+    def text(self) -> str:
+        """What ``plateau fit`` prints."""
+        keys = []
+        for factor in self.study.factors:
+            rows = self.keys[self.keys["key"] == factor.name]
+            likely, pieces = rows["most_likely"].iloc[0], [_interval(factor, row) for row in rows.to_dict("records") if row["low"] == row["low"]]
+            shown = [factor.shown(likely, 4) if math.isfinite(likely) else "–", " or ".join(pieces) or "none: runs contradict the forecast"]
+            keys.append([factor.name, *shown])
+        lines = ["Keys", *aligned([["key", "most likely", f"{100.0 * self.confidence:g} % interval"], *keys])]
+        rows = [["response", "measured", "runs give", "seed to seed", "apart"]]
+        for row in self.responses.to_dict("records"):
+            unit = unit_for(row["unit"], max(abs(row["measured"]), abs(row["forecast"])))
+            deviation, scatter = math.hypot(row["surrogate_deviation"], row["seeds_deviation"]), row["seed_to_seed"]
+            away = (row["forecast"] - row["measured"]) / math.hypot(row["uncertainty"], deviation, row["discrepancy"])
+            apart = f"{scatter * unit.per_si:.2g} {unit.symbol}".strip() if math.isfinite(scatter) else "not known"
+            shown = [row["response"], unit.text(row["measured"], row["uncertainty"]), unit.text(row["forecast"], deviation), apart]
+            rows.append([*shown, f"{away:.1f} deviations".replace("-0.0", "0.0")])
+        lines += ["", "Responses at the most likely values", *aligned(rows)] if rows[1:] else []
+        said = [*filter(None, [self.determined]), *self.cautions]
+        lines += ["", "To be known", *(f"  {line}" for line in said)] if said else []
+        return with_minus("\n".join([*lines, "", self.study.title, *(f"  {name:<8} {words}" for name, words in self._summary.items())]))
+
+    @property
+    def _summary(self) -> dict[str, str]:
+        """Runs, check, misfit and model in words."""
+        runs, first = self._likelihood.runs, int(self.study.runs["point"].nunique())
+        points = len(np.unique(np.round(runs.x, 9), axis=0))
+        each = f", {self.study.seeds} seeds each" if self.study.seeds > 1 else ""
+        made = f"{len(runs.x)} of at most {max(self.most, len(runs.x))}: {first} points of the design and {points - first} more{each}"
+        test = f" with {_degrees(self.freedom)}, p = {self.p:.2g}"
+        test = test if self.freedom else "; there are no more measurements than keys, so the misfit cannot be tested"
+        stated = [(one.response.name, size) for one, size in zip(self.target.measured, self.target.discrepancies, strict=True) if size]
+        model = f"standard uncertainty of the model: {', '.join(f'{100.0 * size:.3g} % in {name}' for name, size in stated)}"
+        return {
+            "runs": f"{made}; {ENDS[self.outcome.ended]}",
+            "check": "none: no runs are made" if self.outcome.ended == "no runs" else CHECKED[self._check],
+            "misfit": f"χ² = {self.misfit:.3g}{test}",
+            "model": model if stated else "taken for exact; [fit] discrepancy = 0.05 gives it an uncertainty of 5 %",
+        }
+
+    def figures(self) -> dict[str, Any]:
+        """Draws profiles of the keys, regions of their pairs, series."""
+        from plateau.study.figures import fit_figures
+
+        return dict(fit_figures(self))
+
+
+def _degrees(count: int) -> str:
+    return f"{count} {'degree' if count == 1 else 'degrees'} of freedom"
+
+
+def _interval(factor: Factor, row: dict[Any, Any]) -> str:
+    low, high = factor.shown(row["low"], 4), factor.shown(row["high"], 4)
+    bare = factor.shown(row["low"], 4, with_unit=False)
+    if row["open_below"] and row["open_above"]:
+        return f"not determined by these data: anywhere from {bare} to {high}"
+    if row["open_below"]:
+        return f"up to {high}; the data set no lower limit"
+    return f"from {low} on; the data set no upper limit" if row["open_above"] else f"{bare} … {high}"

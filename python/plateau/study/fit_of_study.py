@@ -1,0 +1,211 @@
+"""Fit to an experiment: which values of keys make runs give what was measured, how well that is known, and whether runs there agree."""
+
+import math
+import os
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+import pandas
+
+from plateau.errors import InputError, RunFailed
+from plateau.output_folder import plain
+from plateau.program import call
+from plateau.study.calibration import calibrated
+from plateau.study.data import Numbers, Study
+from plateau.study.fit_answer import Fit
+from plateau.study.likelihood import Runs, Target
+from plateau.study.measured import Measurement, measurements
+from plateau.study.results import analysed
+from plateau.study.runs import finished, made_study
+from plateau.study.text_tables import aligned
+from plateau.units import unit_for, with_minus
+
+
+def fit(
+    study: Study | str | os.PathLike[str],
+    *,
+    jobs: int | None = None,
+    workers: int | None = None,
+    retry: bool = False,
+    progress: bool | None = None,
+) -> Fit:
+    """Finds the values of keys with which runs give what was measured, and makes the runs for it.
+
+    Parameters
+    ----------
+    study : path or Study
+        A study with ranges of keys and measured values of responses.
+    jobs, workers : int, optional
+        Runs at a time, and threads of each.
+    retry : bool
+        Make runs again that failed before.
+    progress : bool, optional
+        Whether progress is shown.
+
+    Returns
+    -------
+    Fit
+
+    Raises
+    ------
+    InputError, RunFailed
+        If there is nothing to fit, or runs fail.
+    """
+    opened = analysed(study)
+    target, most, confidence = _task(opened)
+    can_run = [bool(opened.path) and "base" in opened.document and not one.response.asked.get("imported") for one in target.measured]
+    if any(can_run) and opened.path is not None:
+        opened = finished(opened.path, progress, retry, jobs=jobs, workers=workers)
+        target, most, confidence = _task(opened)
+    tables = [_table(opened)]
+
+    def make(places: Numbers) -> Runs:
+        points = pandas.DataFrame({factor.name: factor.value(column) for factor, column in zip(opened.factors, places.T, strict=True)})
+        made = made_study(opened, points, progress, retry, jobs=jobs, workers=workers)
+        table = _table(made)
+        tables.append(table.assign(point=table["point"] + tables[-1]["point"].max()))
+        return _observed(replace(made, factors=opened.factors), target)
+
+    try:
+        outcome = calibrated(target, _observed(opened, target), make, opened.seeds, most, can_run)
+    except ValueError as error:
+        if isinstance(error, InputError):
+            raise
+        count = (opened.runs["state"] == "finished").sum()
+        raise RunFailed(f"{opened.path or opened.title}: {error}; {count} of {len(opened.runs)} runs finished") from error
+    runs = pandas.concat(tables, ignore_index=True)
+    runs.insert(0, "run", np.arange(1, len(runs) + 1))
+    return Fit(opened, target, outcome, confidence, most, runs)
+
+
+def _table(study: Study) -> pandas.DataFrame:
+    names = [*(factor.name for factor in study.factors), *(response.name for response in study.responses)]
+    return study.runs[["point", "replicate", "state", *names]].assign(error=study.data["error"].values)
+
+
+def _task(study: Study) -> tuple[Target, int, float]:
+    """What is fitted to, runs at most, and the confidence of intervals."""
+    where, asked = study.path or study.title, study.document.get("fit", {})
+    measured = measurements(study)
+    if not measured:
+        raise InputError(
+            f"{where}: nothing was measured: give a [[response]] what was measured of it, such as measured = 0.70, uncertainty = 0.02, or "
+            'measured_file = "FILE.csv" for a whole series'
+        )
+    for factor in study.factors:
+        if not factor.is_range:
+            advice = f"make one study for each of {', '.join(map(factor.text, factor.levels))}, fit each, and compare the misfits"
+            advice = "give range = [lower, upper] in place of levels" if factor.is_number and not factor.whole else advice
+            raise InputError(f'{where}: factor "{factor.name}" ({factor.keys}) has levels, and a fit looks for numbers between two ends: {advice}')
+    runs, confidence, stated = (asked.get(key, usual) for key, usual in (("runs", 60), ("confidence", 0.95), ("discrepancy", 0.0)))
+    names = [one.response.name for one in measured]
+    if isinstance(stated, dict) and (unknown := [name for name in stated if name not in names]):
+        raise InputError(f'{where}: fit.discrepancy: "{unknown[0]}" is no response that was measured; there are {", ".join(names)}')
+    relative = [stated.get(name, 0.0) if isinstance(stated, dict) else stated for name in names]
+    limits = [("fit.runs", runs, 1.0, 1e6), ("fit.confidence", confidence, 1e-6, 1.0 - 1e-9)]
+    for key, value, low, high in (*limits, *(("fit.discrepancy", value, 0.0, 10.0) for value in relative)):
+        if not isinstance(value, int | float) or isinstance(value, bool) or not low <= value <= high:
+            raise InputError(f"{where}: {key} = {value}, expected {'at least 1' if key == 'fit.runs' else 'a part of 1, such as 0.05'}")
+    return Target(measured, [float(value) for value in relative], _correlations(where, asked, measured)), int(runs), float(confidence)
+
+
+def _correlations(where: Any, asked: dict[str, Any], measured: list[Measurement]) -> Numbers:
+    """Correlations of the errors of single values."""
+    singles = [one.response.name for one in measured if not one.is_series]
+    correlations = np.eye(len(singles))
+    for entry in asked.get("correlations", []):
+        is_triple = isinstance(entry, list) and len(entry) == 3
+        if not (is_triple and set(entry[:2]) <= set(singles) and entry[0] != entry[1] and -1.0 < entry[2] < 1.0):
+            expected = 'expected two responses with measured and a number, such as ["a", "b", 0.6]'
+            raise InputError(f"{where}: fit.correlations: {entry}, {expected}")
+        one, other = map(singles.index, entry[:2])
+        correlations[one, other] = correlations[other, one] = entry[2]
+    if len(singles) and np.linalg.eigvalsh(correlations).min() <= 1e-9:
+        raise InputError(f"{where}: fit.correlations: no errors can be correlated like this all together; make them smaller")
+    return correlations
+
+
+def _observed(study: Study, target: Target) -> Runs:
+    """What the runs of a study give of all that was measured."""
+    is_first = (study.runs["same_as"] == study.runs.index).to_numpy()
+    values = [
+        _at_times(study, one)[is_first] if one.is_series else study.runs[one.response.name].to_numpy(float)[is_first, None]
+        for one in target.measured
+    ]
+    x = np.column_stack([factor.coded(study.runs[factor.name]) for factor in study.factors])
+    return Runs(x[is_first], study.runs["replicate"].to_numpy()[is_first], values)
+
+
+def _at_times(study: Study, one: Measurement) -> Numbers:
+    """Series of the runs at the measured times."""
+    found = np.full((len(study.runs), len(one.times)), math.nan)
+    for run in range(len(found)) if one.response.series in study.data else ():
+        series = study.data[one.response.series].values[run]
+        times = study.data["sample_time"].values[run] if "sample_time" in study.data else study.data["time"].values
+        told = np.isfinite(series) & np.isfinite(times)
+        if told.any():
+            last = times[told].max()
+            if one.times[-1] > last * (1.0 + 1e-9):
+                raise InputError(
+                    f"{one.place}: the time is {one.times[-1]:g} s, and the runs end at {last:g} s: make them longer, with set = "
+                    f"[\"operation.duration = '{one.times[-1]:g} s'\"], or leave out the lines after their end"
+                )
+            found[run] = np.interp(one.times, times[told], series[told], left=math.nan)
+    if not np.isfinite(found).all(axis=1).any():
+        raise RunFailed(f'{study.path or study.title}: response "{one.response.name}": no run has values at all of the measured times')
+    return found
+
+
+@dataclass(frozen=True)
+class Plan:
+    """What a fit will do: ``first_runs`` of the design and ``most`` in all, their wall time, s, and the memory of the largest, bytes."""
+
+    study: Study
+    target: Target
+    first_runs: int
+    most: int
+    estimated_time: float
+    memory: int
+
+    def document(self) -> dict[str, Any]:
+        """The JSON of ``plateau fit --plan --json``."""
+        keys, responses = [factor.name for factor in self.study.factors], [one.response.name for one in self.target.measured]
+        known = {"first_runs": self.first_runs, "runs_at_most": self.most, "estimated_time": self.estimated_time, "memory": self.memory}
+        return dict(plain({"study": self.study.title, "keys": keys, "responses": responses, **known}))
+
+    def text(self) -> str:
+        """What ``plateau fit --plan`` prints."""
+        keys, measured = [["key", "between"]], [["response", "measured"]]
+        for factor in self.study.factors:
+            keys.append([factor.name, " … ".join(map(factor.shown, factor.ends)) + (", equal ratios" if factor.logarithmic else "")])
+        for one in self.target.measured:
+            unit = unit_for(one.response.unit, float(np.abs(one.values).max()))
+            points = f"{len(one.times)} points from {one.times[0]:g} to {one.times[-1]:g} s" if one.is_series else ""
+            measured.append([one.response.name, points or unit.text(one.values[0], one.uncertainties[0])])
+        lines = ["Looked for", *aligned(keys), "", "Fitted to", *aligned(measured), "", self.study.title]
+        lines += [f"  first runs  {self.first_runs} runs", f"  at most     {self.most} runs"]
+        if math.isfinite(self.estimated_time):
+            lines += [f"  estimated   {self.estimated_time:.3g} s for all", f"  memory      {self.memory / 1e6:.3g} MB for each"]
+        return with_minus("\n".join(lines))
+
+
+def plan(study: Study | str | os.PathLike[str]) -> Plan:
+    """Tells what a fit will do, without running any.
+
+    Parameters
+    ----------
+    study : path or Study
+
+    Returns
+    -------
+    Plan
+    """
+    opened = analysed(study)
+    target, most, _ = _task(opened)
+    first, time, memory = len(opened.runs), math.nan, 0
+    if opened.path is not None and "base" in opened.document:
+        estimate = call(["sweep", "plan", opened.path], progress=False)
+        jobs, mean = estimate["jobs"], float(np.mean(estimate["run_time"]))
+        time, memory = mean * max(most, first) / jobs, estimate["memory"] // jobs
+    return Plan(opened, target, first, max(most, first), time, memory)

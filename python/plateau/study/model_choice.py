@@ -1,0 +1,198 @@
+"""Which model is fitted to a response, with which of its terms, and what it misses."""
+
+from typing import Any
+
+import numpy as np
+
+from plateau.errors import InputError
+from plateau.study.data import Response, Study
+from plateau.study.model import CONTRIBUTES, LEAST_FREEDOM, MODELS, ROUNDING, Fitted, LeastSquares, NothingToFit, Squares, f_test
+
+# Most coefficients of a model that is tried beside another one.
+MOST_TRIED = 300
+NO_CURVE = "no factor that is a number has more than two values"
+
+
+def fitted(
+    study: Study, response: Response, model: str | None = None, terms: str = "all", confidence: float = 0.95, centre: bool = False
+) -> Fitted:
+    """Fits a model to a response; with `centre`, centre points have a term of their own where their squares cannot be told apart.
+
+    Raises `NothingToFit` if the response has no values, or the same one in all runs.
+    """
+    if not 0.0 < confidence < 1.0:
+        raise InputError(f"confidence level {confidence}: it lies between 0 and 1, such as 0.95")
+    for what, value, known in (("model", model or "main", tuple(MODELS)), ("terms", terms, ("all", "aicc"))):
+        if value not in known:
+            raise InputError(f"{what} {value!r}: expected one of {', '.join(known)}")
+    reason = "as asked for"
+    if model is None:
+        model, reason = _choice(study, response)
+    whole = _whole(study, response, model, reason, confidence, centre)
+    return _selected(whole) if terms == "aicc" else whole
+
+
+def _whole(study: Study, response: Response, model: str, reason: str = "", confidence: float = 0.95, centre: bool = False) -> Fitted:
+    """The fit with all terms of a model."""
+    runs = study.runs
+    # What was measured elsewhere was measured for each run by itself.
+    own = np.ones(len(runs), bool) if not response.series else ~runs["same_as"].duplicated().to_numpy()
+    values = response.scaled(runs[response.name])
+    if (beyond := np.isfinite(runs[response.name].to_numpy(float)) & ~np.isfinite(values)).any():
+        takes = {"log": "more than 0", "square root": "of at least 0", "logit": "more than 0 and less than 1"}[response.transform]
+        found = f"run {runs.index[beyond][0]} has the response {runs[response.name][beyond].iloc[0]:.6g} {response.unit}"
+        advice = f'transform = "{response.transform}" takes values {takes}: leave the transform out, or ask for another response'
+        raise InputError(f'{study.path or study.directory}: response "{response.name}": {found}, and {advice}')
+    has = own & np.isfinite(values)
+    missing, values = int((own & ~has).sum()), values[has]
+    if not len(values):
+        raise NothingToFit(f"fewer than two runs have a value of it ({missing} have none)")
+    if (largest := float(np.abs(values).max())) > 1e150:
+        raise NothingToFit(f"the response {largest:e} is beyond ±1e150")
+    if np.ptp(values) <= max(ROUNDING * largest, 1e-150):
+        raise NothingToFit(f"the response is {float(values[0])!r} in all {len(values)} observations: no factor has an effect on it")
+    return Fitted(study, response, model, runs[has], values, None, reason, confidence, centre, missing)
+
+
+def _choice(study: Study, response: Response) -> tuple[str, str]:
+    """The model that is fitted unless another one is asked for, and why."""
+    if study.design in ("central-composite", "box-behnken"):
+        return "quadratic", ""
+    if study.design == "plackett-burman":
+        return "main", "a Plackett-Burman design mixes interactions with main effects"
+    if study.design not in ("full-factorial", "fractional-factorial"):
+        problem = no_squares(_whole(study, response, "quadratic"))
+    else:
+        problem = NO_CURVE
+        if any(factor.is_range and study.runs[factor.name].nunique() > 2 for factor in study.factors):
+            problem = "centre points tell of a curve, and not in which factor"
+        if any(factor.is_number and not factor.is_range and len(factor.levels) > 2 for factor in study.factors):
+            problem = "levels are compared one by one, which shows curves, too"
+    return ("interactions", f"no squares: {problem}") if problem else ("quadratic", "")
+
+
+def no_squares(fit: Fitted) -> str:
+    """Why the runs do not allow a quadratic model, to which it is the fit; empty if they do."""
+    if not any(fit.is_curved):
+        return NO_CURVE
+    # Squares of numbers with two values are part of the mean.
+    squares = {columns.start: term[0] for term, columns in zip(fit.terms, fit.columns[2:], strict=True) if len({*term}) < len(term)}
+    straight = {column for column, at in squares.items() if not fit.is_curved[at]}
+    coefficients = fit.design.shape[1] - len(straight)
+    if (needed := coefficients - fit.seeds + 1) > fit.point_count:
+        return f"{fit.point_count} different points are too few for {needed} coefficients"
+    if coefficients + LEAST_FREEDOM > len(fit.values):
+        return f"{len(fit.values)} runs are too few for {coefficients} coefficients and an error"
+    owners = [fit.owner(column) for column in fit.fit.relations if column not in straight]
+    aliased = dict.fromkeys(fit.label(fit.terms[at - 2]) if at > 1 else "replicate" for at in owners)
+    return f"the runs cannot tell {', '.join(aliased)} from other terms" if aliased else ""
+
+
+def _selected(whole: Fitted) -> Fitted:
+    """The fit with the terms that have the least AICc. Terms come and go one at a time; one stays while it is a part of another one.
+
+    C. M. Hurvich and C.-L. Tsai, Biometrika 76, 297-307 (1989).
+    """
+    values, count, terms = whole.values - whole.mean, len(whole.values), whole.terms
+
+    def criterion(kept: frozenset[int]) -> float:
+        fit = LeastSquares(np.hstack([whole.design[:, whole.columns[at]] for at in (0, 1, *(term + 2 for term in sorted(kept)))]))
+        left, k = fit.residuals(values), len(fit.kept) + 1
+        if count - k - 1 <= 0:
+            return np.inf
+        squares = max(float(left @ left), count * whole.rounding**2)
+        return float(count * np.log(squares / count) + 2 * k + 2 * k * (k + 1) / (count - k - 1))
+
+    def is_part(one: int, other: int) -> bool:
+        return 0 < len(terms[one]) < len(terms[other]) and set(terms[one]) <= set(terms[other])
+
+    def may_change(kept: frozenset[int], term: int) -> bool:
+        if term in kept:
+            return not any(is_part(term, other) for other in kept)
+        return all(other in kept or not is_part(other, term) for other in range(len(terms)))
+
+    def improved(kept: frozenset[int]) -> tuple[float, frozenset[int]]:
+        least = criterion(kept)
+        while changes := [kept ^ {term} for term in range(len(terms)) if may_change(kept, term)]:
+            value, best = min(((criterion(change), change) for change in changes), key=lambda found: found[0])
+            if not (value < least - 1e-9 or value == least == np.inf and len(best) < len(kept)):
+                break
+            least, kept = value, best
+        return least, kept
+
+    everything = frozenset(at - 2 for at in map(whole.owner, whole.fit.kept) if at > 1)
+    aicc, kept = min((improved(everything), improved(frozenset())), key=lambda found: found[0])
+    own = whole.study, whole.response, whole.model, whole.runs, whole.values, [terms[at] for at in sorted(kept)]
+    chosen = Fitted(*own, whole.reason, whole.confidence, bool(whole.centre), whole.missing)
+    chosen.left_out = [term for at, term in enumerate(terms) if at not in kept]
+    chosen.aicc, chosen.aicc_of_all = aicc, criterion(everything)
+    return chosen
+
+
+def misfit(fit: Fitted) -> dict[str, Any] | None:
+    """Finds what a model misses, if that is significant at the confidence level, and the model to try, with its share.
+
+    Replicates tell it, or a model that has all terms of this one and more: with several such models the level is divided by their
+    number, after Bonferroni.
+    """
+    if np.isnan(fit.error):
+        return None
+    own, level = fit.residual, 1.0 - fit.confidence
+    others = [other for model in ("main", "interactions", "quadratic", "full") if model != fit.model and (other := _other(fit, model))]
+    _, f, p = fit.lack_of_fit
+    if by_replicates := p < level:
+        found = [(f, p, other) for other in others if other.residual.mean < own.mean and other.residual.sum < own.sum]
+    else:
+        # That terms which were left out explain something is no news.
+        larger = [other for other in others if fit.left_out is None and other.residual_freedom < own.freedom and _contains(other, fit)]
+        added = [Squares(own.freedom - other.residual_freedom, max(own.sum - other.residual.sum, 0.0)) for other in larger]
+        tests = [f_test(new, other.residual) if other.residual.sum > 0 else (np.inf, 0.0) for new, other in zip(added, larger, strict=True)]
+        found = [(*test, other) for test, other in zip(tests, larger, strict=True) if test[1] < level / len(larger)]
+        if not found:
+            return None
+    f, p, best = min(found, key=lambda one: one[2].residual.mean, default=(f, p, None))
+    tried = {"model_to_try": best and best.model, "r_squared": best and 1.0 - best.residual.sum / best.total.sum}
+    return {"f": f if np.isfinite(f) else None, "p": p, "by_replicates": by_replicates, **tried}
+
+
+def _other(fit: Fitted, model: str) -> Fitted | None:
+    """Another model of the same response; None if it cannot be fitted or leaves no error."""
+    try:
+        other = _whole(fit.study, fit.response, model, "", fit.confidence, bool(fit.centre))
+    except InputError:
+        return None
+    # Squares that the runs do not allow are no advice.
+    is_told = other.design.shape[1] <= MOST_TRIED and other.residual_freedom > 0
+    return other if is_told and not (model == "quadratic" and no_squares(other)) else None
+
+
+def _contains(larger: Fitted, smaller: Fitted) -> bool:
+    """Whether each column of a model is a combination of those of the larger one."""
+    left = np.linalg.norm(larger.fit.residuals(smaller.design), axis=0)
+    return bool((left <= CONTRIBUTES * np.maximum(np.linalg.norm(smaller.design, axis=0), 1.0)).all())
+
+
+def cautions(fit: Fitted) -> list[str]:
+    """What is to be known before the model is believed: a sentence each."""
+    said = []
+    if (missed := misfit(fit)) is not None:
+        p = "p < 0.0001" if missed["p"] < 1e-4 else f"p = {missed['p']:.2g}"
+        better = 'no other --model explains more; narrow the ranges, or try scale = "logarithmic" for a factor'
+        if missed["model_to_try"]:
+            share = f"R² {missed['r_squared']:.4f} instead of {1.0 - fit.residual.sum / fit.total.sum:.4f}"
+            better = f"try --model {missed['model_to_try']}, which explains more, {share}"
+        how = ": points differ from the model by more than replicates from each other" if missed["by_replicates"] else ""
+        said.append(f"lack of fit{how} ({p}); {better}")
+    if (freedom := fit.point_count - len(fit.own)) <= 0:
+        said.append("as many coefficients as points: runs cannot show what the model misses; more points or a smaller --model would")
+    elif freedom < LEAST_FREEDOM:
+        few = f"few points: {fit.point_count} for {len(fit.own)} coefficients"
+        said.append(f"{few}, so that the fit hardly shows what the model misses")
+    if fit.seeds == 1 and fit.response.series:
+        said.append("one set of seeds: intervals hold for these seeds alone; [replicates] with several tell of others")
+    if fit.seeds == 2:
+        wide = "two sets of seeds leave one degree of freedom for the error, and intervals are wide"
+        said.append(f"{wide}; a third makes them about 3.6 times as narrow")
+    if fit.left_out is not None:
+        said.append("terms were chosen by AICc from the same runs: F, p and intervals are too favourable and are no tests")
+    return said
