@@ -10,7 +10,8 @@ import pandas
 from plateau.output_folder import plain
 from plateau.study.data import Factor
 from plateau.study.figure_axes import number, set_axis
-from plateau.study.figures import comparison_figures, fit_figures
+from plateau.study.fit_answer import fit_figures
+from plateau.study.scene_comparison import comparison_figures
 from plateau.style import in_style, new
 from plateau.units import Unit, shown_unit, with_digits, with_hyphen, with_minus
 

@@ -176,7 +176,7 @@ pub fn export(case: &Case, load_tolerance: f64, directory: &Path) -> Outcome<()>
 
 /// The peer does what the paper's scene needs, and nothing else.
 fn supported(parameters: &Parameters) -> Outcome<()> {
-    let Needs { distinct, breaks, disc_wears, forms } = Needs::of(parameters);
+    let Needs { distinct, breaks, disc_wears, forms, transport } = Needs::of(parameters);
     let rules = &parameters.plateaus;
     let unsupported = [
         (distinct, "materials of their own for build-ups"),
@@ -184,7 +184,7 @@ fn supported(parameters: &Parameters) -> Outcome<()> {
         (disc_wears, "wear of the disc"),
         (!forms, "no formation"),
         (rules.debris != DebrisRule::Local, "pooled debris"),
-        (rules.transport_length.is_some(), "a transport length"),
+        (transport.is_some(), "a transport length"),
         (rules.captured_of_resin() != rules.captured_fraction, "a captured fraction of its own for resin"),
         (parameters.integrator != Integrator::Explicit, "exponential wear"),
     ];

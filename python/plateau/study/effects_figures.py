@@ -1,19 +1,17 @@
 """Figures of effects: their sizes, means at levels and pairs of levels, residuals, and the surface over two factors."""
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from scipy import stats
 
 from plateau.study.data import Factor
 from plateau.study.figure_axes import STEPS, dots, drawn_map, file_names, grid_points, held, logarithmic, positions, set_axis
+from plateau.study.model import Fitted
+from plateau.study.response_effects import ResponseEffects
 from plateau.style import DASHES, LINES, NARROW, QUIET, WIDE, Figures, in_style, labelled, new, wrapped
 from plateau.units import Unit, unit_for, unit_of
-
-if TYPE_CHECKING:
-    from plateau.study.analysis import Effects, ResponseEffects
-    from plateau.study.model import Fitted
 
 # Most terms, and panels of pairs, of a figure; most panels beside each other.
 MOST_TERMS, MOST_PAIRS, BESIDE = 20, 12, 3
@@ -22,17 +20,17 @@ FAR = 2.5
 
 
 @in_style
-def effects_figures(found: "Effects") -> Figures:
+def effects_figures(responses: Sequence[ResponseEffects]) -> Figures:
     """Draws effects, means, interactions, residuals and surfaces of each response."""
     figures: Figures = {}
     draws = {"pareto": _pareto, "main-effects": _main_effects, "interactions": _interactions, "residuals": _residuals, "surface": _surface}
-    for one, stem in zip(found.responses, file_names([one.response.name for one in found.responses]), strict=True):
+    for one, stem in zip(responses, file_names([one.response.name for one in responses]), strict=True):
         drawn = {name: draw(one, one.fit) for name, draw in draws.items()} if one.fit is not None else {}
         figures |= {f"{stem}-{name}": figure for name, figure in drawn.items() if figure is not None}
     return figures
 
 
-def _pareto(one: "ResponseEffects", fit: "Fitted") -> Any:
+def _pareto(one: ResponseEffects, fit: Fitted) -> Any:
     """Effects with their intervals and shares of the variance, the largest share on top."""
     table = one.terms.sort_values("share", ascending=False, kind="stable")
     left_out, table = len(table) - MOST_TERMS, table.head(MOST_TERMS)
@@ -66,7 +64,7 @@ def _pareto(one: "ResponseEffects", fit: "Fitted") -> Any:
     return figure
 
 
-def _main_effects(one: "ResponseEffects", fit: "Fitted") -> Any:
+def _main_effects(one: ResponseEffects, fit: Fitted) -> Any:
     own = [[factor] for at, factor in enumerate(fit.study.factors) if any(at in term for term in fit.terms)]
     # With squares, means over runs are not those at the middle of the others.
     notes = ["rings: means of runs"] if fit.model != "quadratic" else []
@@ -74,7 +72,7 @@ def _main_effects(one: "ResponseEffects", fit: "Fitted") -> Any:
     return _means(one, fit, own, f"{one.response.name}: means at the levels of each factor", notes)
 
 
-def _interactions(one: "ResponseEffects", fit: "Fitted") -> Any:
+def _interactions(one: ResponseEffects, fit: Fitted) -> Any:
     table = one.table[[isinstance(term, tuple) and len(set(term)) == 2 == len(term) for term in one.table["factors"]]]
     pairs, left_out = table.sort_values("share", ascending=False, kind="stable")["factors"].head(MOST_PAIRS), len(table) - MOST_PAIRS
     # Over the factor with more values, which is a number if there is one; a line for each level of the other.
@@ -83,7 +81,7 @@ def _interactions(one: "ResponseEffects", fit: "Fitted") -> Any:
     return _means(one, fit, own, f"{one.response.name}: means at pairs of levels, the pair with the largest share first", notes)
 
 
-def _means(one: "ResponseEffects", fit: "Fitted", groups: Sequence[list[Factor]], caption: str, notes: list[str]) -> Any:
+def _means(one: ResponseEffects, fit: Fitted, groups: Sequence[list[Factor]], caption: str, notes: list[str]) -> Any:
     """Means at the levels of a factor, with a line for each level of another one if there is one, in a panel for each group."""
     if not groups:
         return None
@@ -135,7 +133,7 @@ def _levels(factor: Factor, levels: list[Any]) -> list[Any]:
     return list(dict.fromkeys([levels[0], *([levels[len(levels) // 2]] if len(levels) % 2 else []), levels[-1]]))
 
 
-def _residuals(one: "ResponseEffects", fit: "Fitted") -> Any:
+def _residuals(one: ResponseEffects, fit: Fitted) -> Any:
     """Residuals against fitted values, in the order of the runs, and against normal quantiles."""
     if fit.residual_freedom == 0 or np.isnan(fit.error):
         return None
@@ -165,7 +163,7 @@ def _residuals(one: "ResponseEffects", fit: "Fitted") -> Any:
     return figure
 
 
-def _surface(one: "ResponseEffects", fit: "Fitted") -> Any:
+def _surface(one: ResponseEffects, fit: Fitted) -> Any:
     """What the model expects over the two numbers with the largest shares."""
     factors = fit.study.factors
     between = [at for at, coding in enumerate(fit.codings) if coding.is_straight and any(at in term for term in fit.terms)]

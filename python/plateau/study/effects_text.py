@@ -1,19 +1,15 @@
 """Effects in words and tables for people."""
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 import pandas
 
 from plateau.study.model import MODELS
+from plateau.study.response_effects import ResponseEffects
 from plateau.study.text_tables import aligned
 from plateau.units import Unit, unit_for, with_digits, with_minus
 
-if TYPE_CHECKING:
-    from plateau.study.analysis import ResponseEffects
 
-
-def told(one: "ResponseEffects") -> tuple[list[str], list[list[str]], list[str]]:
+def told(one: ResponseEffects) -> tuple[list[str], list[list[str]], list[str]]:
     """What is said of a response, the rows of its table with their heads, and what stands below it."""
     if (fit := one.fit) is None:
         return [one.response.name, one.error], [], []
@@ -64,7 +60,7 @@ def told(one: "ResponseEffects") -> tuple[list[str], list[list[str]], list[str]]
     return list(map(with_minus, lines)), rows, list(map(with_minus, below))
 
 
-def text_of(one: "ResponseEffects") -> str:
+def text_of(one: ResponseEffects) -> str:
     """What the command prints of a response."""
     lines, rows, below = told(one)
     return "\n  ".join([*lines, *(aligned(rows, indent="") if rows else []), *below]) + "\n"

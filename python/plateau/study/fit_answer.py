@@ -14,9 +14,11 @@ from scipy import stats
 from plateau.output_folder import plain
 from plateau.study.calibration import ENDS, Outcome
 from plateau.study.data import Factor, Numbers, Study
+from plateau.study.figure_axes import dots, file_names, set_axis
 from plateau.study.key_intervals import products, profile, region
 from plateau.study.likelihood import SETTLED, Likelihood, Target
 from plateau.study.text_tables import aligned
+from plateau.style import LINES, NARROW, QUIET, WIDE, Figures, in_style, labelled, new
 from plateau.units import shown_unit, unit_for, with_minus
 
 CHECKED = {
@@ -335,8 +337,6 @@ class Fit:
 
     def figures(self) -> dict[str, Any]:
         """Draws profiles of the keys, regions of their pairs, series."""
-        from plateau.study.figures import fit_figures
-
         return dict(fit_figures(self))
 
 
@@ -352,3 +352,55 @@ def _interval(factor: Factor, row: dict[Any, Any]) -> str:
     if row["open_below"]:
         return f"up to {high}; the data set no lower limit"
     return f"from {low} on; the data set no upper limit" if row["open_above"] else f"{bare} … {high}"
+
+
+@in_style
+def fit_figures(found: Fit) -> Figures:
+    """Draws profiles of the keys, regions of their pairs, and series beside what was measured."""
+    factors, level = {factor.name: factor for factor in found.study.factors}, f"{100 * found.confidence:g} %"
+    columns = min(len(factors), 3)
+    caption = f"How far −2 ln L rises where a key is held at a value, the others at their most likely ones; shaded: {level} interval"
+    rows, note = -(-len(factors) // columns), f"Dashed: threshold of the {level} interval, which is shaded"
+    figure, axes = new(WIDE if columns > 1 else NARROW, 14 + 50 * rows, caption, rows, columns, note, sharey=True)
+    for axis, (name, own) in zip(axes.flat, found.profiles.groupby("key", sort=False), strict=False):
+        factor, threshold = factors[str(name)], float(own["threshold"].iloc[0])
+        axis.plot(factor.in_study_unit(own["value"]), own["rise"], color=LINES[0])
+        axis.axhline(threshold, color=QUIET, linestyle="--", linewidth=0.8)
+        for row in found.keys[(found.keys["key"] == name) & found.keys["low"].notna()].to_dict("records"):
+            axis.axvspan(*factor.in_study_unit(np.array([row["low"], row["high"]])), color=LINES[0], alpha=0.15, linewidth=0)
+        axis.set_ylim(-0.05 * threshold, 3.0 * threshold)
+        set_axis(axis, factor)
+    for axis in axes.flat[len(factors) :]:
+        axis.set_axis_off()
+    for axis in axes[:, 0]:
+        axis.set_ylabel("rise of −2 ln L")
+    figures: Figures = {"profiles": figure}
+    for one, other, across, along, rises in found.regions:
+        x, y = factors[one], factors[other]
+        shaded = f"{level} region; " if not found.outcome.has_failed else ""
+        note = f"Shaded: {shaded}dots: runs" if shaded else "Dots: runs"
+        figure, ((axis,),) = new(NARROW, 76, f"Where {one} and {other} may be: {shaded}dots: runs", note=note)
+        if shaded:
+            threshold, at = float(stats.chi2.ppf(found.confidence, 2)), (x.in_study_unit(across), y.in_study_unit(along))
+            axis.contourf(*at, rises, [-1.0, threshold], colors=[LINES[0]], alpha=0.2)
+            axis.contour(*at, rises, [threshold], colors=[LINES[0]], linewidths=1.0)
+        dots(axis, x, y, found.runs, size=3.0)
+        set_axis(axis, x)
+        set_axis(axis, y, "y")
+        figures[f"region-{'-'.join(file_names([one, other]))}"] = figure
+    measured = dict(list(found.series.groupby("response", sort=False)))
+    for (name, rows), stem in zip(measured.items(), file_names(list(map(str, measured))), strict=True):
+        unit, time = unit_for(rows["unit"].iloc[0], float(rows["measured"].abs().max())), unit_for("s", float(rows["time"].max()))
+        caption = f"{name}: measured, and what runs give at the most likely values; bars: one standard deviation"
+        figure, ((axis,),) = new(NARROW, 66, caption, note="Runs: at the most likely values; bars: one standard deviation")
+        at = time.value(rows["time"].to_numpy())
+        marks = {"measured": ("measured", "uncertainty", "o", "black", 4.0), "runs": ("forecast", "forecast_deviation", "s", LINES[0], 2.5)}
+        # Runs are told at the measured times alone: no line says what is between them.
+        for label, (middle, half, mark, colour, size_of) in marks.items():
+            values = unit.value(rows[middle].to_numpy()), unit.per_si * rows[half].to_numpy()
+            style = {"mfc": "white", "elinewidth": 0.6, "capsize": 2} if label == "measured" else {"elinewidth": 1.4, "zorder": 3}
+            axis.errorbar(at, *values, fmt=mark, color=colour, ms=size_of, label=label, **style)
+        axis.set(xlabel=labelled("time", time.symbol), ylabel=labelled(str(name), unit.symbol))
+        figure.legend(loc="outside upper left", ncols=2)
+        figures[f"series-{stem}"] = figure
+    return figures

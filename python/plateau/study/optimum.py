@@ -12,7 +12,8 @@ import pandas
 
 from plateau.errors import InputError, PlateauWarning
 from plateau.study.analysis import together, usable
-from plateau.study.data import Numbers, Study
+from plateau.study.data import Factor, Numbers, Study
+from plateau.study.figure_axes import STEPS, dots, drawn_map, grid_points, held, positions, set_axis
 from plateau.study.goals import ROUNDING, Goal, Limit, Problem, axes_of, beyond_runs, overall, wanted
 from plateau.study.improvement import improved, is_run
 from plateau.output_folder import plain
@@ -21,6 +22,7 @@ from plateau.study.results import analysed
 from plateau.study.runs import make_runs
 from plateau.study.settings import beyond_of, ends_of, no_curve, region_of
 from plateau.study.surrogate import Surrogate, surrogates
+from plateau.style import APART, CHOSEN, LINES, NARROW, WIDE, Figures, in_style, labelled, new
 from plateau.units import Unit, unit_of, with_minus
 
 # In differences that count: on a limit; in halves of a range: at its end, and so far from its middle that a model knows nothing.
@@ -179,8 +181,6 @@ class Optimum:
 
     def figures(self, contour: str | None = None) -> dict[str, Any]:
         """The profiler, and the desirability over two factors, by their names with a comma between."""
-        from plateau.study.figures import optimum_figures
-
         return dict(optimum_figures(self, contour))
 
 
@@ -327,3 +327,83 @@ def _canonical(problem: Problem, best: pandas.DataFrame) -> list[dict[str, Any]]
         numbers = {"eigenvalues": said["eigenvalues"].tolist(), "directions": said["directions"].tolist()}
         found.append({"response": name, "nature": said["nature"], "value": value, "stationary": places, **numbers})
     return found
+
+
+@in_style
+def optimum_figures(found: Optimum, contour: str | None = None) -> Figures:
+    """Draws the profiler and, where two numbers may be anywhere, the desirability over those that matter most, or over a pair by name."""
+    problem, best = found.problem, {row.factor: row.value for row in found.settings.itertuples()}
+    axes_of = {factor.name: axis for factor, axis in zip(problem.study.factors, problem.axes, strict=True)}
+    free = [factor for factor in problem.study.factors if axes_of[factor.name] is None]
+    pair = _contour_pair(free, contour)
+    own = [factor for factor in problem.study.factors if (axis := axes_of[factor.name]) is None or len(axis) > 1]
+    if not own:
+        return {}
+    figure, spans = _profiler(found, best, own, axes_of)
+    figures = {"profiler": figure}
+    if pair or len(free) > 1:
+        x, y = pair or sorted(sorted(free, key=lambda factor: -spans[factor.name])[:2], key=problem.study.factors.index)
+        grid = [_range(factor, best[factor.name], 2 * STEPS) for factor in (x, y)]
+        values = problem.worth(grid_points(x, y, grid, best)).reshape(2 * STEPS, 2 * STEPS)
+        if np.isfinite(values).any() and np.nanmax(values) > np.nanmin(values):
+            at = f", at {said}" if (said := held(problem.study.factors, best, (x, y))) else ""
+            note = f"Star: best settings{at}" + ("; grey: a limit is missed" if problem.limits else "")
+            figures["contour"] = drawn_map((x, y), grid, values, "desirability", f"Desirability over {x.name} and {y.name}{at}", note)
+            figures["contour"].axes[0].set_facecolor(APART)
+            dots(figures["contour"].axes[0], x, y, pandas.DataFrame([best]), "*", 9)
+    return figures
+
+
+def _profiler(found: Optimum, best: dict[str, Any], own: Sequence[Factor], axes_of: dict[str, Any]) -> tuple[Any, dict[str, float]]:
+    """Responses and their desirability along each factor, and how much the desirability changes along it."""
+    problem, spans = found.problem, {}
+    shown, level = problem.wanted, f"{100 * problem.confidence:g} %"
+    caption = "Responses and their desirability along each factor, the others at the best settings"
+    note = f"Bands: {level} interval of means; vertical lines: best settings" + ("; dotted: limits" if problem.limits else "")
+    size = (WIDE if len(own) > 2 else NARROW), 14 + 34 * (len(shown) + 1)
+    figure, axes = new(*size, caption, len(shown) + 1, len(own), note, sharex="col", sharey="row")
+    for column, factor in enumerate(own):
+        levels = axes_of[factor.name]
+        values = _range(factor, best[factor.name], STEPS) if levels is None else np.array(levels)
+        points = pandas.DataFrame([best] * len(values)).assign(**{factor.name: values})
+        forecasts, places = problem.forecasts(points, with_intervals=True), positions(factor, values)
+        style = {"color": LINES[0], "linestyle": "-" if levels is None else "none", "marker": "" if levels is None else "o"}
+        for row, name in enumerate(shown):
+            unit, axis = unit_of(problem.surrogates[name].response.unit, problem.study.runs[name]), axes[row, column]
+            low, middle, high = (unit.value(forecasts[name][end].to_numpy()) for end in ("mean_low", "value", "mean_high"))
+            axis.plot(places, middle, **style)
+            if levels is None:
+                axis.fill_between(places, low, high, color=LINES[0], alpha=0.18, linewidth=0)
+            else:
+                axis.vlines(places, low, high, color=LINES[0], linewidth=1.0)
+            for limit in (limit for limit in problem.limits if limit.response == name):
+                axis.axhline(unit.value(limit.value), color=LINES[1], linestyle=":")
+            axes[row, 0].set_ylabel(labelled(name, unit.symbol))
+        desirability = np.nan_to_num(problem.worth(points))
+        spans[factor.name] = float(np.ptp(desirability))
+        axes[-1, column].plot(places, desirability, **style)
+        set_axis(axes[-1, column], factor)
+        for axis in axes[:, column]:
+            axis.axvline(positions(factor, [best[factor.name]])[0], color=CHOSEN, linewidth=0.8)
+    axes[-1, 0].set(ylabel="desirability", ylim=(-0.03, 1.03))
+    return figure, spans
+
+
+def _range(factor: Factor, best: Any, count: int) -> Numbers:
+    """Values over a range, and as far beyond it as the best one is, which may be that of an axial run."""
+    place = float(factor.coded(best))
+    return factor.value(np.linspace(min(place, -1.0), max(place, 1.0), count))
+
+
+def _contour_pair(free: Sequence[Factor], asked: str | None) -> tuple[Factor, Factor] | None:
+    """The two factors of a contour that was asked for; refuses others than two different ones that may be anywhere in a range."""
+    if asked is None:
+        return None
+    by_name = {factor.name: factor for factor in free}
+    # Names may have commas, too.
+    for at in (at for at, letter in enumerate(asked) if letter == ","):
+        one, other = by_name.get(asked[:at].strip()), by_name.get(asked[at + 1 :].strip())
+        if one and other and one is not other:
+            return one, other
+    expected = "expected two different factors that are numbers and not held, with a comma between"
+    raise InputError(f"--contour {asked}: {expected}; there are {', '.join(by_name) or 'none here'}")

@@ -16,10 +16,12 @@ from scipy import stats
 from plateau.commands import toml_document, toml_of
 from plateau.errors import InputError, PlateauWarning
 from plateau.program import call, file_name
+from plateau.quantities import series_of
 from plateau.study.data import Numbers, Response, Study
 from plateau.output_folder import plain
 from plateau.study.runs import finished
-from plateau.units import unit_for, with_minus
+from plateau.style import DASHES, LINES, NARROW, QUIET, Figures, in_style, labelled, new, wrapped
+from plateau.units import unit_for, unit_of, with_minus
 
 # What is compared unless asked otherwise: name, dataset with question, table of the scene without which there is no such series.
 USUAL = [
@@ -107,8 +109,6 @@ class Comparison:
 
     def figures(self) -> dict[str, Any]:
         """Draws each series against time, and the differences."""
-        from plateau.study.figures import comparison_figures
-
         return comparison_figures(self)
 
 
@@ -314,3 +314,36 @@ def _response(name: str, asked: str) -> dict[str, Any]:
     if dataset.startswith("/event"):
         return table | {"event": int(question) if question.isdigit() else question or "mean"}
     return table | {"at": question or "end"}
+
+
+@in_style
+def comparison_figures(found: Comparison) -> Figures:
+    """Draws each series against time, mean with the standard deviation of runs, and below it the differences with their intervals."""
+    figures: Figures = {}
+    reference = next(iter(found.scenes))
+    for series, curves in found.curves.groupby("series", sort=False):
+        name, unit = series_of(str(series)).title, unit_for(curves["unit"].iloc[0], float(curves["mean"].abs().max()))
+        of_time = unit_of("s", curves["time"])
+        level = f"{100 * found.confidence:g} %"
+        caption = f"{name} against time: means over the seeds with the standard deviation of runs, and differences with {level} intervals"
+        note = f"Bands: standard deviation of runs; below, {level} interval of the difference from {reference} at each time alone"
+        figure, axes = new(NARROW, 92, caption, 2, 1, note, sharex=True, height_ratios=[2, 1])
+        top, below = axes[:, 0]
+        for number, (scene, curve) in enumerate(curves.groupby("scene", sort=False)):
+            colour, dashes = LINES[number % len(LINES)], DASHES[number % len(DASHES)]
+            time, band = of_time.value(curve["time"]), {"color": colour, "alpha": 0.18, "linewidth": 0}
+            middle, half = unit.value(curve["mean"].to_numpy()), unit.per_si * curve["deviation"].fillna(0.0).to_numpy()
+            change, low, high = (unit.per_si * curve[end].to_numpy() for end in ("difference", "low", "high"))
+            top.plot(time, middle, color=colour, linestyle=dashes, label=wrapped(str(scene), 30))
+            top.fill_between(time, middle - half, middle + half, **band)
+            below.plot(time, change, color=colour, linestyle=dashes)
+            below.fill_between(time, low, high, **band)
+        # Titles of series are longer than the axis.
+        top.set_title(wrapped(name, 46), loc="left")
+        top.set(ylabel=labelled("mean", unit.symbol))
+        below.set(xlabel=labelled("time", of_time.symbol), ylabel=labelled("difference", unit.of_differences))
+        below.axhline(0.0, color=QUIET, linewidth=0.6)
+        figure.legend(*top.get_legend_handles_labels(), loc="outside upper left", ncols=2, columnspacing=1.0)
+        figure.align_ylabels()
+        figures[str(series)] = figure
+    return figures

@@ -18,12 +18,14 @@ from scipy import stats
 
 from plateau.errors import PlateauWarning
 from plateau.study.analysis import together, usable
-from plateau.study.data import Numbers, Study
+from plateau.study.data import Numbers, Response, Study
+from plateau.study.figure_axes import file_names
 from plateau.study.model import Fitted
 from plateau.output_folder import plain
 from plateau.study.process import Process
 from plateau.study.results import analysed
 from plateau.study.surrogate import Surrogate, surrogates
+from plateau.style import LINES, NARROW, QUIET, Figures, in_style, labelled, new, wrapped
 from plateau.units import unit_of, with_digits, with_minus
 
 # Places of the sample, functions that are drawn, and cosines of each.
@@ -118,8 +120,6 @@ class Sensitivity:
 
     def figures(self) -> Any:
         """A figure for each response."""
-        from plateau.study.figures import sensitivity_figures
-
         return sensitivity_figures(self)
 
 
@@ -305,3 +305,61 @@ def _part(row: pandas.Series, name: str) -> str:
 
 def _pair(low: float | None, high: float | None) -> list[float] | None:
     return None if low is None or high is None else [low, high]
+
+
+@in_style
+def sensitivity_figures(found: Sensitivity) -> Figures:
+    """Draws parts of the variance of each response, or elementary effects."""
+    figures: Figures = {}
+    draws, kind = (_drawn_elementary, "elementary-effects") if found.is_morris else (_drawn_indices, "indices")
+    names = [surrogate.response.name for surrogate in found.surrogates]
+    for surrogate, stem in zip(found.surrogates, file_names(names), strict=True):
+        table = found.table[found.table["response"] == surrogate.response.name]
+        if not surrogate.error and len(table):
+            figures[f"{stem}-{kind}"] = draws(found, surrogate.response, table)
+    return figures
+
+
+def _drawn_indices(found: Sensitivity, response: Response, table: pandas.DataFrame) -> Any:
+    """Parts alone and with interactions, with their intervals, the largest on top and the seeds below."""
+    level = f"{100 * found.confidence:g} %"
+    is_seeds = (table["factor"] == "seeds") & table["first_order"].isna()
+    table = pandas.concat([table[~is_seeds].sort_values("total", ascending=False, kind="stable"), table[is_seeds]])
+    note = f"Bars: {level} intervals of what the runs leave open" + (
+        "; seeds: part of the variance of single runs" if is_seeds.any() else ""
+    )
+    figure, axes = new(NARROW, 30 + 7 * len(table), f"{response.name}: parts of the variance, with {level} intervals", note=note)
+    axis, places = axes[0, 0], np.arange(len(table))
+    for kind, label, aside, colour, mark in (
+        ("first_order", "alone (first order)", -0.15, LINES[0], "o"),
+        ("total", "with interactions (total)", 0.15, LINES[1], "s"),
+    ):
+        middle, low, high = (np.clip(table[f"{kind}{end}"].to_numpy(float), 0.0, 1.0) for end in ("", "_low", "_high"))
+        axis.errorbar(
+            middle, places + aside, xerr=[middle - low, high - middle], fmt=mark, color=colour, elinewidth=1.4, capsize=2, label=label
+        )
+    axis.set(xlabel=labelled(f"part of the variance of {response.name}", ""), xlim=(-0.02, 1.02))
+    axis.set_yticks(places, [wrapped(str(name)) for name in table["factor"]])
+    axis.invert_yaxis()
+    figure.legend(loc="outside upper left", ncols=2, columnspacing=1.0)
+    return figure
+
+
+def _drawn_elementary(found: Sensitivity, response: Response, table: pandas.DataFrame) -> Any:
+    """Deviations of elementary effects against their mean sizes."""
+    unit = unit_of(response.unit, found.study.runs[response.name])
+    sizes, errors, deviations = (table[name].to_numpy(float) * unit.per_si for name in ("mean_size", "standard_error", "deviation"))
+    caption = (
+        f"{response.name}: elementary effects over the whole range of each factor; above the line a factor acts unevenly or with others"
+    )
+    figure, axes = new(NARROW, 76, caption, note="Bars: standard error; line: deviation = mean size")
+    axis = axes[0, 0]
+    axis.errorbar(sizes, deviations, xerr=np.nan_to_num(errors), fmt="o", color=LINES[0], capsize=2)
+    for name, x, y in zip(table["factor"], sizes, deviations, strict=True):
+        axis.annotate(wrapped(str(name)), (x, y), xytext=(3, 3), textcoords="offset points", fontsize=7)
+    axis.axline((0.0, 0.0), slope=1.0, color=QUIET, linewidth=0.6)
+    axis.set(
+        xlabel=labelled("mean size of effects, μ*", unit.of_differences), ylabel=labelled("deviation of effects, σ", unit.of_differences)
+    )
+    axis.set(xlim=(0.0, 1.15 * np.nanmax(sizes + np.nan_to_num(errors))), ylim=(-0.03 * np.nanmax(deviations, initial=1e-300), None))
+    return figure

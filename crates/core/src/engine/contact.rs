@@ -11,9 +11,10 @@ use crate::engine::coefficients::StatusPair;
 use crate::engine::exact::float;
 use crate::engine::kernel::{Bracket, NearPair, PLATEAU};
 use crate::engine::sums::{PairSums, RawLoss, RowWeights, Sums};
+use crate::model::REACH;
+use crate::model::error::ContactError;
 use crate::model::friction::{ContactSums, StatusContact};
 use crate::model::material::Status;
-use crate::model::{ContactError, REACH};
 
 /// What a reading says about the balance.
 #[derive(Debug, Clone, Copy, PartialEq)]

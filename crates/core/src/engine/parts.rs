@@ -28,6 +28,9 @@ pub struct Needs {
     pub disc_wears: bool,
     /// Plateaus can form.
     pub forms: bool,
+    /// Columns over which debris is gathered and spread, L or as many as the pin has, for it has no more to gather or to fill;
+    /// none where it goes from one cell to the next.
+    pub transport: Option<usize>,
 }
 
 /// What build-up asks of the kernels, which are compiled for each.
@@ -58,6 +61,10 @@ impl Needs {
             disc_wears: materials.disc_primary.specific_wear_rate > 0.0
                 || (forms && materials.disc_secondary.specific_wear_rate > 0.0),
             forms,
+            transport: parameters
+                .transport_columns()
+                .filter(|_| forms)
+                .map(|columns| columns.min(parameters.mesh.pin_columns())),
         }
     }
 
@@ -77,7 +84,7 @@ pub fn parts(parameters: &Parameters, pin_base: &[Base]) -> Vec<Part> {
     let materials = &parameters.materials;
     let mesh = &parameters.mesh;
     let has = |base| pin_base.iter().enumerate().any(|(cell, found)| *found == base && mesh.is_present(cell));
-    let Needs { distinct, breaks, disc_wears, forms } = Needs::of(parameters);
+    let Needs { distinct, breaks, disc_wears, forms, transport } = Needs::of(parameters);
     let pools = forms && parameters.plateaus.debris != DebrisRule::Local;
     let destroys = pools && parameters.plateaus.destruction;
     let pin_wears = (has(Base::Primary) && materials.pin_primary.specific_wear_rate > 0.0)
@@ -115,7 +122,7 @@ pub fn parts(parameters: &Parameters, pin_base: &[Base]) -> Vec<Part> {
         part("strength of build-up", breaks, "materials.pin_secondary.strength", "no strength is given"),
         part(
             "transport length",
-            forms && parameters.plateaus.transport_length.is_some(),
+            transport.is_some(),
             "plateaus.transport_length",
             "no transport_length: debris goes from one cell to the next",
         ),

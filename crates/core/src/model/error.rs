@@ -1,8 +1,35 @@
-//! Why a simulation cannot start or go on.
+//! Why a load balance fails, and a simulation cannot start or go on.
 
 use thiserror::Error;
 
-use crate::model::ContactError;
+/// Why no displacement carries the load.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum ContactError {
+    /// Heights or stiffness left the range of floating-point numbers.
+    #[error(
+        "the load balance has no finite solution (displacement {displacement:e} m carries {load:e} N of \
+         {normal_force:e} N): heights, stiffness or load are out of the range of floating-point numbers"
+    )]
+    NotFinite {
+        /// δ reached, m.
+        displacement: f64,
+        /// Σ k A u there, N.
+        load: f64,
+        /// F_N, N.
+        normal_force: f64,
+    },
+    /// The overlap that carries the load is less than the rounding of the heights.
+    #[error(
+        "nothing carries the load of {normal_force:e} N: beside gaps of {displacement:e} m, the overlap that carries it is \
+         smaller than the rounding of a number; check the unit and the scale of the heights"
+    )]
+    NotCarried {
+        /// δ reached, m.
+        displacement: f64,
+        /// F_N, N.
+        normal_force: f64,
+    },
+}
 
 /// Why a simulation cannot start or go on.
 #[derive(Debug, Clone, PartialEq, Error)]

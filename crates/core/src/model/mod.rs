@@ -41,8 +41,6 @@ pub mod step;
 pub mod totals;
 mod volumes;
 
-use thiserror::Error;
-
 pub use self::volumes::Volumes;
 use crate::model::friction::{ContactSums, StatusContact};
 use crate::model::material::Status;
@@ -88,35 +86,6 @@ impl State {
 
 /// Displacements from this size on are out of the range of the model, m.
 pub const REACH: f64 = 1e199;
-
-/// Why no displacement carries the load.
-#[derive(Debug, Clone, PartialEq, Error)]
-pub enum ContactError {
-    /// Heights or stiffness left the range of floating-point numbers.
-    #[error(
-        "the load balance has no finite solution (displacement {displacement:e} m carries {load:e} N of \
-         {normal_force:e} N): heights, stiffness or load are out of the range of floating-point numbers"
-    )]
-    NotFinite {
-        /// δ reached, m.
-        displacement: f64,
-        /// Σ k A u there, N.
-        load: f64,
-        /// F_N, N.
-        normal_force: f64,
-    },
-    /// The overlap that carries the load is less than the rounding of the heights.
-    #[error(
-        "nothing carries the load of {normal_force:e} N: beside gaps of {displacement:e} m, the overlap that carries it is \
-         smaller than the rounding of a number; check the unit and the scale of the heights"
-    )]
-    NotCarried {
-        /// δ reached, m.
-        displacement: f64,
-        /// F_N, N.
-        normal_force: f64,
-    },
-}
 
 /// What a step found and did.
 #[derive(Debug, Clone, PartialEq)]

@@ -5,7 +5,8 @@
 
 use std::iter::successors;
 
-use super::{ContactError, REACH, State, Step, Volumes};
+use super::error::ContactError;
+use super::{REACH, State, Step, Volumes};
 use crate::model::material::Status;
 use crate::model::parameters::{DebrisRule, Integrator, Parameters};
 use crate::model::state::disc_status;

@@ -9,7 +9,6 @@ use crate::engine::comm::mpi::Mpi;
 use crate::engine::comm::single::Single;
 use crate::engine::comm::threads::Threads;
 use crate::engine::execution::{Engine, Execution};
-use crate::engine::kernel::transport_columns;
 use crate::engine::memory::EngineMemory;
 use crate::engine::parts::Needs;
 use crate::engine::sector::Partition;
@@ -61,14 +60,13 @@ impl Workers {
         if execution.engine == Engine::Plain {
             return Ok(Self::Plain(Box::new(Plain::new(parameters.clone(), surfaces, turned))));
         }
-        let shortest = waiting_columns(transport_columns(parameters)) + 1;
+        let shortest = waiting_columns(Needs::of(parameters).transport) + 1;
         let partition = Arc::new(Partition::new(&parameters.mesh, execution.workers, execution.bands, shortest));
         if execution.workers == 1 {
             let worker = Worker::new(parameters.clone(), &surfaces, partition, execution, turned, Single);
             return Ok(Self::One(Box::new(worker)));
         }
-        let transport = transport_columns(parameters);
-        let halo_words = halo_words(parameters.mesh.rows(), Needs::of(parameters).forms, transport);
+        let halo_words = halo_words(parameters.mesh.rows(), Needs::of(parameters));
         let boundaries = if partition.groups() > 1 { partition.sectors() * partition.bands() } else { 0 };
         let worker = |end: Threads| {
             let alarm = end.alarm();
@@ -88,7 +86,7 @@ impl Workers {
         execution: Execution,
         communicator: Mpi,
     ) -> Self {
-        let shortest = waiting_columns(transport_columns(parameters)) + 1;
+        let shortest = waiting_columns(Needs::of(parameters).transport) + 1;
         let partition = Arc::new(Partition::new(&parameters.mesh, execution.workers, execution.bands, shortest));
         Self::Rank(Box::new(Worker::new(parameters.clone(), surfaces, partition, execution, 0, communicator)))
     }

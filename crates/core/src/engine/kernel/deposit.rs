@@ -3,10 +3,11 @@
 //! Few cells get any: the open ones behind one that touches. So they are looked up in the bytes that tell which cells touch,
 //! and done one by one. Their heights change before any cell wears, and what is ahead of them is worn in passing.
 
-use super::edge::{Ahead, Cells, EdgeStrip};
+use super::edge::{Ahead, EdgeStrip};
 use super::moved::{Moved, SeldomEvent};
 use super::rules::{Conditions, Rules};
 use super::strip::Strip;
+use super::worn_pair::Cells;
 use crate::engine::lanes::{Chunk, LANES};
 use crate::engine::parts::build_up;
 

@@ -1,15 +1,7 @@
-//! The column ahead of a span: what its cells lose, for the cells behind them (model 4.2 and 4L).
+//! The column ahead of a span: what its cells lose, for the cells behind them (model 4.2 and 4L), and how that crosses to another
+//! worker.
 
-use super::pairs::{PLATEAU, RESIN};
-use super::read::Span;
-use super::rules::{Conditions, Rules};
-use super::transport::Reach;
-use crate::engine::coefficients::StatusPair;
 use crate::engine::lanes::{Chunk, LANES};
-use crate::engine::parts::{Needs, build_up};
-use crate::engine::pin_strips::PinStrips;
-use crate::engine::strips::DiscSector;
-use crate::model::material::Status;
 
 /// A cell of the pin that touches, after wear and before its own deposit.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -85,136 +77,66 @@ impl Edge {
     }
 }
 
-/// A pair of cells at the start of a step; heights in m.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Cells {
-    pub z_p: f64,
-    pub b_p: f64,
-    pub z_d: f64,
-    pub b_d: f64,
-    pub on_resin: bool,
+/// What eight cells must know of the cells ahead of them in their rows, at the start of a step.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Reach {
+    /// z_p of the next column after wear and before any deposit, m.
+    pub height: Chunk,
+    /// Which cells of the next column were plateaus, one bit each.
+    pub plateau: u8,
+    /// v̄ of the edge that the next column is fed from, m.
+    pub share: Chunk,
+    /// How many more cells it feeds.
+    pub remaining: Chunk,
+    /// Which cells touch in each of the next L columns, one bit each.
+    pub touches: Vec<u8>,
+    /// v of each of these columns, m.
+    pub lost: Vec<Chunk>,
 }
 
-impl Ahead {
-    /// A pair that touches after wear: what [`super::worn::wear`] does to eight of them.
-    #[inline(always)]
-    pub fn new<const BUILD_UP: u8, const DISC_WEARS: bool>(
-        rules: &Rules,
-        row: usize,
-        displacement: f64,
-        cells: Cells,
-    ) -> Self {
-        let Cells { z_p, b_p, z_d, on_resin, .. } = cells;
-        let clearance = z_p - z_d - displacement;
-        if BUILD_UP == build_up::DISTINCT {
-            return Self::of_distinct::<DISC_WEARS>(rules, row, clearance, cells);
+impl Reach {
+    /// Nothing ahead, with a transport length of so many columns.
+    pub fn none(columns: usize) -> Self {
+        let zero = Chunk([0.0; LANES]);
+        Self {
+            height: zero,
+            plateau: 0,
+            share: zero,
+            remaining: zero,
+            touches: vec![0; columns],
+            lost: vec![zero; columns],
         }
-        let mut lost = clearance * rules.pin_loss.entry(PLATEAU, row);
-        let (mut height, mut pair, mut of_resin) = (z_p + lost, PLATEAU, 0.0);
-        // Seldom: bare resin, or resin whose build-up is worn through. Nothing is at least a number that is none, so this is
-        // one branch, which hardly ever is another than the last.
-        let ground = f64::from_bits(b_p.to_bits() | if on_resin { 0 } else { f64::NAN.to_bits() });
-        if height >= ground {
-            if z_p < b_p {
-                (lost, height) = (b_p - z_p, b_p);
-            } else {
-                (lost, pair, of_resin, height) = (0.0, RESIN, rules.wear_height, f64::INFINITY);
-            }
-        }
-        if DISC_WEARS {
-            lost += clearance * rules.disc_loss.entry(pair, row);
-        }
-        if BUILD_UP == build_up::BRITTLE && on_resin && z_p < b_p && rules.breaks(clearance, false) {
-            height = b_p;
-        }
-        Self { height, captured: rules.captured(lost, of_resin), plateau: pair == PLATEAU }
     }
 
-    /// The same where build-up has properties of its own.
-    fn of_distinct<const DISC_WEARS: bool>(rules: &Rules, row: usize, clearance: f64, cells: Cells) -> Self {
-        let Cells { z_p, b_p, z_d, b_d, on_resin } = cells;
-        let status = match (z_p < b_p, on_resin) {
-            (true, _) => Status::Secondary,
-            (false, true) => Status::Resin,
-            (false, false) => Status::Primary,
-        };
-        let pair = StatusPair::new(status, b_d < z_d).index();
-        let is_resin = status == Status::Resin;
-        let raw = if is_resin { 0.0 } else { clearance * rules.pin_loss.entry(pair, row) };
-        let below = if on_resin { 0.0 } else { rules.fibre.entry(pair, row) };
-        let pin = wear(z_p, b_p, raw, below);
-        let of_resin = if is_resin { rules.wear_height } else { 0.0 };
-        let mut lost = pin.lost;
-        if DISC_WEARS {
-            let raw = clearance * rules.disc_loss.entry(pair, row);
-            lost += wear(0.0 - z_d, 0.0 - b_d, raw, rules.coating.entry(pair, row)).lost;
+    /// Words of one on its way to another worker.
+    pub fn words(columns: usize) -> usize {
+        3 * LANES + 1 + columns * (LANES + 1)
+    }
+
+    /// Writes it for another worker.
+    pub fn write(&self, words: &mut Vec<u64>) {
+        let Self { height, plateau, share, remaining, touches, lost } = self;
+        for chunk in [height, share, remaining].into_iter().chain(lost) {
+            words.extend(chunk.0.map(f64::to_bits));
         }
-        let breaks = on_resin && status == Status::Secondary && rules.breaks(clearance, b_d < z_d);
-        let height = match () {
-            () if is_resin => f64::INFINITY,
-            () if breaks => b_p,
-            () => pin.height,
-        };
-        Self { height, captured: rules.captured(lost, of_resin), plateau: !is_resin }
+        words.push(u64::from(*plateau));
+        words.extend(touches.iter().map(|touches| u64::from(*touches)));
     }
-}
 
-/// A cell of the pin after wear.
-struct Worn {
-    height: f64,
-    lost: f64,
-}
-
-/// What [`crate::engine::wear::pin`] does to eight cells.
-fn wear(height: f64, substrate: f64, raw: f64, below: f64) -> Worn {
-    let build_up = substrate - height;
-    if height < substrate && raw >= build_up {
-        let deeper = (raw - build_up) * below;
-        return Worn { height: substrate + deeper, lost: build_up + deeper };
+    /// Takes over one that another worker wrote.
+    pub fn read(columns: usize, words: &[u64]) -> Self {
+        let (chunks, bytes) = words.split_at((3 + columns) * LANES);
+        let chunk = |words: &[u64]| Chunk(std::array::from_fn(|lane| f64::from_bits(words[lane])));
+        let mut chunks = chunks.chunks_exact(LANES).map(chunk);
+        let mut next = || chunks.next().unwrap_or(Chunk([0.0; LANES]));
+        let [height, share, remaining] = [next(), next(), next()];
+        Self {
+            height,
+            plateau: bytes[0] as u8,
+            share,
+            remaining,
+            touches: bytes[1..].iter().map(|word| *word as u8).collect(),
+            lost: (0..columns).map(|_| next()).collect(),
+        }
     }
-    Worn { height: height + raw, lost: raw }
-}
-
-/// Wears a column of pairs, the first of a span, without changing it.
-pub type WearColumn = fn(&Rules, &Conditions, &PinStrips, &DiscSector, Span, &mut Edge);
-
-/// The wear that does what a scene needs and nothing else; chosen once per run.
-pub fn wear_column(needs: Needs) -> WearColumn {
-    match (needs.build_up(), needs.disc_wears) {
-        (build_up::DISTINCT, false) => wear_first::<{ build_up::DISTINCT }, false>,
-        (build_up::DISTINCT, true) => wear_first::<{ build_up::DISTINCT }, true>,
-        (build_up::BRITTLE, false) => wear_first::<{ build_up::BRITTLE }, false>,
-        (build_up::BRITTLE, true) => wear_first::<{ build_up::BRITTLE }, true>,
-        (_, false) => wear_first::<{ build_up::ALIKE }, false>,
-        (_, true) => wear_first::<{ build_up::ALIKE }, true>,
-    }
-}
-
-fn wear_first<const BUILD_UP: u8, const DISC_WEARS: bool>(
-    rules: &Rules,
-    conditions: &Conditions,
-    pin: &PinStrips,
-    disc: &DiscSector,
-    span: Span,
-    edge: &mut Edge,
-) {
-    edge.strips.clear();
-    edge.strips.extend((0..pin.height.strips()).map(|strip| {
-        let touches = pin.touches(strip)[span.first];
-        let pin_chunks = [&pin.height, pin.substrate()].map(|field| field.chunk(strip, span.first));
-        let disc_chunks = [&disc.height, disc.substrate()].map(|field| field.chunk(strip, span.over));
-        let resin = pin.resin(strip)[span.first];
-        let cell = |lane: usize| {
-            if touches >> lane & 1 == 0 {
-                return Ahead::default();
-            }
-            let of = |chunk: &Chunk| chunk.0[lane];
-            let [z_p, b_p] = pin_chunks.map(of);
-            let [z_d, b_d] = disc_chunks.map(of);
-            let cells = Cells { z_p, b_p, z_d, b_d, on_resin: resin >> lane & 1 == 1 };
-            let row = (conditions.first_strip + strip) * LANES + lane;
-            Ahead::new::<BUILD_UP, DISC_WEARS>(rules, row, conditions.displacement, cells)
-        };
-        EdgeStrip { touches, cells: std::array::from_fn(cell) }
-    }));
 }

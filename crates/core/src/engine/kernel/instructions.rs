@@ -128,3 +128,18 @@ macro_rules! kernel {
     };
 }
 pub(super) use kernel;
+
+/// The instance of a function that does what a scene in which plateaus form needs and nothing else.
+macro_rules! with_build_up {
+    ($needs:expr, $function:ident) => {
+        match ($needs.build_up(), $needs.disc_wears) {
+            (build_up::DISTINCT, false) => $function::<{ build_up::DISTINCT }, false>,
+            (build_up::DISTINCT, true) => $function::<{ build_up::DISTINCT }, true>,
+            (build_up::BRITTLE, false) => $function::<{ build_up::BRITTLE }, false>,
+            (build_up::BRITTLE, true) => $function::<{ build_up::BRITTLE }, true>,
+            (_, false) => $function::<{ build_up::ALIKE }, false>,
+            (_, true) => $function::<{ build_up::ALIKE }, true>,
+        }
+    };
+}
+pub(super) use with_build_up;

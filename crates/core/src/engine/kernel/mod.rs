@@ -16,13 +16,15 @@ mod rules;
 mod strip;
 mod transport;
 mod worn;
+mod worn_pair;
 
-pub(crate) use edge::{Edge, WearColumn, wear_column};
+pub(crate) use edge::Edge;
 pub use instructions::InstructionSet;
 pub(crate) use moved::Moved;
 pub(crate) use pairs::PLATEAU;
 pub(crate) use pass::{Pass, pass};
 pub(crate) use read::{Read, Span, read};
 pub(crate) use reading::{Bracket, NearPair, Reading, told_apart};
-pub(crate) use rules::{Conditions, Rules, transport_columns};
+pub(crate) use rules::{Conditions, Rules};
 pub(crate) use transport::{Transport, transport};
+pub(crate) use worn_pair::{WearColumn, wear_column};

@@ -11,7 +11,7 @@
 
 use super::deposit::{COLUMNS, deposit};
 use super::edge::Edge;
-use super::instructions::{InstructionSet, kernel};
+use super::instructions::{InstructionSet, kernel, with_build_up};
 use super::moved::{Moved, SeldomEvent, StripMoved, note_broken, note_worn_through};
 use super::ordinary::pass_over_ordinary;
 use super::pairs::Pairs;
@@ -38,12 +38,7 @@ pub fn pass(needs: Needs) -> Pass {
     match (needs.build_up(), needs.disc_wears) {
         (build_up::NONE, false) => pass_over_span::<{ build_up::NONE }, false>,
         (build_up::NONE, true) => pass_over_span::<{ build_up::NONE }, true>,
-        (build_up::ALIKE, false) => pass_over_span::<{ build_up::ALIKE }, false>,
-        (build_up::ALIKE, true) => pass_over_span::<{ build_up::ALIKE }, true>,
-        (build_up::BRITTLE, false) => pass_over_span::<{ build_up::BRITTLE }, false>,
-        (build_up::BRITTLE, true) => pass_over_span::<{ build_up::BRITTLE }, true>,
-        (_, false) => pass_over_span::<{ build_up::DISTINCT }, false>,
-        (_, true) => pass_over_span::<{ build_up::DISTINCT }, true>,
+        _ => with_build_up!(needs, pass_over_span),
     }
 }
 

@@ -5,6 +5,7 @@ use super::pairs::{ChunkTable, Entries};
 use super::reading::{Bracket, BracketLanes};
 use crate::engine::coefficients::Coefficients;
 use crate::engine::lanes::{Integers, Lanes};
+use crate::engine::parts::Needs;
 use crate::engine::quantum::Quantum;
 use crate::model::material::Status;
 use crate::model::parameters::Parameters;
@@ -28,9 +29,8 @@ pub struct Rules {
     /// η, of plateaus and of resin.
     captured_fraction: f64,
     captured_resin_fraction: f64,
-    /// Columns over which debris is gathered and spread, L or as many as the pin has; none where it goes from one cell to the
-    /// next.
-    pub(super) transport: Option<usize>,
+    /// [`Needs::transport`].
+    pub transport: Option<usize>,
     /// η/L; 0 without L.
     pub(super) transport_part: f64,
     /// Whether cells to which nothing out of the ordinary happens are done with few instructions; the results are the same.
@@ -56,7 +56,7 @@ impl Rules {
             reference_height,
             captured_fraction: parameters.plateaus.captured_fraction,
             captured_resin_fraction: parameters.plateaus.captured_of_resin(),
-            transport: transport_columns(parameters),
+            transport: Needs::of(parameters).transport,
             transport_part: parameters
                 .transport_columns()
                 .map_or(0.0, |columns| parameters.plateaus.captured_fraction / columns as f64),
@@ -75,11 +75,6 @@ impl Rules {
     pub(super) fn captured(&self, of_plateaus: f64, of_resin: f64) -> f64 {
         of_plateaus * self.captured_fraction + of_resin * self.captured_resin_fraction
     }
-}
-
-/// Columns over which debris is gathered and spread: no more than the pin has, for it has no more to gather or to fill.
-pub(crate) fn transport_columns(parameters: &Parameters) -> Option<usize> {
-    parameters.transport_columns().map(|columns| columns.min(parameters.mesh.pin_columns()))
 }
 
 /// What changes from step to step.

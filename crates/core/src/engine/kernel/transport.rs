@@ -5,8 +5,8 @@
 //! passing. A cell knows of what lies ahead of it by a [`Reach`].
 
 use super::deposit::taken_back;
-use super::edge::Edge;
-use super::instructions::{InstructionSet, kernel};
+use super::edge::{Edge, Reach};
+use super::instructions::{InstructionSet, kernel, with_build_up};
 use super::moved::{Moved, add};
 use super::pairs::lanes_of;
 use super::read::Span;
@@ -18,70 +18,6 @@ use crate::engine::parts::{Needs, build_up};
 use crate::engine::pin_strips::PinStrips;
 use crate::engine::strips::DiscSector;
 
-/// What eight cells must know of the cells ahead of them in their rows, at the start of a step.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) struct Reach {
-    /// z_p of the next column after wear and before any deposit, m.
-    height: Chunk,
-    /// Which cells of the next column were plateaus, one bit each.
-    plateau: u8,
-    /// v̄ of the edge that the next column is fed from, m.
-    share: Chunk,
-    /// How many more cells it feeds.
-    remaining: Chunk,
-    /// Which cells touch in each of the next L columns, one bit each.
-    pub touches: Vec<u8>,
-    /// v of each of these columns, m.
-    lost: Vec<Chunk>,
-}
-
-impl Reach {
-    /// Nothing ahead, with a transport length of so many columns.
-    pub fn none(columns: usize) -> Self {
-        let zero = Chunk([0.0; LANES]);
-        Self {
-            height: zero,
-            plateau: 0,
-            share: zero,
-            remaining: zero,
-            touches: vec![0; columns],
-            lost: vec![zero; columns],
-        }
-    }
-
-    /// Words of one on its way to another worker.
-    pub fn words(columns: usize) -> usize {
-        3 * LANES + 1 + columns * (LANES + 1)
-    }
-
-    /// Writes it for another worker.
-    pub fn write(&self, words: &mut Vec<u64>) {
-        let Self { height, plateau, share, remaining, touches, lost } = self;
-        for chunk in [height, share, remaining].into_iter().chain(lost) {
-            words.extend(chunk.0.map(f64::to_bits));
-        }
-        words.push(u64::from(*plateau));
-        words.extend(touches.iter().map(|touches| u64::from(*touches)));
-    }
-
-    /// Takes over one that another worker wrote.
-    pub fn read(columns: usize, words: &[u64]) -> Self {
-        let (chunks, bytes) = words.split_at((3 + columns) * LANES);
-        let chunk = |words: &[u64]| Chunk(std::array::from_fn(|lane| f64::from_bits(words[lane])));
-        let mut chunks = chunks.chunks_exact(LANES).map(chunk);
-        let mut next = || chunks.next().unwrap_or(Chunk([0.0; LANES]));
-        let [height, share, remaining] = [next(), next(), next()];
-        Self {
-            height,
-            plateau: bytes[0] as u8,
-            share,
-            remaining,
-            touches: bytes[1..].iter().map(|word| *word as u8).collect(),
-            lost: (0..columns).map(|_| next()).collect(),
-        }
-    }
-}
-
 /// Compacts debris in all columns of a span in which no cell has worn yet; where an edge is given, nothing changes but that:
 /// what the first column of the span means to the one behind it.
 pub type Transport =
@@ -89,14 +25,7 @@ pub type Transport =
 
 /// The transport that does what a scene needs and nothing else; chosen once per run.
 pub fn transport(needs: Needs) -> Transport {
-    match (needs.build_up(), needs.disc_wears) {
-        (build_up::DISTINCT, false) => deposit_over_span::<{ build_up::DISTINCT }, false>,
-        (build_up::DISTINCT, true) => deposit_over_span::<{ build_up::DISTINCT }, true>,
-        (build_up::BRITTLE, false) => deposit_over_span::<{ build_up::BRITTLE }, false>,
-        (build_up::BRITTLE, true) => deposit_over_span::<{ build_up::BRITTLE }, true>,
-        (_, false) => deposit_over_span::<{ build_up::ALIKE }, false>,
-        (_, true) => deposit_over_span::<{ build_up::ALIKE }, true>,
-    }
+    with_build_up!(needs, deposit_over_span)
 }
 
 kernel! {

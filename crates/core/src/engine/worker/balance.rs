@@ -8,7 +8,7 @@ use crate::engine::exact::{ExactSum, Unit, of_words, words};
 use crate::engine::kernel::{Bracket, Span};
 use crate::engine::quantum::Quantum;
 use crate::engine::sector::Segment;
-use crate::model::ContactError;
+use crate::model::error::ContactError;
 use crate::model::error::SimulationError;
 use crate::model::state::pin_status;
 

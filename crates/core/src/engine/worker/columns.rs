@@ -8,14 +8,15 @@ use crate::engine::contact::Contact;
 use crate::engine::debris::Debris;
 use crate::engine::kernel::{Bracket, Conditions, Edge, Span};
 use crate::engine::lanes::LANES;
+use crate::engine::parts::Needs;
 use crate::engine::pin_strips::PinStrips;
 use crate::engine::sector::{Partition, Segment};
 use crate::engine::strips::strips;
 use crate::model::error::SimulationError;
 
 /// Words of a pin column of so many rows on its way to another worker, with what it loses where plateaus form.
-pub(crate) fn halo_words(rows: usize, forms: bool, transport: Option<usize>) -> usize {
-    PinStrips::crossing_words(rows) + if forms { Edge::words(strips(rows), transport) } else { 0 }
+pub(crate) fn halo_words(rows: usize, needs: Needs) -> usize {
+    PinStrips::crossing_words(rows) + if needs.forms { Edge::words(strips(rows), needs.transport) } else { 0 }
 }
 
 /// Columns at the end of a segment that depend on the next segment: a cell takes of an edge up to L columns ahead what up to L
@@ -73,7 +74,7 @@ impl<C: Communicator> Worker<C> {
         let ends_pin = |segment: &Segment| segment.pin.end == pin_columns;
         // A segment that begins with its sector is longer than what depends on the next, unless it ends the pin.
         let crosses = |segment: &Segment| usize::from(segment.over == 0);
-        let waiting = waiting_columns(self.transport_columns);
+        let waiting = waiting_columns(self.needs.transport);
         let own = |segment: &Segment| match ends_pin(segment) {
             true => segment.pin.len(),
             false => segment.pin.len().saturating_sub(waiting),
@@ -114,12 +115,12 @@ impl<C: Communicator> Worker<C> {
     /// has no such column.
     fn edge_of(&mut self, segment: &Segment, column: usize, bracket: Bracket) -> Option<Edge> {
         let columns = segment.pin.len().checked_sub(column).filter(|columns| *columns > 0)?;
-        let sector = self.sectors[segment.sector].as_mut().filter(|_| !self.edges.is_empty())?;
+        let sector = self.sectors[segment.sector].as_mut().filter(|_| self.needs.forms)?;
         let mut edge = Edge::default();
-        let columns = columns.min(self.transport_columns.map_or(1, |columns| 2 * columns));
+        let columns = columns.min(self.needs.transport.map_or(1, |columns| 2 * columns));
         let span = Span { first: segment.pin.start + column, over: segment.over + column, columns };
         let conditions = conditions(&self.contact, &self.debris, bracket, self.rows.start, None);
-        if self.transport_columns.is_some() {
+        if self.needs.transport.is_some() {
             let Self { instructions, rules, pin, moved, .. } = self;
             (self.transport)(*instructions, rules, &conditions, pin, sector, span, moved, Some(&mut edge));
         } else {
@@ -151,7 +152,7 @@ impl<C: Communicator> Worker<C> {
             over: segment.over + columns.start,
             columns: columns.len(),
         };
-        if self.transport_columns.is_some() && !self.edges.is_empty() {
+        if self.needs.transport.is_some() {
             let Self { instructions, rules, pin, moved, .. } = self;
             (self.transport)(*instructions, rules, &conditions, pin, sector, span, moved, None);
         }
@@ -185,12 +186,12 @@ impl<C: Communicator> Worker<C> {
     /// Takes over a pin column that another worker has passed over.
     fn take_over(&mut self, from: usize, column: usize) -> Result<(), SimulationError> {
         let crossing = PinStrips::crossing_words(self.rows.len());
-        self.halo.resize(halo_words(self.rows.len(), !self.edges.is_empty(), self.transport_columns), 0);
+        self.halo.resize(halo_words(self.rows.len(), self.needs), 0);
         let (boundary, owner) = (self.boundary(from), self.partition.owner(from, self.band));
         self.communicator.receive_halo(boundary, owner, &mut self.halo)?;
         self.pin.read_crossing(column, &self.halo[..crossing]);
         if let Some(edge) = self.edges.get_mut(from) {
-            edge.read(self.transport_columns, &self.halo[crossing..]);
+            edge.read(self.needs.transport, &self.halo[crossing..]);
         }
         Ok(())
     }

@@ -22,7 +22,7 @@ use crate::engine::filling::{Filling, relief};
 use crate::engine::forecast::Forecast;
 use crate::engine::kernel::{
     Bracket, Edge, InstructionSet, Moved, Pass, Read, Reading, Rules, Transport, WearColumn, pass, read, transport,
-    transport_columns, wear_column,
+    wear_column,
 };
 use crate::engine::parts::Needs;
 use crate::engine::pin_strips::PinStrips;
@@ -48,12 +48,11 @@ pub(crate) struct Worker<C> {
     partition: Arc<Partition>,
     instructions: InstructionSet,
     shortcut: bool,
+    needs: Needs,
     pass: Pass,
     read: Read,
     wear_column: WearColumn,
     transport: Transport,
-    /// L, where debris has a transport length.
-    transport_columns: Option<usize>,
     rules: Rules,
     coefficients: Coefficients,
     /// Of which the overlaps of the coming steps are counted as multiples, by the largest of the last step; of the first,
@@ -134,11 +133,11 @@ impl<C: Communicator> Worker<C> {
         let mut worker = Self {
             instructions: execution.instructions,
             shortcut: execution.shortcut,
+            needs,
             pass: pass(needs),
             read: read(needs),
             wear_column: wear_column(needs),
             transport: transport(needs),
-            transport_columns: transport_columns(&parameters),
             rules: Rules::new(&parameters, &coefficients, filling.reference_height(), execution.shortcut),
             contact: Contact::new(&weights, by_status),
             overlap_quantum: quantum,
