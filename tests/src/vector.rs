@@ -38,9 +38,8 @@ pub fn write(scene: &Scene, folder: &Path) -> Result<(), Box<dyn Error>> {
             accounts.begin(step, parameters.step_angle());
             wear_rate_factor = accounts.wear_rate_factor();
         }
-        let mut operation = parameters.operation_of(step, &parameters.clock());
         let friction = accounts.as_ref().and_then(Accounts::friction_coefficient);
-        operation.load = parameters.load_by(operation.load, friction, step)?;
+        let operation = parameters.operation_by(step, &parameters.clock(), friction)?;
         let done = advance_under(operation.load, &parameters.with_wear_rate_factor(wear_rate_factor), &mut state)?;
         let areas = || mesh.area().iter().cycle();
         let mut record: Record = vec![

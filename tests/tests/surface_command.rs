@@ -24,7 +24,6 @@ fn small_sdf() -> String {
     )
 }
 
-/// Width, height and colours of a PNG.
 fn json(outcome: Outcome) -> Value {
     serde_json::from_str(&outcome.quiet_success()).expect("one JSON document")
 }

@@ -176,7 +176,7 @@ pub fn export(case: &Case, load_tolerance: f64, directory: &Path) -> Outcome<()>
 
 /// The peer does what the paper's scene needs, and nothing else.
 fn supported(parameters: &Parameters) -> Outcome<()> {
-    let Needs { distinct, breaks, disc_wears, forms, transport } = Needs::of(parameters);
+    let Needs { distinct, breaks, disc_wears, forms, transport, .. } = Needs::of(parameters);
     let rules = &parameters.plateaus;
     let unsupported = [
         (distinct, "materials of their own for build-ups"),

@@ -1,8 +1,10 @@
 //! Figures that the Python package draws from data of this program.
 
+use std::ffi::OsStr;
 use std::fs;
 use std::path::Path;
-use std::process::Stdio;
+
+use tempfile::TempDir;
 
 use crate::failure::Failure;
 use crate::hand_over;
@@ -19,25 +21,27 @@ pub fn format_of(path: &Path) -> Option<&'static str> {
     FORMATS.into_iter().find(|format| *format == ending)
 }
 
+/// A folder for data of figures, which goes with the value.
+///
+/// # Errors
+/// [`Failure::Run`] where there is none to be had.
+pub fn temporary_folder() -> Result<TempDir, Failure> {
+    tempfile::tempdir().map_err(|error| Failure::run(format_args!("no temporary folder: {error}")))
+}
+
 /// Figures of a kind ("accuracy", "surfaces", "fibre-map") from data, a file or a folder: names and contents, page by page, each in
 /// all these formats, with more options of the word.
 ///
 /// # Errors
 /// [`Failure::Run`] where the package is missing or fails, with what it says.
 pub fn draw(kind: &str, data: &Path, formats: &[&str], options: &[&str]) -> Result<Vec<(String, Vec<u8>)>, Failure> {
-    let folder = tempfile::tempdir().map_err(|error| Failure::run(format_args!("no temporary folder: {error}")))?;
-    let mut command = hand_over::command(WORD)?;
-    command.arg(kind).arg(data).arg("-o").arg(folder.path());
-    command.args(options);
-    for format in formats {
-        command.args(["--format", format]);
-    }
-    let done = command.stdin(Stdio::null()).stderr(Stdio::piped()).stdout(Stdio::piped()).output();
-    let done = done.map_err(|error| Failure::run(format_args!("plateau-{WORD}: {error}")))?;
+    let folder = temporary_folder()?;
+    let mut arguments = vec![OsStr::new(kind), data.as_os_str(), OsStr::new("-o"), folder.path().as_os_str()];
+    arguments.extend(options.iter().map(OsStr::new));
+    arguments.extend(formats.iter().flat_map(|format| ["--format", format]).map(OsStr::new));
+    let done = hand_over::asked(WORD, arguments)?;
     if !done.status.success() {
-        let said = String::from_utf8_lossy(&done.stderr);
-        let reason = said.lines().last().map_or("no figure was drawn", |line| line.trim_start_matches("plateau: "));
-        return Err(Failure::run(reason));
+        return Err(Failure::run(hand_over::reason(&done, "no figure was drawn")));
     }
     // A line for each file: its path.
     let said = String::from_utf8_lossy(&done.stdout);

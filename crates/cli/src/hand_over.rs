@@ -5,7 +5,7 @@ use std::ffi::{OsStr, OsString};
 use std::io;
 use std::os::unix::process::CommandExt as _;
 use std::path::{Path, PathBuf};
-use std::process::Command;
+use std::process::{Command, Output, Stdio};
 
 use crate::failure::Failure;
 use crate::message;
@@ -31,7 +31,7 @@ pub fn hand_over(word: &str, arguments: impl IntoIterator<Item = OsString>) -> R
 ///
 /// # Errors
 /// [`Failure::Run`] where there is no such program, with what to install.
-pub fn command(word: &str) -> Result<Command, Failure> {
+fn command(word: &str) -> Result<Command, Failure> {
     let Some(answering) = answering(word) else {
         let package = if OF_PYTHON.contains(&word) {
             "it comes with the Python package: pip install 'plateau-brake[all]'; in a checkout ./plateau has it"
@@ -52,6 +52,22 @@ pub fn command(word: &str) -> Result<Command, Failure> {
         command.env(PROGRAM, program);
     }
     Ok(command)
+}
+
+/// What the program that answers a word has to say, asked with these arguments; it has no terminal.
+///
+/// # Errors
+/// [`Failure::Run`] as [`command`], or where it cannot be started.
+pub fn asked(word: &str, arguments: impl IntoIterator<Item = impl AsRef<OsStr>>) -> Result<Output, Failure> {
+    let mut command = command(word)?;
+    command.args(arguments).stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped());
+    command.output().map_err(|error| Failure::run(format_args!("plateau-{word}: {error}")))
+}
+
+/// Why it failed: its last line on standard error, or these words where it says nothing.
+pub fn reason(answer: &Output, otherwise: &str) -> String {
+    let said = String::from_utf8_lossy(&answer.stderr);
+    said.lines().last().map_or(otherwise, |line| line.trim_start_matches("plateau: ")).to_owned()
 }
 
 /// The program that answers a word, if there is one.

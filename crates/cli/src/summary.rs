@@ -8,16 +8,7 @@ use plateau_io::number;
 use plateau_io::run_file::NoDrift;
 use plateau_run::RunSummary;
 
-use crate::failure::Failure;
 use crate::table::{list, table};
-
-/// One JSON document.
-///
-/// # Errors
-/// When it cannot be written down.
-pub fn json(summary: &RunSummary) -> Result<String, Failure> {
-    serde_json::to_string_pretty(summary).map(|text| text + "\n").map_err(Failure::run)
-}
 
 /// A table for people.
 pub fn text(summary: &RunSummary) -> String {

@@ -4,6 +4,7 @@ use std::fmt::Write as _;
 use std::io::{self, Write as _};
 
 use plateau_io::text::{cell, is_plain, shown};
+use serde::Serialize;
 
 use crate::failure::Failure;
 
@@ -13,6 +14,22 @@ use crate::failure::Failure;
 /// [`Failure::Run`] when standard output takes no more, unless the reader simply went away.
 pub fn print(text: &str) -> Result<(), Failure> {
     printed(io::stdout().lock().write_all(shown(text).as_bytes()))
+}
+
+/// Prints one JSON document.
+///
+/// # Errors
+/// As [`print()`].
+pub fn print_json(document: &impl Serialize) -> Result<(), Failure> {
+    print(&json(document)?)
+}
+
+/// One JSON document for people, with the end of its last line.
+///
+/// # Errors
+/// [`Failure::Run`] when it cannot be written down.
+pub fn json(document: &impl Serialize) -> Result<String, Failure> {
+    serde_json::to_string_pretty(document).map(|text| text + "\n").map_err(Failure::run)
 }
 
 /// Result of writing to standard output.

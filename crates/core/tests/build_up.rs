@@ -102,7 +102,7 @@ fn one_edge_feeds_one_valley() {
         parameters.plateaus.captured_fraction = 0.7;
         // So that overlaps are far less than the valley is deep.
         parameters.normal_force = 0.1;
-        let column = parameters.mesh.mean_radius() * parameters.mesh.column_angle();
+        let column = parameters.mesh.column_width();
         parameters.plateaus.transport_length = Some(columns as f64 * column);
         // The pin is flat; in the first step pin column j lies over disc column j. The disc stands under some columns, the last
         // but one among them, and is low elsewhere. z_ref is above the valley by far more than a step fills.

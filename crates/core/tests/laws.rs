@@ -38,7 +38,7 @@ fn scenes() -> impl Strategy<Value = (Parameters, u64)> {
                 transport_length: None,
             };
             if rules.2 == DebrisRule::Local && findings.0.is_some() {
-                let column = parameters.mesh.mean_radius() * parameters.mesh.column_angle();
+                let column = parameters.mesh.column_width();
                 parameters.plateaus.transport_length = findings.0.map(|columns: f64| columns * column);
                 parameters.plateaus.captured_resin_fraction = None;
             }

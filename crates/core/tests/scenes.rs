@@ -142,7 +142,7 @@ fn add_findings(parameters: &mut Parameters, between: &mut impl FnMut(f64, f64) 
     materials.pin_secondary_against_secondary = by_build_up.then(|| between(-1e-14, 1e-13).max(0.0));
     materials.strength = breaks.then(|| 10.0_f64.powf(between(4.0, 9.0)));
     if parameters.plateaus.debris == DebrisRule::Local && travels {
-        let column = parameters.mesh.mean_radius() * parameters.mesh.column_angle();
+        let column = parameters.mesh.column_width();
         parameters.plateaus.transport_length = Some(between(0.3, 7.0) * column);
         parameters.plateaus.captured_resin_fraction = None;
     }
@@ -166,10 +166,9 @@ pub fn random_round_scene(seed: u64, debris: DebrisRule) -> Parameters {
     let rows = 4 + (14.0 * stream.uniform()) as usize;
     let mesh = round_mesh(rows, 1.0 + stream.uniform(), 0.6 + 0.4 * stream.uniform());
     let normal_force = rectangle.normal_force * mesh.present_cells() as f64 / rectangle.mesh.present_cells() as f64;
-    let column = |mesh: &Mesh| mesh.mean_radius() * mesh.column_angle();
     let mut plateaus = rectangle.plateaus;
     plateaus.transport_length =
-        plateaus.transport_length.map(|length| length * column(&mesh) / column(&rectangle.mesh));
+        plateaus.transport_length.map(|length| length * mesh.column_width() / rectangle.mesh.column_width());
     // Steps are of another length on this mesh, so that a cycle would no longer fit.
     Parameters { mesh, normal_force, plateaus, cycle: None, ..rectangle }
 }

@@ -16,7 +16,7 @@ use super::check_report::{CheckReport, files};
 use crate::arguments::CheckArguments;
 use crate::failure::Failure;
 use crate::scene::load_scene;
-use crate::table::print;
+use crate::table::{print, print_json};
 use crate::terminal::Messages;
 use crate::{invocation, message};
 
@@ -57,10 +57,5 @@ pub fn check(arguments: &CheckArguments) -> Result<(), Failure> {
             invocation::program()
         ));
     }
-    if arguments.scene.json {
-        let text = serde_json::to_string_pretty(&check).map_err(Failure::run)?;
-        print(&format!("{text}\n"))
-    } else {
-        print(&check.to_text(arguments.all, message::warnings()))
-    }
+    if arguments.scene.json { print_json(&check) } else { print(&check.to_text(arguments.all, message::warnings())) }
 }

@@ -7,7 +7,7 @@ use plateau_run::{Job, RunOptions, StartMode};
 use crate::arguments::{RunArguments, SceneArguments};
 use crate::failure::{Failure, in_job};
 use crate::scene::load_scene;
-use crate::table::print;
+use crate::table::{json, print};
 use crate::terminal::Terminal;
 use crate::{invocation, message, output, summary, version};
 
@@ -41,7 +41,7 @@ fn run_scene(arguments: &RunArguments, job: &mut Job) -> Result<(), Failure> {
     };
     let finished = plateau_run::run(scene, &options, job, &mut terminal).map_err(Failure::of)?;
     let Some(summary) = finished else { return Ok(()) };
-    let text = if arguments.scene.json { summary::json(&summary)? } else { summary::text(&summary) };
+    let text = if arguments.scene.json { json(&summary)? } else { summary::text(&summary) };
     if message::is_quiet() && !arguments.scene.json {
         return Ok(());
     }

@@ -7,7 +7,7 @@ use serde::Serialize;
 use crate::arguments::SummaryArguments;
 use crate::failure::Failure;
 use crate::summary::{acceleration, running_in, running_in_time};
-use crate::table::print;
+use crate::table::print_json;
 
 /// The contact area at the end of a run, and what the run says of itself, in words.
 #[derive(Debug, Serialize)]
@@ -33,5 +33,5 @@ pub fn summary(arguments: &SummaryArguments) -> Result<(), Failure> {
             .map(|chosen| acceleration(&chosen))
             .or(run.given_acceleration().map(|given| format!("m = {}", number::short(given)))),
     };
-    print(&(serde_json::to_string_pretty(&document).map_err(Failure::run)? + "\n"))
+    print_json(&document)
 }

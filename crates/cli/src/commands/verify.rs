@@ -9,7 +9,7 @@ use serde::Serialize;
 use crate::arguments::VerifyArguments;
 use crate::failure::Failure;
 use crate::message;
-use crate::table::{print, table};
+use crate::table::{print, print_json, table};
 
 /// Looks at all files before it fails because of one.
 pub fn verify(arguments: &VerifyArguments) -> Result<(), Failure> {
@@ -29,8 +29,7 @@ pub fn verify(arguments: &VerifyArguments) -> Result<(), Failure> {
         }
     }
     if arguments.json {
-        let text = serde_json::to_string_pretty(&findings).map_err(Failure::run)?;
-        print(&format!("{text}\n"))?;
+        print_json(&findings)?;
     } else {
         print(&findings.iter().map(Finding::to_text).collect::<Vec<_>>().join("\n"))?;
     }

@@ -11,7 +11,7 @@
 
 use std::f64::consts::TAU;
 
-use crate::engine::execution::Engine;
+use crate::engine::parts::Needs;
 use crate::model::parameters::Parameters;
 use crate::model::state::{Base, InitialSurfaces};
 use crate::observe::roughness::root_mean_square_along_tracks;
@@ -35,7 +35,7 @@ impl Smoothness {
         let Parameters { mesh, materials, .. } = parameters;
         let base = || pin_base.iter().zip(mesh.pin_areas()).filter(|(_, area)| *area > 0.0);
         let wears = materials.wear_height > 0.0 && base().any(|(base, _)| base.is_resin());
-        let pooled = Engine::Fast.of(parameters) == Engine::Plain && parameters.plateaus.captured_of_resin() > 0.0;
+        let pooled = Needs::of(parameters).pools && parameters.plateaus.captured_of_resin() > 0.0;
         if !(wears && pooled) {
             return None;
         }

@@ -159,7 +159,7 @@ impl Debris {
     /// What of the worn volume stays in a pool and what leaves the contact, m³: η and 1 − η of it, each for resin and plateaus.
     fn part(&self, &Volumes { worn_pin, worn_resin, worn_disc, .. }: &Volumes) -> [f64; 2] {
         let (of_plateaus, of_resin) = (self.captured_fraction, self.captured_resin_fraction);
-        // Summed first, as model 4P has it: apart, a scene without the second fraction would get other bits.
+        // Summed first: apart, a scene without the second fraction would get other bits than it always had.
         if of_plateaus == of_resin {
             let worn = worn_pin + worn_resin + worn_disc;
             return [of_plateaus * worn, (1.0 - of_plateaus) * worn];

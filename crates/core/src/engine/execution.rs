@@ -4,7 +4,7 @@ use std::fmt;
 
 use crate::engine::kernel::InstructionSet;
 use crate::engine::parts::Needs;
-use crate::model::parameters::{DebrisRule, Parameters};
+use crate::model::parameters::Parameters;
 
 /// What takes the steps.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -27,8 +27,7 @@ impl Engine {
 
     /// What takes the steps of a scene where this is asked for: the plain model where debris is pooled (model 4P).
     pub fn of(self, parameters: &Parameters) -> Self {
-        let is_pooled = Needs::of(parameters).forms && parameters.plateaus.debris != DebrisRule::Local;
-        if is_pooled { Self::Plain } else { self }
+        if Needs::of(parameters).pools { Self::Plain } else { self }
     }
 }
 

@@ -28,6 +28,8 @@ pub struct Needs {
     pub disc_wears: bool,
     /// Plateaus can form.
     pub forms: bool,
+    /// They form of pooled debris (model 4P).
+    pub pools: bool,
     /// Columns over which debris is gathered and spread, L or as many as the pin has, for it has no more to gather or to fill;
     /// none where it goes from one cell to the next.
     pub transport: Option<usize>,
@@ -61,6 +63,7 @@ impl Needs {
             disc_wears: materials.disc_primary.specific_wear_rate > 0.0
                 || (forms && materials.disc_secondary.specific_wear_rate > 0.0),
             forms,
+            pools: forms && rules.debris != DebrisRule::Local,
             transport: parameters
                 .transport_columns()
                 .filter(|_| forms)
@@ -84,8 +87,7 @@ pub fn parts(parameters: &Parameters, pin_base: &[Base]) -> Vec<Part> {
     let materials = &parameters.materials;
     let mesh = &parameters.mesh;
     let has = |base| pin_base.iter().enumerate().any(|(cell, found)| *found == base && mesh.is_present(cell));
-    let Needs { distinct, breaks, disc_wears, forms, transport } = Needs::of(parameters);
-    let pools = forms && parameters.plateaus.debris != DebrisRule::Local;
+    let Needs { distinct, breaks, disc_wears, forms, pools, transport } = Needs::of(parameters);
     let destroys = pools && parameters.plateaus.destruction;
     let pin_wears = (has(Base::Primary) && materials.pin_primary.specific_wear_rate > 0.0)
         || (forms && materials.pin_secondary.specific_wear_rate > 0.0);

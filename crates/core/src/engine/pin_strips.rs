@@ -204,7 +204,8 @@ mod tests {
         let mesh = Mesh::new(11, 9, 3, 1.0, 2.0).unwrap();
         let heights: Vec<f64> = (0..33).map(f64::from).collect();
         let base = vec![Base::Resin; 33];
-        let needs = Needs { distinct: false, breaks: false, disc_wears: false, forms: true, transport: None };
+        let needs =
+            Needs { distinct: false, breaks: false, disc_wears: false, forms: true, pools: false, transport: None };
         let mut from = PinStrips::new(&mesh, 0..11, &heights, &base, needs);
         let mut to = from.clone();
         let plateau = |row: usize| row.is_multiple_of(3);

@@ -151,11 +151,7 @@ impl Sums {
             let overlaps = reading.overlap[*pair].rows(0..weights.own.len());
             // Statuses that touch nowhere, as resin mostly, cost nothing.
             let touches = overlaps.iter().fold(0, |any, overlap| any | overlap) != 0;
-            self.pairs[*pair] = if touches {
-                weights.pair_sums(*pair, weights.own.clone(), overlaps, &split)
-            } else {
-                PairSums::default()
-            };
+            self.pairs[*pair] = if touches { weights.pair_sums(*pair, overlaps, &split) } else { PairSums::default() };
         }
     }
 
@@ -228,15 +224,9 @@ impl Sums {
 }
 
 impl RowWeights {
-    /// The sums of one kind of pairs over some rows; `split` parts the sums of anchored overlaps, see [`Quantum::split`].
-    fn pair_sums(
-        &self,
-        pair: usize,
-        rows: Range<usize>,
-        overlaps: &[i64],
-        split: impl Fn(i64) -> (i64, i64),
-    ) -> PairSums {
-        let mut sums = PairSums::default();
+    /// The sums of one kind of pairs; `split` parts the sums of anchored overlaps, see [`Quantum::split`].
+    fn pair_sums(&self, pair: usize, overlaps: &[i64], split: impl Fn(i64) -> (i64, i64)) -> PairSums {
+        let (mut sums, rows) = (PairSums::default(), self.own.clone());
         let overlaps = &overlaps[..rows.len()];
         let (stiffness, area) = (self.stiffness[pair].rows(rows.clone()), self.area.rows(rows.clone()));
         let pin_loss = self.pin_loss[pair].rows(rows.clone());

@@ -140,23 +140,35 @@ impl Parameters {
 
     /// L: columns over which debris is gathered and spread (model 4L); none where it goes from one cell to the next.
     pub fn transport_columns(&self) -> Option<usize> {
-        let column = self.mesh.mean_radius() * self.mesh.column_angle();
+        let column = self.mesh.column_width();
         self.plateaus.transport_length.map(|length| (length / column).round().max(1.0) as usize)
+    }
+
+    /// Load and time of a step, counted from 1, by a clock of constant operation, with the coefficient of friction of the step
+    /// before, where there is friction: a braking torque asks for the load that it takes.
+    ///
+    /// # Errors
+    /// [`SimulationError::NoFriction`] where friction is too little to brake.
+    pub fn operation_by(
+        &self,
+        step: u64,
+        clock: &Clock,
+        coefficient: Option<f64>,
+    ) -> Result<StepOperation, SimulationError> {
+        let operation = self.operation_of(step, clock);
+        Ok(StepOperation { load: self.load_by(operation.load, coefficient, step)?, ..operation })
     }
 
     /// F̄ of a step, N, in whose place there may be a braking torque, with the coefficient of friction of the step before;
     /// before the first its ceiling.
-    ///
-    /// # Errors
-    /// [`SimulationError::NoFriction`] where friction is too little to brake.
-    pub fn load_by(&self, given: f64, coefficient: Option<f64>, step: u64) -> Result<f64, SimulationError> {
+    fn load_by(&self, given: f64, coefficient: Option<f64>, step: u64) -> Result<f64, SimulationError> {
         if !self.by_torque {
             return Ok(given);
         }
         let ceiling = self.friction.map_or(f64::NAN, |friction| friction.maximum);
         let coefficient = coefficient.unwrap_or(ceiling);
         if coefficient >= LEAST_FRICTION {
-            return Ok(given / (self.mesh.mean_radius() * coefficient));
+            return Ok(self.load_at(given, coefficient));
         }
         Err(SimulationError::NoFriction { step, coefficient })
     }
@@ -213,7 +225,12 @@ impl Parameters {
     /// What no load of any step is above, N.
     pub fn largest_load(&self) -> f64 {
         let largest = self.cycle.as_ref().map_or(self.normal_force, |cycle| cycle.largest_force());
-        if self.by_torque { largest / (self.mesh.mean_radius() * LEAST_FRICTION) } else { largest }
+        if self.by_torque { self.load_at(largest, LEAST_FRICTION) } else { largest }
+    }
+
+    /// F̄ that gives a braking torque (N m) with a coefficient of friction, N.
+    fn load_at(&self, torque: f64, coefficient: f64) -> f64 {
+        torque / (self.mesh.mean_radius() * coefficient)
     }
 
     /// Π = κ k m r Δθ at the outer radius for the fastest wearing pair: above 1 the explicit rule overshoots, above 2

@@ -65,11 +65,11 @@ pub fn advance_under(load: f64, parameters: &Parameters, state: &mut State) -> R
     let pairs = pairs(parameters, state);
     let displacement = balance(load, &pairs)?;
     let overlaps: Vec<f64> = pairs.iter().map(|pair| (displacement - pair.gap).max(0.0)).collect();
-    let mut losses: Vec<Loss> =
-        pairs.iter().zip(&overlaps).map(|(pair, overlap)| wear(parameters, state, pair, *overlap)).collect();
-    for ((pair, overlap), loss) in pairs.iter().zip(&overlaps).zip(&mut losses) {
-        loss.returned = break_away(parameters, state, pair, *overlap);
-    }
+    let worn = |(pair, overlap): (&Pair, &f64)| {
+        let loss = wear(parameters, state, pair, *overlap);
+        Loss { returned: break_away(parameters, state, pair, *overlap), ..loss }
+    };
+    let losses: Vec<Loss> = pairs.iter().zip(&overlaps).map(worn).collect();
     let cells = parameters.mesh.pin_cells();
     let mut step = Step {
         load,
@@ -333,19 +333,19 @@ pub fn deposit_over(
 pub fn pool(parameters: &Parameters, state: &mut State, pairs: &[Pair], displacement: f64, losses: &[Loss]) -> Volumes {
     let (mut all, rules) = (Volumes::default(), &parameters.plateaus);
     for pool in 0..state.pools.len() {
-        let is_of_pool = |row| parameters.plateaus.debris == DebrisRule::Contact || row == pool;
+        let is_of_pool = |row| rules.debris == DebrisRule::Contact || row == pool;
         let of_pool = || pairs.iter().zip(losses).filter(|(pair, _)| is_of_pool(pair.row));
         let mut moved = worn(of_pool());
         let captured = of_pool().map(|(pair, loss)| pair.area * captured(parameters, loss)).sum::<f64>();
         let pairs: Vec<&Pair> = of_pool().map(|(pair, _)| pair).collect();
-        if parameters.plateaus.destruction {
+        if rules.destruction {
             moved.returned += destroy(state, &pairs);
         }
         let mut is_emptied = false;
-        if parameters.plateaus.formation {
+        if rules.formation {
             let volume = state.pools[pool];
             ([moved.deposited_pin, moved.deposited_disc], is_emptied) =
-                form(parameters.plateaus.pad_share, volume, state, &pairs, displacement);
+                form(rules.pad_share, volume, state, &pairs, displacement);
         }
         let rest = if is_emptied { 0.0 } else { state.pools[pool] - moved.deposited_pin - moved.deposited_disc };
         state.pools[pool] = rest + captured + moved.returned;

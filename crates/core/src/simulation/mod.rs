@@ -14,6 +14,8 @@ use crate::engine::comm::{Communicator as _, mpi::Mpi};
 pub use crate::engine::execution::{Engine, Execution};
 #[cfg(feature = "mpi")]
 use crate::engine::kernel::InstructionSet;
+#[cfg(feature = "mpi")]
+use crate::engine::parts::Needs;
 use crate::model::accounts::Resting;
 pub use crate::model::error::SimulationError;
 pub use crate::model::history::Course;
@@ -101,7 +103,7 @@ impl Simulation {
         communicator: Mpi,
     ) -> Result<Self, SimulationError> {
         check(&parameters.mesh, &surfaces)?;
-        if Engine::Fast.of(&parameters) == Engine::Plain {
+        if Needs::of(&parameters).pools {
             return Err(SimulationError::PlainOnRanks { ranks: communicator.size() });
         }
         let parameters = Arc::new(parameters);

@@ -66,9 +66,8 @@ impl Plain {
                 accounts.begin(self.course.steps + 1, self.parameters.step_angle());
                 self.wear_as_accounted();
             }
-            let mut operation = self.parameters.operation_of(self.course.steps + 1, &self.clock);
             let friction = self.accounts.as_ref().and_then(Accounts::friction_coefficient);
-            operation.load = self.parameters.load_by(operation.load, friction, self.course.steps + 1)?;
+            let operation = self.parameters.operation_by(self.course.steps + 1, &self.clock, friction)?;
             let taken = step::advance_under(operation.load, &self.worn_with, &mut self.state)
                 .map_err(|source| SimulationError::Contact { step: self.course.steps + 1, source })?;
             let area = self.parameters.mesh.area().iter().cycle();

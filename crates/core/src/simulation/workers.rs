@@ -49,6 +49,12 @@ macro_rules! call {
     };
 }
 
+/// The partition for so many workers, whose sectors are longer than what of a segment waits for the next.
+fn partition(parameters: &Parameters, execution: Execution) -> Arc<Partition> {
+    let shortest = waiting_columns(Needs::of(parameters).transport) + 1;
+    Arc::new(Partition::new(&parameters.mesh, execution.workers, execution.bands, shortest))
+}
+
 impl Workers {
     /// Those of a simulation at t = 0, over a disc turned by `turned` columns.
     pub fn start(
@@ -60,8 +66,7 @@ impl Workers {
         if execution.engine == Engine::Plain {
             return Ok(Self::Plain(Box::new(Plain::new(parameters.clone(), surfaces, turned))));
         }
-        let shortest = waiting_columns(Needs::of(parameters).transport) + 1;
-        let partition = Arc::new(Partition::new(&parameters.mesh, execution.workers, execution.bands, shortest));
+        let partition = partition(parameters, execution);
         if execution.workers == 1 {
             let worker = Worker::new(parameters.clone(), &surfaces, partition, execution, turned, Single);
             return Ok(Self::One(Box::new(worker)));
@@ -86,8 +91,7 @@ impl Workers {
         execution: Execution,
         communicator: Mpi,
     ) -> Self {
-        let shortest = waiting_columns(Needs::of(parameters).transport) + 1;
-        let partition = Arc::new(Partition::new(&parameters.mesh, execution.workers, execution.bands, shortest));
+        let partition = partition(parameters, execution);
         Self::Rank(Box::new(Worker::new(parameters.clone(), surfaces, partition, execution, 0, communicator)))
     }
 

@@ -104,7 +104,7 @@ fn duration(scene: &Scene) -> Option<Finding> {
 /// Below two columns, what a transport length is rounded to decides too much (model 4L).
 fn transport_length(scene: &Scene) -> Option<Finding> {
     let mesh = &scene.parameters.mesh;
-    let columns = scene.parameters.plateaus.transport_length? / (mesh.mean_radius() * mesh.column_angle());
+    let columns = scene.parameters.plateaus.transport_length? / mesh.column_width();
     let found = || format!("a transport length of {} cells", number(columns));
     if columns > mesh.pin_columns() as f64 * (1.0 + ROUNDING) {
         let bound = format!("longer than the pin, which has {}", mesh.pin_columns());

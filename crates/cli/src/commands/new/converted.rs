@@ -1,7 +1,7 @@
 //! A surface file of an instrument, converted by the Python package.
 
+use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
-use std::process::Stdio;
 
 use crate::failure::Failure;
 use crate::hand_over;
@@ -21,14 +21,12 @@ pub fn can_convert() -> bool {
 pub fn converted(scene: &Path, disc: &Path, force: bool) -> Result<PathBuf, Failure> {
     let name = Path::new(disc.file_name().unwrap_or_default()).with_extension("h5");
     let output = scene.with_file_name(name);
-    let mut command = hand_over::command(WORD)?;
-    command.arg("convert").arg("--output").arg(&output).args(force.then_some("--force")).arg("--").arg(disc);
-    let done = command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped()).output();
-    let done = done.map_err(|error| Failure::run(format_args!("plateau-{WORD}: {error}")))?;
+    let to = [OsStr::new("convert"), OsStr::new("--output"), output.as_os_str()];
+    let from = [OsStr::new("--"), disc.as_os_str()];
+    let done = hand_over::asked(WORD, to.into_iter().chain(force.then_some(OsStr::new("--force"))).chain(from))?;
     if done.status.success() {
         return Ok(output);
     }
-    let said = String::from_utf8_lossy(&done.stderr);
-    let reason = said.lines().last().map_or("it was not converted", |line| line.trim_start_matches("plateau: "));
+    let reason = hand_over::reason(&done, "it was not converted");
     Err(if done.status.code() == Some(2) { Failure::input(reason) } else { Failure::run(reason) })
 }

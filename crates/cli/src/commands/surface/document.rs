@@ -7,15 +7,15 @@ use super::comparison::{Comparison, Row};
 use super::describe::{Units, parameters, scale};
 use super::subject::Subject;
 use crate::failure::Failure;
+use crate::table::json;
 
 /// An object for one surface, an array of such for several.
 pub fn document(subjects: &[Subject]) -> Result<String, Failure> {
     let documents: Vec<Document> = subjects.iter().map(Document).collect();
-    let text = match documents.as_slice() {
-        [one] => serde_json::to_string_pretty(one),
-        several => serde_json::to_string_pretty(several),
-    };
-    text.map(|text| text + "\n").map_err(Failure::run)
+    match documents.as_slice() {
+        [one] => json(one),
+        several => json(&several),
+    }
 }
 
 /// A surface: what it is, its parameters by their symbols, and their units.

@@ -9,7 +9,8 @@ use plateau_core::surface::Body;
 use plateau_core::surface::describe::{Description, Grid};
 use plateau_core::surface::micrograph::{FibreMap, PinPlane};
 use plateau_io::surface::npy::write_array;
-use serde_json::{Map, Value, json};
+use serde::Serialize;
+use serde_json::{Value, json};
 
 use super::describe::{Units, parameters};
 use crate::failure::Failure;
@@ -47,24 +48,25 @@ impl FigureData {
         let lines = (0..rows).flat_map(|row| (0..columns).map(move |column| heights[column * rows + row]));
         self.array(&name, "<f8", [rows, columns], lines.flat_map(f64::to_le_bytes))?;
         let body = body.map(|body| if body == Body::Disc { "disc" } else { "pin" });
-        let mut surface: Map<String, Value> =
-            parameters(of).map(|(symbol, value)| (symbol.to_owned(), value.into())).collect();
         let micrometres = grid.pitch.map(|pitch| pitch.map(|length| 1e6 * length));
-        let more = json!({
+        let mut surface = json!({
             "title": title, "body": body, "columns": columns, "rows": rows, "pitch": micrometres, "points": columns * rows,
             "measured": of.measured, "heights": name, "material_curve": of.material_curve, "units": Units,
         });
-        surface.extend(more.as_object().cloned().unwrap_or_default());
-        self.surfaces.push(surface.into());
+        for (symbol, value) in parameters(of) {
+            surface[symbol] = value.into();
+        }
+        self.surfaces.push(surface);
         Ok(())
     }
 
-    /// Writes the document of the surfaces.
+    /// Writes the document of the surfaces; the folder, which is complete.
     ///
     /// # Errors
     /// [`Failure::Run`] where it cannot be written.
-    pub fn finish(&self) -> Result<(), Failure> {
-        self.document("surfaces.json", &Value::from(self.surfaces.clone()))
+    pub fn finish(&self) -> Result<&Path, Failure> {
+        self.document("surfaces.json", &self.surfaces)?;
+        Ok(&self.folder)
     }
 
     /// Writes the picture of the pin's base, with the micrograph that it comes from and the width of its pixels, m: x along the
@@ -115,9 +117,10 @@ impl FigureData {
         write_array(&path, descr, &shape, bytes).map_err(|error| unwritten(&path, &error))
     }
 
-    fn document(&self, name: &str, document: &Value) -> Result<(), Failure> {
+    fn document(&self, name: &str, document: &impl Serialize) -> Result<(), Failure> {
         let path = self.folder.join(name);
-        fs::write(&path, document.to_string()).map_err(|error| unwritten(&path, &error))
+        let text = serde_json::to_string(document).map_err(Failure::run)?;
+        fs::write(&path, text).map_err(|error| unwritten(&path, &error))
     }
 }
 

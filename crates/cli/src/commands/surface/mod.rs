@@ -10,7 +10,7 @@ mod text;
 
 use std::path::{Path, PathBuf};
 
-use plateau_core::surface::{Body, Level, Patch};
+use plateau_core::surface::{Level, Patch};
 use plateau_io::scene;
 use plateau_io::surface::{self, Loaded, Measured, WriteError, WriteOptions};
 
@@ -21,7 +21,6 @@ use crate::hand_over::hand_over;
 use crate::message;
 use crate::output;
 use crate::table::print;
-use comparison::Comparison;
 use figure_data::FigureData;
 use recorded::NamedHeights;
 use subject::Subject;
@@ -36,8 +35,7 @@ pub fn surface(arguments: &SurfaceArguments) -> Result<(), Failure> {
     }
     refuse_impossible(arguments)?;
     // What is drawn is written down while it is there, so that not all heights are held.
-    let temporary = draws(arguments).then(tempfile::tempdir).transpose();
-    let temporary = temporary.map_err(|error| Failure::run(format_args!("no temporary folder: {error}")))?;
+    let temporary = draws(arguments).then(figure::temporary_folder).transpose()?;
     let folder = temporary.as_ref().map(|folder| folder.path()).or(arguments.figure_data.as_deref());
     let mut figures = folder.map(FigureData::new);
     let mut subjects = Vec::new();
@@ -69,7 +67,7 @@ pub fn surface(arguments: &SurfaceArguments) -> Result<(), Failure> {
         subjects.extend(prepared);
         read = inputs;
     }
-    tell(&subjects, arguments, &read, figures.as_ref().zip(folder))
+    tell(&subjects, arguments, &read, figures.as_ref())
 }
 
 /// Refuses to convert several maps of a run into one file.
@@ -180,12 +178,7 @@ fn prepared(
         figures.fibre_map(mesh, &surfaces.pin_base, micrograph.as_ref().map(|(map, pixel)| (map, *pixel)))?;
     }
     let figures = figures.filter(|_| draws_surfaces(arguments));
-    let (mut disc, mut pin) = (patches.disc, patches.pin);
-    let comparison = |body: Body, name: &str, figures: Option<&mut FigureData>| {
-        let patch = if body == Body::Disc { disc.take() } else { pin.take() };
-        patch.map_or(Ok(None), |patch| Comparison::of(body, name, patch, mesh, level, figures))
-    };
-    Ok((Subject::of_scene(path, mesh, surfaces, &report, level, figures, comparison)?, inputs))
+    Ok((Subject::of_scene(path, mesh, surfaces, patches, &report, level, figures)?, inputs))
 }
 
 /// An error of a file.
@@ -206,15 +199,15 @@ fn tell(
     subjects: &[Subject],
     arguments: &SurfaceArguments,
     read: &[PathBuf],
-    figures: Option<(&FigureData, &Path)>,
+    figures: Option<&FigureData>,
 ) -> Result<(), Failure> {
     let mut drawings: Vec<(PathBuf, Vec<u8>)> = Vec::new();
-    if let Some((data, folder)) = figures {
+    if let Some(data) = figures {
         // A run file has several.
         if arguments.plot.is_some() {
             refuse_many(data.count())?;
         }
-        data.finish()?;
+        let folder = data.finish()?;
         for (kind, place) in [("surfaces", &arguments.plot), ("fibre-map", &arguments.preview)] {
             let Some(place) = place else { continue };
             let options = if arguments.relief && kind == "surfaces" { &["--relief"][..] } else { &[] };

@@ -5,8 +5,8 @@ use std::path::Path;
 use plateau_core::model::mesh::Mesh;
 use plateau_core::model::state::InitialSurfaces;
 use plateau_core::surface::describe::{Description, Grid};
-use plateau_core::surface::{Body, Level, implausible, level};
-use plateau_io::surface::Measured;
+use plateau_core::surface::{Body, Level, Patch, implausible, level};
+use plateau_io::surface::{Measured, Patches};
 
 use super::comparison::Comparison;
 use super::describe::describe;
@@ -86,12 +86,12 @@ impl Subject {
         scene: &Path,
         mesh: &Mesh,
         surfaces: InitialSurfaces,
+        patches: Patches,
         report: &[String],
         form: Level,
         mut figures: Option<&mut FigureData>,
-        mut comparison: impl FnMut(Body, &str, Option<&mut FigureData>) -> Result<Option<Comparison>, Failure>,
     ) -> Result<[Self; 2], Failure> {
-        let mut of_body = |body: Body, name: &str, mut heights: Vec<f64>| {
+        let mut of_body = |body: Body, name: &str, mut heights: Vec<f64>, patch: Option<Patch>| {
             let closed = body == Body::Disc;
             level(&mut heights, mesh.rows(), form, closed);
             let (columns, rows) = (body.columns(mesh), mesh.rows());
@@ -100,7 +100,10 @@ impl Subject {
             let description = describe(name, &grid)?;
             let description = description.ok_or_else(|| Failure::input("the mesh has no cells"))?;
             // The patch that it was made of comes first.
-            let comparison = comparison(body, name, figures.as_deref_mut())?;
+            let comparison = match patch {
+                Some(patch) => Comparison::of(body, name, patch, mesh, form, figures.as_deref_mut())?,
+                None => None,
+            };
             if let Some(figures) = &mut figures {
                 figures.add(name, Some(body), &grid, &description)?;
             }
@@ -121,7 +124,8 @@ impl Subject {
         };
         let mut pin_height = surfaces.pin_height;
         turn_pin(&mut pin_height, mesh);
-        Ok([of_body(Body::Disc, "disc", surfaces.disc_height)?, of_body(Body::Pin, "pin", pin_height)?])
+        let disc = of_body(Body::Disc, "disc", surfaces.disc_height, patches.disc)?;
+        Ok([disc, of_body(Body::Pin, "pin", pin_height, patches.pin)?])
     }
 
     /// Points that the grid has.

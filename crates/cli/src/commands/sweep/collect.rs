@@ -15,7 +15,7 @@ use serde::Serialize;
 
 use crate::arguments::CollectArguments;
 use crate::failure::Failure;
-use crate::table::{csv_table, list, print, table};
+use crate::table::{csv_table, list, print, print_json, table};
 use crate::terminal::Messages;
 use crate::{output, version};
 
@@ -57,7 +57,7 @@ pub fn collect(arguments: &CollectArguments) -> Result<(), Failure> {
         files: [&hdf5, &csv].map(|path| path.display().to_string()),
     };
     if arguments.json {
-        return print(&(serde_json::to_string_pretty(&summary).map_err(Failure::run)? + "\n"));
+        return print_json(&summary);
     }
     print(&summary.to_text(&collected, plan.study().is_imported()))
 }

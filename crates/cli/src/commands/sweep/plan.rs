@@ -12,7 +12,7 @@ use serde::Serialize;
 
 use crate::arguments::PlanArguments;
 use crate::failure::Failure;
-use crate::table::{columns, csv_table, list, print, table};
+use crate::table::{columns, csv_table, list, print, print_json, table};
 use crate::terminal::Messages;
 use crate::{message, output};
 
@@ -59,11 +59,7 @@ pub fn plan(arguments: &PlanArguments) -> Result<(), Failure> {
         message::note(format_args!("wrote {}", csv.display()));
     }
     let report = Report::new(&plan, &estimate, jobs, ended, repeats);
-    if arguments.json {
-        print(&(serde_json::to_string_pretty(&report).map_err(Failure::run)? + "\n"))
-    } else {
-        print(&report.to_text(&plan))
-    }
+    if arguments.json { print_json(&report) } else { print(&report.to_text(&plan)) }
 }
 
 /// Report of `plateau sweep plan`.

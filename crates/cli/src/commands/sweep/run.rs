@@ -13,7 +13,7 @@ use plateau_run::{Job, signal_in_words};
 use crate::arguments::SweepRunArguments;
 use crate::failure::{Failure, in_job};
 use crate::interrupt::Interrupt;
-use crate::table::{print, table};
+use crate::table::{print, print_json, table};
 use crate::terminal::Messages;
 use crate::{message, version};
 
@@ -63,7 +63,7 @@ fn run_study(arguments: &SweepRunArguments, job: &mut Job) -> Result<(), Failure
 /// Prints what came of the runs.
 fn print_summary(summary: &SweepSummary, arguments: &SweepRunArguments) -> Result<(), Failure> {
     if arguments.json {
-        return print(&(serde_json::to_string_pretty(summary).map_err(Failure::run)? + "\n"));
+        return print_json(summary);
     }
     let task = arguments.task.map(|task| format!("task {} of {}", task.number, task.count));
     let mut rows = vec![("runs of the study", summary.runs.to_string())];

@@ -205,9 +205,8 @@ impl<C: Communicator> Worker<C> {
     fn advance(&mut self, watched: bool) -> Result<(), SimulationError> {
         self.begin_accounts()?;
         let step = self.course.steps + 1;
-        self.operation = self.parameters.operation_of(step, &self.clock);
         let friction = self.accounts.as_deref().and_then(Accounts::friction_coefficient);
-        self.operation.load = self.parameters.load_by(self.operation.load, friction, step)?;
+        self.operation = self.parameters.operation_by(step, &self.clock, friction)?;
         let largest_overlap = self.balance()?;
         if watched {
             self.record_pressures();
