@@ -17,14 +17,14 @@ import os
 import sys
 from importlib.metadata import PackageNotFoundError, version
 
-from plateau.errors import MissingPackageError
+from plateau.errors import MissingPackageError, not_installed
 
 try:
     import numpy  # noqa: F401
     import pandas  # noqa: F401
     import xarray  # noqa: F401
 except ModuleNotFoundError as error:
-    missing = f"{error.name} is not installed: pip install 'plateau-brake[all]'"
+    missing = not_installed(error.name)
     # Of the words of the program, which are run as scripts or with -m, nobody wants a traceback.
     if sys.argv[0] == "-m" or os.path.basename(sys.argv[0]).startswith("plateau-"):
         sys.exit(f"plateau: {missing}")

@@ -18,7 +18,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, NoReturn
 
-from plateau.errors import InputError, PlateauError, PlateauNote, PlateauWarning, RunFailed, RunStopped, in_program_words
+from plateau.errors import InputError, PlateauError, PlateauNote, PlateauWarning, RunFailed, RunStopped, in_program_words, not_installed
 from plateau.output_folder import plain
 
 # Words, and the modules that add them to a parser.
@@ -71,7 +71,7 @@ def main(arguments: Sequence[str]) -> int:
             return int(error.status)
         return 2 if isinstance(error, InputError) else 1
     except ModuleNotFoundError as error:
-        print(f"plateau: {error.name} is not installed: pip install 'plateau-brake[all]'", file=sys.stderr)
+        print(f"plateau: {not_installed(error.name)}", file=sys.stderr)
         return 1
     except _Stopped as stopped:
         return 128 + int(stopped.args[0])

@@ -121,6 +121,26 @@ def in_python(message: str) -> str:
     return message
 
 
+def not_installed(name: str | None) -> str:
+    """What to do where a Python package is missing.
+
+    Parameters
+    ----------
+    name : str or None
+        Its name, as `ModuleNotFoundError` has it.
+
+    Returns
+    -------
+    str
+
+    Examples
+    --------
+    >>> not_installed("scipy")
+    "scipy is not installed: pip install 'plateau-brake[all]'"
+    """
+    return f"{name} is not installed: pip install 'plateau-brake[all]'"
+
+
 def error_of(message: str, command: Sequence[str], status: int) -> PlateauError:
     """The exception for an exit status."""
     # Messages begin with the file that they are about.

@@ -6,7 +6,7 @@ from pathlib import Path
 from plateau.command_line import Words, of_all
 from plateau.figures.accuracy import plot_accuracy
 from plateau.figures.surfaces import fibre_map, surfaces
-from plateau.output_folder import all_or_none
+from plateau.output_folder import put_together
 from plateau.style import FORMATS, saved
 
 
@@ -28,7 +28,5 @@ def _figure(given: argparse.Namespace) -> str:
     else:
         figures = fibre_map(given.data) if given.kind == "fibre-map" else surfaces(given.data, "relief" if given.relief else "charts")
     files = saved(figures, given.format)
-    with all_or_none(given.output, files, given.force) as places:
-        for place, content in zip(places, files.values(), strict=True):
-            place.write_bytes(content)
+    put_together(given.output, files, given.force)
     return "".join(f"{given.output / name}\n" for name in files)

@@ -1,5 +1,6 @@
 """Pages for the browser: tables and figures in one file, without scripts, for a screen in light or dark and for paper."""
 
+import functools
 import re
 from collections.abc import Mapping, Sequence
 from html import escape
@@ -10,14 +11,19 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     import pandas
 
-PAGE = Template(Path(__file__).with_name("page.html").read_text(encoding="utf-8"))
 # Characters that hide, or turn the direction of, what follows them.
 HIDING = re.compile("[\x00-\x08\x0b-\x1f\x7f-\x9f\u061c\u200e\u200f\u2028-\u202e\u2066-\u2069]")
 
 
 def page(title: str, *parts: str) -> str:
     """A page of parts in HTML; the title is plain text."""
-    return HIDING.sub("\N{REPLACEMENT CHARACTER}", PAGE.substitute(title=escape(title), body="\n".join(parts)))
+    return HIDING.sub("\N{REPLACEMENT CHARACTER}", _frame().substitute(title=escape(title), body="\n".join(parts)))
+
+
+@functools.cache
+def _frame() -> Template:
+    """What stands around the parts, read when the first page is made."""
+    return Template(Path(__file__).with_name("page.html").read_text(encoding="utf-8"))
 
 
 def listed(items: Sequence[str]) -> str:
@@ -34,9 +40,9 @@ def table(heads: Sequence[str], rows: Sequence[Sequence[str]], kind: str = "numb
     return f'<div class="wide"><table class="{kind}"><thead>{cells[0]}</thead><tbody>{"".join(cells[1:])}</tbody></table></div>'
 
 
-def table_of(frame: "pandas.DataFrame", kind: str = "numbers") -> str:
+def table_of(frame: "pandas.DataFrame") -> str:
     """A table of the cells of a DataFrame."""
-    return table(list(frame.columns), frame.to_numpy().tolist(), kind)
+    return table(list(frame.columns), frame.to_numpy().tolist())
 
 
 def pictures(figures: Mapping[str, Any], files: Mapping[str, bytes], first: int = 1) -> str:

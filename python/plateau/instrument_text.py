@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from plateau.errors import InputError
+from plateau.text_files import decoded
 from plateau.units import in_si
 
 # Heights, m, shape (columns, rows); distances of the points, m; notes.
@@ -47,7 +48,7 @@ def read_text(path: Path, content: bytes) -> Read | None:
     """
     if b"\0" in content[:4096] and not content.startswith((b"\xff\xfe", b"\xfe\xff")):
         return None
-    text = _decoded(content)
+    text = decoded(content)
     head = text[:4096]
     reader: Callable[[list[str]], Read]
     if head.startswith("Zygo XYZ Data File"):
@@ -64,15 +65,6 @@ def read_text(path: Path, content: bytes) -> Read | None:
         if isinstance(error, InputError):
             raise InputError(f"{path}: {error}") from error
         raise InputError(f"{path}: damaged, or in an unknown version of its format: {error}") from error
-
-
-def _decoded(content: bytes) -> str:
-    if content.startswith((b"\xff\xfe", b"\xfe\xff")):
-        return content.decode("utf-16", "replace")
-    try:
-        return content.decode("utf-8-sig")
-    except UnicodeDecodeError:
-        return content.decode("cp1252", "replace")
 
 
 def _keyence(lines: list[str]) -> Read:

@@ -104,6 +104,6 @@ def warn(message: str) -> None:
     warnings.warn(message, PlateauWarning, stacklevel=4)
 
 
-def note(message: str) -> None:
-    """Says what is worth knowing."""
-    warnings.warn(PlateauNote(message), stacklevel=4)
+def note(message: str, stacklevel: int = 4) -> None:
+    """Says what is worth knowing, in a warning that names the line so many calls up."""
+    warnings.warn(PlateauNote(message), stacklevel=stacklevel)

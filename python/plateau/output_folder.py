@@ -215,6 +215,22 @@ def all_or_none(folder: Path, names: Iterable[str], force: bool, inputs: tuple[P
         raise RunFailed(f"cannot write into {folder}: {error.strerror or error}; name another place with -o") from error
 
 
+def put_together(folder: Path, files: Mapping[str, bytes], force: bool, inputs: tuple[Path, ...] = ()) -> None:
+    """Writes files that appear in their folder, made if it is not there, when all of them are complete.
+
+    Parameters
+    ----------
+    folder : Path
+    files : mapping
+        Name and content.
+    force, inputs
+        As for `refuse_file`.
+    """
+    with all_or_none(folder, files, force, inputs) as places:
+        for place, content in zip(places, files.values(), strict=True):
+            place.write_bytes(content)
+
+
 def _put_in_place(complete: Path, path: Path) -> None:
     """Gives a complete file its name when it is on the disk, with the permissions of the file that it replaces, if there is one."""
     with complete.open("rb") as file:

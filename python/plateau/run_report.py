@@ -136,7 +136,7 @@ class Told:
         found = (self.of("contact_area") / self.of("contact_ratio").where(lambda ratio: ratio > 0)).dropna()
         return float(found.iloc[-1]) if len(found) else math.nan
 
-    @property
+    @functools.cached_property
     def five(self) -> dict[str, str]:
         """The numbers of the scene that matter."""
         area, radius, way = self.pin_area, float(array(self.run, "radius").mean()), self.last("sliding_distance")
@@ -247,7 +247,7 @@ class Told:
             found.append(Measure(f"Last residual of the {of} balance", NUMBER, abs(self.last(name))))
         return {one.name: one for one in found}
 
-    @property
+    @functools.cached_property
     def facts(self) -> dict[str, str]:
         """What the run is."""
         sizes, wall = self.run.sizes, float(self.run.attrs.get("wall_time", math.nan))

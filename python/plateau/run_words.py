@@ -10,7 +10,7 @@ from plateau.errors import InputError
 from plateau.exports import FORMATS, export
 from plateau.figures import FIGURES
 from plateau.opened_runs import inputs_of, named_like, opened, warn, warn_of_times
-from plateau.output_folder import all_or_none, refuse_file
+from plateau.output_folder import put_together, refuse_file
 from plateau.run_report import report
 from plateau.style import saved
 from plateau.units import quantity
@@ -92,9 +92,7 @@ def _plot(given: argparse.Namespace) -> str:
         refuse_file(folder / f"{name}.{given.format}", given.force, inputs, "-o DIR names another folder")
     drawn = figures.drawn(runs, given.figure, given.at, width=given.width, cmap=given.cmap, polar=given.polar)
     files = saved(drawn, [given.format])
-    with all_or_none(folder, files, given.force, inputs) as places:
-        for place, content in zip(places, files.values(), strict=True):
-            place.write_bytes(content)
+    put_together(folder, files, given.force, inputs)
     for path in sorted(folder.glob(f"*-[0-9]*.{given.format}")):
         if path.name not in files and path.stem.rpartition("-")[0] in FIGURES:
             warn(f"{path} is a page of an earlier call")

@@ -1,15 +1,12 @@
 """Lines of series against time: of very many samples means, of runs that differ in seeds alone their mean; single steps; events."""
 
-import json
 import math
-import tomllib
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 import pandas
-import xarray
 
 from plateau.figures.drawing import Subject
 from plateau.run_file import array
@@ -48,7 +45,7 @@ def courses(subjects: Sequence[Subject], name: str, unit: Unit, rubbing: bool = 
     """A series of runs in a unit, if wanted with gaps where nothing rubs; three or more that differ in seeds alone become one."""
     found, groups = [], dict[str, list[Subject]]()
     for subject in subjects:
-        groups.setdefault(without_seeds(subject.run), []).append(subject)
+        groups.setdefault(subject.scene_without_seeds, []).append(subject)
     for own in groups.values():
         is_mean = len({str(one.run.attrs.get("seeds")) for one in own}) == len(own) > 2
         for some in [own] if is_mean else [[one] for one in own]:
@@ -59,12 +56,6 @@ def courses(subjects: Sequence[Subject], name: str, unit: Unit, rubbing: bool = 
             label = f"{own[0].run.attrs.get('title', own[0].label)}: mean of {len(own)} seeds" if is_mean else some[0].label
             found.append(Course(some[0], label, pandas.DataFrame(np.transpose(columns), time)))
     return found
-
-
-def without_seeds(run: xarray.DataTree) -> str:
-    """The scene of a run without its seeds and its output."""
-    tables = json.dumps(tomllib.loads(str(run.attrs["scene"])) | {"output": 0}, sort_keys=True, default=str)
-    return str(json.loads(tables, object_hook=lambda table: {key: value for key, value in table.items() if key != "seed"}))
 
 
 def in_windows(values: Any, most: int) -> Any:

@@ -1,7 +1,7 @@
 """What the figures of runs have in common: the runs with their names and lines, the moments that are shown, what is left out."""
 
 import functools
-import warnings
+import json
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any
@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 import xarray
 
-from plateau.errors import InputError, PlateauNote
-from plateau.opened_runs import labels_of
+from plateau.errors import InputError
+from plateau.opened_runs import labels_of, note
 from plateau.quantities import MAP_KEYS
 from plateau.run_file import array, source
 from plateau.style import DASHES, LINES, NARROW, WIDE, new, noted, plain
@@ -40,6 +40,12 @@ class Subject:
     def time(self) -> Any:
         """Times of the samples, s."""
         return np.asarray(array(self.run, "time").values)
+
+    @functools.cached_property
+    def scene_without_seeds(self) -> str:
+        """The scene without its seeds and its output, in words that are equal where these scenes are."""
+        tables = json.dumps(self.run.plateau.scene | {"output": 0}, sort_keys=True, default=str)
+        return str(json.loads(tables, object_hook=lambda table: {key: value for key, value in table.items() if key != "seed"}))
 
     def has(self, *paths: str) -> bool:
         """Whether the run has all these variables, such as ``"series/contact_area"``."""
@@ -129,7 +135,7 @@ class Drawing:
     def say_left_out(self) -> None:
         """Warns of what was left out."""
         for (path, missing), figures in self.left_out.items():
-            warnings.warn(f"{path} has {missing}: left out of {', '.join(figures)}", PlateauNote, stacklevel=4)
+            note(f"{path} has {missing}: left out of {', '.join(figures)}", stacklevel=5)
 
     def panels(self, count: int, height: float, caption: str, columns: int = 2, usual: float | None = None, **options: Any) -> tuple[Any, Any]:
         """Makes a figure with so many panels of this height, mm, in so many columns if it is wide enough, and the list of its axes. Of

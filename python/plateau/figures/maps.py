@@ -325,8 +325,8 @@ def _moments(drawing: Drawing, shown: Map) -> dict[int, Sequence[int]]:
     return found
 
 
-def _said(subject: Subject, shown: Map, index: int, cells: xarray.DataArray) -> str:
-    """What is said above a map; thin films get a status of their own here."""
+def _said(subject: Subject, shown: Map, index: int, recorded: xarray.DataArray, cells: xarray.DataArray) -> str:
+    """What is said above a map, given as recorded and as shown; thin films get a status of their own in what is shown."""
     values, unit = cells.values, shown.unit.symbol
 
     def percent(of: xarray.DataArray) -> str:
@@ -344,7 +344,7 @@ def _said(subject: Subject, shown: Map, index: int, cells: xarray.DataArray) -> 
         mean = float(cells.weighted(cells["radius"]).mean())
         return f": on {percent(cells > 0)} of the area, mean over all of it {mean:.3g}\u00a0{unit}"
     if shown.about_mean:
-        return f"; from the mean, z\u00a0=\u00a0{shown.unit.value(np.nanmean(_read(subject, shown.path, index).values)):.4g}\u00a0{unit}"
+        return f"; from the mean, z\u00a0=\u00a0{shown.unit.value(np.nanmean(recorded.values)):.4g}\u00a0{unit}"
     return "" if shown.body == "disc" else f"; at most {np.nanmax(values):.3g}\u00a0{unit}"
 
 
@@ -359,9 +359,10 @@ def draw_maps(drawing: Drawing, paths: Sequence[str], caption: str) -> list[Any]
         pictures, titles = [], []
         for number, index in places:
             subject = drawing.subjects[number]
-            cells = in_unit(_read(subject, path, index), shown)
+            recorded = _read(subject, path, index)
+            cells = in_unit(recorded, shown)
             run, when = "" if drawing.only else f"{subject.label}\n", subject.moment(index).replace(" ", "\u00a0")
-            titles.append(f"{run}{shown.body.capitalize()}, {when}{_said(subject, shown, index, cells)}")
+            titles.append(f"{run}{shown.body.capitalize()}, {when}{_said(subject, shown, index, recorded, cells)}")
             pictures.append(picture_of(cells, drawing.polar and shown.body == "disc"))
         scale = scale_of(shown, pictures, drawing.cmap)
         for (number, _), picture, title in zip(places, pictures, titles, strict=True):

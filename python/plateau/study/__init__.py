@@ -42,11 +42,11 @@ def __getattr__(name: str) -> Any:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
     from importlib import import_module
 
-    from plateau.errors import MissingPackageError
+    from plateau.errors import MissingPackageError, not_installed
 
     try:
         answer = getattr(import_module(f"plateau.study.{ANSWERS[name]}"), name)
     except ModuleNotFoundError as error:
-        raise MissingPackageError(f"{error.name} is not installed: pip install 'plateau-brake[all]'") from error
+        raise MissingPackageError(not_installed(error.name)) from error
     globals()[name] = answer
     return answer

@@ -46,7 +46,6 @@ def calibrated(target: Target, runs: Runs, make: Callable[[Numbers], Runs], seed
     `make` makes runs at coded places with all seeds; `can_run` tells of each measurement whether runs give it.
     """
     shares, checks, ended = list[float](), list[dict[str, Any]](), ""
-    asked = np.array([])
     for rounds in itertools.count(1):
         likelihood = Likelihood(target, runs)
         asked = np.array([can_run[term.of] for term in likelihood.terms])

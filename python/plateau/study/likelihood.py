@@ -235,11 +235,11 @@ class Likelihood:
         place[free] = found.x
         return place, float(found.fun)
 
-    def share_by_term(self, own: Numbers | None = None) -> Numbers:
+    def share_by_term(self) -> Numbers:
         """The largest variance of each process over that of measurement, model and seeds, where measurements are not unlikely."""
         likely = self.values <= self.least + REGION
-        _, now, seeds = self.moments(self.places[likely])
-        return np.asarray(((now if own is None else own) / (np.diag(self.covariance) + seeds)).max(axis=0))
+        _, own, seeds = self.moments(self.places[likely])
+        return np.asarray((own / (np.diag(self.covariance) + seeds)).max(axis=0))
 
     def next_places(self, count: int, seeds: int, can_run: Sequence[bool]) -> tuple[Numbers, float]:
         """Places where runs teach most, each as if those before it had been run, and the largest share of variance that is left then."""

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from plateau.errors import InputError, MissingFileError
+from plateau.text_files import decoded
 from plateau.units import NUMBER
 
 # How files begin that spreadsheets save unless asked for CSV.
@@ -104,7 +105,7 @@ def _is_formula(cell: str) -> bool:
 
 
 def _text(path: Path) -> str:
-    """The text of a file: UTF-8 or UTF-16, with byte order mark or without, else Windows-1252."""
+    """The text of a file, in any encoding that `decoded` knows."""
     try:
         if stat.S_ISCHR(path.stat().st_mode):
             raise InputError(f"cannot read {path}: this is a device, expected a table in CSV")
@@ -113,16 +114,7 @@ def _text(path: Path) -> str:
         raise MissingFileError(f"{path}: there is no such table") from None
     except OSError as error:
         raise InputError(f"cannot read {path}: {error.strerror}") from error
-    low, high = content[1:4:2] == b"\0\0", content[0:3:2] == b"\0\0"
-    if content.startswith((b"\xff\xfe", b"\xfe\xff")):
-        text = content.decode("utf-16", "replace")
-    elif low or high:
-        text = content.decode("utf-16-le" if low else "utf-16-be", "replace")
-    else:
-        try:
-            text = content.decode("utf-8-sig")
-        except UnicodeDecodeError:
-            text = content.decode("cp1252", "replace")
+    text = decoded(content)
     if content.startswith(WORKBOOKS):
         raise InputError(f"cannot read {path}: this is a workbook or an archive, expected text: save its sheet as CSV")
     if "\0" in text:
