@@ -13,6 +13,7 @@ use hdf5::types::VarLenUnicode;
 use hdf5::{Dataset, File, H5Type, Location};
 use thiserror::Error;
 
+use crate::hdf5_file::in_words;
 use crate::hdf5_file::writing::{Dimensions, EMPTY_FILE, write_number, write_text};
 use crate::run_file::layout::CONVENTIONS;
 use crate::temporary::Temporary;
@@ -174,7 +175,7 @@ fn create(path: &Path, content: &Content) -> hdf5::Result<(File, Vec<Dataset>)> 
             Values::Text(texts) => {
                 let texts: Result<Vec<_>, _> =
                     texts.iter().map(|text| VarLenUnicode::from_str(&text.replace('\0', "\u{fffd}"))).collect();
-                let texts = texts.map_err(|error| hdf5::Error::from(error.to_string()))?;
+                let texts = texts.map_err(in_words)?;
                 dataset(&file, name, &shape, unit, long_name, &texts)?
             }
         };

@@ -94,6 +94,11 @@ pub(crate) fn of_machine() -> Option<u64> {
     kibibytes(&fs::read_to_string("/proc/meminfo").ok()?, "MemTotal:")
 }
 
+/// Largest memory that this process held so far, bytes; none where the system does not tell.
+pub fn peak() -> Option<u64> {
+    kibibytes(&fs::read_to_string("/proc/self/status").ok()?, "VmHWM:")
+}
+
 /// Bytes of the process's address space, where the system tells.
 fn address_space() -> Option<u64> {
     kibibytes(&fs::read_to_string("/proc/self/status").ok()?, "VmSize:")

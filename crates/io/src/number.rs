@@ -108,18 +108,6 @@ pub fn with_minus(number: &str) -> String {
     number.replace('-', "\u{2212}")
 }
 
-/// An integer as an exponent.
-pub fn raised(power: i32) -> String {
-    let letter = |letter: char| match letter {
-        '-' => '\u{207b}',
-        '1' => '\u{b9}',
-        '2' => '\u{b2}',
-        '3' => '\u{b3}',
-        digit => char::from_u32(0x2070 + digit.to_digit(10).unwrap_or(0)).unwrap_or(digit),
-    };
-    power.to_string().chars().map(letter).collect()
-}
-
 /// A duration given in seconds.
 pub fn duration(seconds: f64) -> String {
     if seconds < 1.0 {

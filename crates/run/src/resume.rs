@@ -24,8 +24,6 @@ pub struct Kept {
     place: PathBuf,
     /// Path that it was moved from, on file systems where a file has one name only.
     moved_from: Option<PathBuf>,
-    /// Tells whether the name is new: there may be a file of before that holds as much.
-    is_new: bool,
     stays: bool,
 }
 
@@ -39,20 +37,19 @@ impl Kept {
         for count in 1..=MOST {
             let place = place(path, count);
             match samples_of_same(&place, path) {
-                Some(there) if there >= samples => {
-                    return Ok(Self { place, moved_from: None, is_new: false, stays: true });
-                }
+                // The name is not new: a file of before holds as much.
+                Some(there) if there >= samples => return Ok(Self { place, moved_from: None, stays: true }),
                 // All of them are the first of those that are kept now.
                 Some(_) => fs::remove_file(&place)?,
                 None => {}
             }
             match fs::hard_link(path, &place) {
-                Ok(()) => return Ok(Self { place, moved_from: None, is_new: true, stays: false }),
+                Ok(()) => return Ok(Self { place, moved_from: None, stays: false }),
                 Err(_) if fs::symlink_metadata(&place).is_ok() => {}
                 // Some file systems have no hard links.
                 Err(_) => {
                     fs::rename(path, &place)?;
-                    return Ok(Self { place, moved_from: Some(path.to_owned()), is_new: true, stays: false });
+                    return Ok(Self { place, moved_from: Some(path.to_owned()), stays: false });
                 }
             }
         }
@@ -68,7 +65,7 @@ impl Kept {
 
 impl Drop for Kept {
     fn drop(&mut self) {
-        if self.stays || !self.is_new {
+        if self.stays {
             return;
         }
         // Nobody is left to tell.

@@ -9,12 +9,11 @@ use plateau_core::observe::drift::Drift;
 use plateau_core::observe::running_in::NotDefined;
 use plateau_core::observe::window_mean::WindowMean;
 use plateau_core::simulation::Course;
+use plateau_io::memory;
 use plateau_io::run_file::{ContactArea, NoDrift, WriterReport};
 use plateau_io::scene::Scene;
 use plateau_io::scene::Warning;
 use serde::Serialize;
-
-use crate::execution;
 
 /// Results of a finished run. Quantities of the contact are those of the last step unless said otherwise.
 #[derive(Debug, Serialize)]
@@ -177,7 +176,7 @@ impl RunSummary {
             steps_per_second: last.step as f64 / wall_time,
             load_evaluations_per_step: 1.0 + course.extra_readings as f64 / course.steps as f64,
             writer_wait: report.waited.as_secs_f64(),
-            peak_memory: execution::peak_memory(),
+            peak_memory: memory::peak(),
             contact_area: last.contact_area,
             contact_area_mean: last.contact_area_mean,
             contact_area_last_tenth: ended.last_tenth,

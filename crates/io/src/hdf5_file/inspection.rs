@@ -18,6 +18,7 @@ use hdf5::plist::dataset_create::Layout;
 use hdf5::{Dataset, Group, IndexType, IterationOrder, LinkInfo, LinkType, LocationType};
 use memchr::memmem;
 
+use super::in_words;
 use crate::text::short;
 
 /// Beginning of an HDF5 file, at byte 0 or at 512, 1024 and so on.
@@ -144,7 +145,7 @@ pub(super) fn for_each_dataset(
     let mut groups = vec![file.as_group()?];
     while let Some(group) = groups.pop() {
         if let Some(name) = first_link(&group, |_, link| link.link_type == LinkType::External)? {
-            let target = target_of(bytes, &name).map_err(|error| hdf5::Error::from(error.to_string()))?;
+            let target = target_of(bytes, &name).map_err(in_words)?;
             return Ok(Some(format!("{} links to {target}", path_in(&group, &name))));
         }
         // A slash in a name would lead through other links.

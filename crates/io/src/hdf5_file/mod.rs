@@ -10,7 +10,14 @@ mod inspection;
 mod reading;
 pub(crate) mod writing;
 
+use std::fmt::Display;
+
 pub(crate) use reading::{
     OpenError, guarded, is_hdf5, is_marked, number_attribute, open, open_with_datasets, refuse_hollow, text_attribute,
     text_of, texts_of,
 };
+
+/// An error of something else, as one of the library with its words.
+pub(crate) fn in_words(error: impl Display) -> hdf5::Error {
+    error.to_string().into()
+}

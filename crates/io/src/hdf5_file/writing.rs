@@ -12,6 +12,8 @@ use hdf5::file::{File, FileBuilder};
 use hdf5::types::{FixedAscii, VarLenArray, VarLenUnicode};
 use hdf5::{Dataset, Datatype, H5Type, Location, ObjectReference1};
 
+use super::in_words;
+
 /// Chunk cache of a dataset: slots, bytes, and 1 for "a chunk that is full goes first".
 ///
 /// Nothing is read back, so it need hold no more than the chunk of a series that is being filled; a chunk of a map is written
@@ -32,8 +34,7 @@ pub(crate) fn open_for_writing(path: &Path) -> hdf5::Result<File> {
 /// Sets a text attribute, new or not.
 pub(crate) fn write_text(location: &Location, name: &str, text: &str) -> hdf5::Result<()> {
     // HDF5 ends a text at a null character; there is no other way to store one.
-    let text = VarLenUnicode::from_str(&text.replace('\0', "\u{fffd}"))
-        .map_err(|error| hdf5::Error::from(error.to_string()))?;
+    let text = VarLenUnicode::from_str(&text.replace('\0', "\u{fffd}")).map_err(in_words)?;
     match location.attr(name) {
         Ok(attribute) => attribute.write_scalar(&text),
         Err(_) => location.new_attr::<VarLenUnicode>().create(name)?.write_scalar(&text),
@@ -93,7 +94,7 @@ impl Dimensions {
     pub(crate) fn make_scale(&mut self, dataset: &Dataset, name: &'static str) -> hdf5::Result<()> {
         let title = name.rsplit('/').next().unwrap_or(name);
         for (attribute, value) in [("CLASS", "DIMENSION_SCALE"), ("NAME", title)] {
-            let value = Text::from_ascii(value).map_err(|error| hdf5::Error::from(error.to_string()))?;
+            let value = Text::from_ascii(value).map_err(in_words)?;
             dataset.new_attr_builder().empty_as(self.text.clone()).create(attribute)?.write_scalar(&value)?;
         }
         self.users.insert(name, Vec::new());

@@ -24,8 +24,8 @@ use super::layout::{
 };
 use super::output::Output;
 use super::{End, Header, RunFileError, State};
-use crate::hdf5_file;
 use crate::hdf5_file::writing::{Dimensions, EMPTY_FILE, open_for_writing, write_number, write_text};
+use crate::hdf5_file::{self, in_words};
 use crate::input::sha256_of;
 use crate::timestamp::iso_8601;
 
@@ -69,7 +69,7 @@ pub(super) struct Source<'a> {
 
 fn write_provenance(file: &File, header: &Header, start: SystemTime) -> hdf5::Result<()> {
     let seeds: serde_json::Map<_, _> = header.seeds.iter().map(|(key, seed)| (key.clone(), (*seed).into())).collect();
-    let inputs = serde_json::to_string(&header.inputs).map_err(|error| hdf5::Error::from(error.to_string()))?;
+    let inputs = serde_json::to_string(&header.inputs).map_err(in_words)?;
 
     write_text(file, "title", &header.title)?;
     write_number(file, "format_version", FORMAT_VERSION)?;
@@ -107,9 +107,7 @@ impl<'a> Layout<'a> {
         let dimensions = Dimensions::new(file)?;
         file.commit_datatype(STATUS_TYPE, &status)?;
         for group in ["series", "disc", "pin"] {
-            file.create_group_builder()
-                .with_gcpl(|list| list.link_creation_order(LinkCreationOrder::Indexed))
-                .create(group)?;
+            make_group(file, group)?;
         }
         Ok(Self {
             file,
@@ -202,10 +200,7 @@ impl<'a> Layout<'a> {
 
     /// One row for each event of the cycle.
     fn events(&mut self, records: &[EventRecord], extras: &[&Extra]) -> hdf5::Result<()> {
-        self.file
-            .create_group_builder()
-            .with_gcpl(|list| list.link_creation_order(LinkCreationOrder::Indexed))
-            .create(EVENT_GROUP)?;
+        make_group(self.file, EVENT_GROUP)?;
         let numbers: Vec<f64> = (1..=records.len()).map(|number| number as f64).collect();
         let scale = self.scale(EVENT, "1", "number of the event")?;
         fixed(&scale, &numbers)?;
@@ -269,6 +264,12 @@ impl<'a> Layout<'a> {
     }
 }
 
+/// Makes a group that keeps the order in which links are made.
+fn make_group(file: &File, name: &str) -> hdf5::Result<()> {
+    let builder = file.create_group_builder().with_gcpl(|list| list.link_creation_order(LinkCreationOrder::Indexed));
+    builder.create(name).map(drop)
+}
+
 /// Writes values that never change, with their digest.
 fn fixed(dataset: &Dataset, values: &[f64]) -> hdf5::Result<()> {
     dataset.write_raw(values)?;
@@ -313,7 +314,7 @@ impl Seal<'_> {
 
     /// Makes the file of a run that has ended, at `place`, of the one that was written while it went on.
     pub(super) fn make(&self, path: &Path, place: &Output) -> hdf5::Result<()> {
-        let old = hdf5_file::open(path).map_err(|error| hdf5::Error::from(error.to_string()))?;
+        let old = hdf5_file::open(path).map_err(in_words)?;
         let new = open_for_writing(place.temporary())?;
         let source = Source { file: &old, events: self.events, digests: &self.digests };
         lay_out(&new, self.header, self.start_time, Some(source))?;
@@ -327,7 +328,7 @@ impl Seal<'_> {
             write_text(&file, "error", message)?;
         }
         if let Some(chosen) = &self.acceleration {
-            let text = serde_json::to_string(chosen).map_err(|error| hdf5::Error::from(error.to_string()))?;
+            let text = serde_json::to_string(chosen).map_err(in_words)?;
             write_text(&file, ACCELERATION, &text)?;
         }
         write_text(&file, "state", self.end.state().name())?;

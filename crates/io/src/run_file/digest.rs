@@ -24,8 +24,8 @@ use hdf5::{
 };
 use sha2::{Digest, Sha256};
 
-use crate::hdf5_file::text_of;
 use crate::hdf5_file::writing::write_text;
+use crate::hdf5_file::{in_words, text_of};
 use crate::input::sha256_of;
 
 /// Attribute of a dataset.
@@ -69,7 +69,7 @@ impl Digests {
         }
         for (path, digests) in &self.maps {
             let texts: Result<Vec<_>, _> = digests.iter().map(|digest| VarLenUnicode::from_str(digest)).collect();
-            let texts = texts.map_err(|error| hdf5::Error::from(error.to_string()))?;
+            let texts = texts.map_err(in_words)?;
             file.dataset(path)?.new_attr_builder().with_data(&texts).create(DIGEST)?;
         }
         Ok(())
@@ -105,8 +105,7 @@ const OF_THE_EXECUTION: [&str; 6] = ["host", "instruction_set", "start_time", "e
 
 /// Writes the digests of the attributes that are there. No attribute may be written afterwards.
 pub(super) fn write_attribute_digests(file: &File) -> hdf5::Result<()> {
-    let execution =
-        VarLenAscii::from_ascii(&of_execution(file)?).map_err(|error| hdf5::Error::from(error.to_string()))?;
+    let execution = VarLenAscii::from_ascii(&of_execution(file)?).map_err(in_words)?;
     file.new_attr::<VarLenAscii>().create(EXECUTION_DIGEST)?.write_scalar(&execution)?;
     write_text(file, NUMBERS_DIGEST, &of_numbers(file)?)?;
     write_text(file, ATTRIBUTES_DIGEST, &of_texts(file)?)

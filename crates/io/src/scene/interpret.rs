@@ -159,11 +159,8 @@ fn plain(kind: Kind, value: &Value) -> Result<Setting, String> {
         }
         (Kind::LengthUnit, Value::Text(text)) => length_unit(text, value).map(Setting::Number),
         (Kind::NumberOr(_, word), Value::Text(text)) if text == word => Ok(Setting::Text(text.clone())),
-        (Kind::Number(range) | Kind::NumberOr(range, _), Value::Integer(integer)) => {
-            in_range(*integer as f64, value, range).map(Setting::Number)
-        }
-        (Kind::Number(range) | Kind::NumberOr(range, _), Value::Float(float)) => {
-            in_range(*float, value, range).map(Setting::Number)
+        (Kind::Number(range) | Kind::NumberOr(range, _), Value::Integer(_) | Value::Float(_)) => {
+            number(value, range).map(Setting::Number)
         }
         (Kind::Integer(least), Value::Integer(integer)) => count(*integer, least),
         (Kind::CountOr(_), Value::Integer(integer)) => count(*integer, 1),

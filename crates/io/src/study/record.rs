@@ -228,6 +228,11 @@ pub struct Series {
 /// Beginning of the dataset of a quantity of events, as against that of a series.
 pub const EVENT: &str = "event/";
 
+/// Dataset of a series, or of a quantity of events, in a run file.
+pub fn dataset_of(series: &str) -> String {
+    if series.starts_with(EVENT) { format!("/{series}") } else { format!("/series/{series}") }
+}
+
 /// SI unit of a series, or of a quantity of events.
 pub fn unit_of(series: &str) -> &'static str {
     if let Some(name) = series.strip_prefix(EVENT) {

@@ -12,6 +12,7 @@ use plateau_io::surface;
 
 use super::error::{AccuracyError, PlanError, Unfinished, enough};
 use super::ladder::{Base, Ladder, Rung, steps, time_accelerations};
+use super::quantity::Course;
 use super::reference::{Provenance, ReadReference, Reference};
 use super::report::{Measured, OwnError, Report, Row};
 use super::run::{Outcome, make, try_steps};
@@ -87,13 +88,15 @@ pub fn measure(
         Some(read) => read.reference,
         None => run.make_reference(time_acceleration, &windows)?,
     };
+    let expected = reference.course(&windows);
+    let opening = expected.first(check.as_ref().map_or(0, |check| check.course.moments()));
     let mut own = OwnError::NONE;
     if let Some(check) = &check {
-        let opening = check.course.moments();
-        let errors = reference.course(&windows).first(opening).errors(&check.course);
-        own = OwnError { opening: errors.map(|error| error.mean_square), end: windows.width * opening as f64, ..own };
+        let errors = opening.errors(&check.course);
+        let end = windows.width * opening.moments() as f64;
+        own = OwnError { opening: errors.map(|error| error.mean_square), end, ..own };
     }
-    let (rows, stopped) = run.climb(rungs, &reference, &windows, &mut own)?;
+    let (rows, stopped) = run.climb(rungs, &windows, &expected, &opening, &mut own)?;
     run.note_load();
     let Measurement { wish, notes, .. } = run;
     let (title, asked, tolerance) = (wish.base.scene.title, wish.quantities, wish.tolerance);
@@ -295,17 +298,16 @@ impl Measurement<'_> {
         Ok(outcome)
     }
 
-    /// Makes the runs, as long as there is time, and compares each with the reference. The reference's own error grows as that
-    /// of the finest of them.
+    /// Makes the runs, as long as there is time, and compares each with the course that is `expected`, and with the `opening` of it,
+    /// which has no moments where the reference is the model. The reference's own error grows as that of the finest of them.
     fn climb(
         &mut self,
         rungs: Vec<Rung>,
-        reference: &Reference,
         windows: &Windows,
+        expected: &Course,
+        opening: &Course,
         own: &mut OwnError,
     ) -> Result<(Vec<Row>, Option<u8>), AccuracyError> {
-        let expected = reference.course(windows);
-        let opening = (own.end / windows.width).round() as usize;
         let (mut rows, mut stopped, mut finest) = (Vec::new(), None, f64::INFINITY);
         for rung in rungs {
             // Without the first the reference would be for nothing.
@@ -323,10 +325,10 @@ impl Measurement<'_> {
                 }
                 Err(failed) => Err(failed.to_string()),
                 Ok(Outcome { steps, wall_time, course }) => {
-                    let errors = course.errors(&expected);
-                    if opening > 0 && rung.ladder == Ladder::TimeAcceleration && rung.value < finest {
+                    let errors = course.errors(expected);
+                    if opening.moments() > 0 && rung.ladder == Ladder::TimeAcceleration && rung.value < finest {
                         finest = rung.value;
-                        *own = own.growing(&course.first(opening).errors(&expected.first(opening)), &errors);
+                        *own = own.growing(&course.first(opening.moments()).errors(opening), &errors);
                     }
                     Ok(Measured { steps, wall_time: wall_time.unwrap_or(f64::NAN), errors })
                 }

@@ -66,14 +66,6 @@ impl Job {
         Ok(WorkQueue::new(pieces, most_failures).share(jobs, work)?)
     }
 
-    /// Shares the words of the first process, on all of them.
-    ///
-    /// # Errors
-    /// When the others cannot be reached.
-    pub fn first_says(&mut self, words: &[u64]) -> Result<Vec<u64>, CommError> {
-        Ok(words.to_vec())
-    }
-
     /// The sums of two counts over all processes.
     ///
     /// # Errors

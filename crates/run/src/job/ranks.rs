@@ -146,21 +146,6 @@ impl Job {
         Ok(())
     }
 
-    /// Shares the words of the first rank, on all of them.
-    ///
-    /// # Errors
-    /// When the others cannot be reached.
-    pub fn first_says(&mut self, words: &[u64]) -> Result<Vec<u64>, CommError> {
-        let mut said = Vec::new();
-        let own = if self.leads() { words } else { &[] };
-        self.meeting.all_gather(own, &mut |rank, words| {
-            if rank == 0 {
-                said = words.to_vec();
-            }
-        })?;
-        Ok(said)
-    }
-
     /// The sums of two counts over all ranks.
     ///
     /// # Errors

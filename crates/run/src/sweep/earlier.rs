@@ -8,7 +8,7 @@ use std::path::PathBuf;
 use plateau_io::generation::{self, GENERATIONS};
 use plateau_io::study::Study;
 use plateau_io::study::journal::{Entry, Journal, merge};
-use plateau_io::study::record::{EVENT, Identity};
+use plateau_io::study::record::{Identity, dataset_of};
 use plateau_io::temporary::Temporary;
 use plateau_io::{number, text};
 
@@ -130,9 +130,7 @@ pub fn say_unkept(
     observer: &dyn SweepObserver,
 ) {
     for (lacks, runs) in unkept(resolved, journal) {
-        let dataset =
-            |series: &&str| if series.starts_with(EVENT) { format!("/{series}") } else { format!("/series/{series}") };
-        let lacks = text::list(lacks.iter().map(dataset), ", ");
+        let lacks = text::list(lacks.into_iter().map(dataset_of), ", ");
         let (file, count) = (study.path.display(), number::count(runs.len(), "run"));
         let list = text::list(runs.iter().map(ToString::to_string), ", ");
         if are_made_again {

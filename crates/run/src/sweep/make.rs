@@ -23,9 +23,8 @@ use crate::time_loop::Sink;
 
 /// Observer of one run of a study.
 pub trait Watcher: Sync {
-    /// Told how many steps were taken since the last time, about ten times a second; the signal that ends the run, if
-    /// there was one.
-    fn steps(&self, count: u64) -> Option<u8>;
+    /// Told how many steps were taken since the last time, about ten times a second; tells whether a signal ends the run.
+    fn steps(&self, count: u64) -> bool;
 
     /// Told of the surfaces of a run before its first step.
     fn surfaces(&self, scene: &Scene, loaded: &Loaded);
@@ -36,12 +35,12 @@ pub trait Watcher: Sync {
 
 /// A signal ended the run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Stopped(pub u8);
+pub struct Stopped;
 
 /// Reason why a run did not finish.
 pub enum Ended {
     /// A signal came.
-    Stopped(u8),
+    Stopped,
     /// The problem.
     Failed(String),
 }
@@ -76,7 +75,7 @@ pub fn make(request: &Request<'_>, watcher: &dyn Watcher, under_way: &mut UnderW
     let made = catch_unwind(AssertUnwindSafe(|| request.finish(watcher, under_way, &mut of)));
     let outcome = match made {
         Ok(Ok(outcome)) => outcome,
-        Ok(Err(Ended::Stopped(signal))) => return Err(Stopped(signal)),
+        Ok(Err(Ended::Stopped)) => return Err(Stopped),
         Ok(Err(Ended::Failed(error))) => Outcome::Failed { error },
         Err(_) => Outcome::Failed { error: "the program panicked: this is a mistake of the program".into() },
     };
@@ -151,7 +150,8 @@ struct Recorder<'a, 'o> {
     told: u64,
     under_way: &'a mut UnderWay<'o>,
     program: String,
-    signal: Option<u8>,
+    /// Tells whether a signal came.
+    is_stopped: bool,
 }
 
 impl<'a, 'o> Recorder<'a, 'o> {
@@ -176,7 +176,7 @@ impl<'a, 'o> Recorder<'a, 'o> {
             told: 0,
             under_way,
             program: request.program.clone(),
-            signal: None,
+            is_stopped: false,
         }
     }
 
@@ -204,16 +204,16 @@ impl Sink for Recorder<'_, '_> {
     fn look(&mut self, simulation: &Simulation, steps: u64) -> Result<u64, Ended> {
         self.under_way.touch();
         let done = simulation.steps_done();
-        self.signal = self.watcher.steps(done - self.told);
+        self.is_stopped = self.watcher.steps(done - self.told);
         self.told = done;
         Ok(steps)
     }
 
     fn rest(&mut self, assembly: &mut Assembly) -> Result<(), Ended> {
-        if self.signal.is_some() || self.under_way.is_due() {
+        if self.is_stopped || self.under_way.is_due() {
             self.under_way.keep(assembly, self.program.clone(), &self.columns, self.names())?;
         }
-        self.signal.map_or(Ok(()), |signal| Err(Ended::Stopped(signal)))
+        if self.is_stopped { Err(Ended::Stopped) } else { Ok(()) }
     }
 }
 
@@ -224,7 +224,7 @@ const SIGNAL_LOOK: Duration = Duration::from_millis(50);
 /// them ends with the program. Other runs that are made at the same time keep what they have.
 ///
 /// # Errors
-/// [`Ended`], with the signal or with what is wrong.
+/// [`Ended`], after a signal or with what is wrong.
 fn surfaces(scene: &Scene, watcher: &dyn Watcher, under_way: &mut UnderWay<'_>) -> Result<Loaded, Ended> {
     let (give, take) = channel();
     let its_own = scene.clone();
@@ -235,7 +235,9 @@ fn surfaces(scene: &Scene, watcher: &dyn Watcher, under_way: &mut UnderWay<'_>) 
                 Ok(loaded) => break loaded,
                 Err(RecvTimeoutError::Timeout) => {
                     under_way.touch();
-                    watcher.steps(0).map_or(Ok(()), |signal| Err(Ended::Stopped(signal)))?
+                    if watcher.steps(0) {
+                        return Err(Ended::Stopped);
+                    }
                 }
                 Err(RecvTimeoutError::Disconnected) => panic!("the thread that makes surfaces panicked"),
             }

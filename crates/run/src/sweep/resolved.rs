@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use plateau_io::scene::Scene;
 use plateau_io::study::Study;
 use plateau_io::study::plan::Plan;
-use plateau_io::study::record::{Digests, EVENT, Identity};
+use plateau_io::study::record::{Digests, Identity, dataset_of};
 use plateau_io::study::response::Response;
 use plateau_io::study::response_series::lacking;
 use plateau_io::{input, text};
@@ -110,7 +110,7 @@ impl Resolved {
         let mut refused = Vec::new();
         for (place, (runs, lacking)) in &self.unrecorded {
             let Response { name, series, .. } = &study.responses[*place];
-            let dataset = if series.starts_with(EVENT) { format!("/{series}") } else { format!("/series/{series}") };
+            let dataset = dataset_of(series);
             let told = format!("{file}: response \"{name}\": {dataset} is recorded only with {lacking}");
             if *runs == self.runs.len() {
                 refused.push(format!("{told}; add it to the base scene, or to `set` in the study"));

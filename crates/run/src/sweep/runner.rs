@@ -80,9 +80,9 @@ fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
 }
 
 impl Watcher for Runner<'_> {
-    fn steps(&self, count: u64) -> Option<u8> {
+    fn steps(&self, count: u64) -> bool {
         self.observer.steps(count);
-        self.observer.asked_to_stop()
+        self.observer.asked_to_stop().is_some()
     }
 
     fn surfaces(&self, scene: &Scene, loaded: &Loaded) {

@@ -8,14 +8,15 @@ mod recorded;
 use std::path::Path;
 
 use hdf5::Dataset;
-use hdf5::types::{TypeDescriptor, VarLenUnicode};
+use hdf5::types::TypeDescriptor;
 use ndarray::ArrayView2;
 use netcdf::{Dimensions, Packing, is_metre, numbers, stated_unit};
 use plateau_core::model::state::Base;
 use plateau_core::surface::Patch;
 
 use super::options::{MOST_POINTS, agreed_pitch};
-use crate::hdf5_file::{self, text_attribute};
+use crate::hdf5_file::writing::write_text;
+use crate::hdf5_file::{self, in_words, text_attribute};
 use crate::memory::refuse_beyond;
 use crate::text::short;
 
@@ -168,13 +169,11 @@ fn pitch(dataset: &Dataset) -> Result<Option<[f64; 2]>, Hdf5Error> {
 /// [`Hdf5Error::Library`] when the file cannot be written, or the patch has other than columns times rows heights.
 pub fn write(path: &Path, patch: &Patch) -> Result<(), Hdf5Error> {
     let shape = (patch.columns, patch.rows);
-    let heights =
-        ArrayView2::from_shape(shape, &patch.heights).map_err(|error| hdf5::Error::from(error.to_string()))?;
+    let heights = ArrayView2::from_shape(shape, &patch.heights).map_err(in_words)?;
     let file = hdf5::File::create(path)?;
     let dataset = file.new_dataset_builder().with_data(heights).create("height")?;
     for (name, text) in [("units", "m"), ("long_name", "height, columns along the sliding direction, rows outward")] {
-        let text: VarLenUnicode = text.parse().map_err(|error| hdf5::Error::from(format!("{error}")))?;
-        dataset.new_attr::<VarLenUnicode>().create(name)?.write_scalar(&text)?;
+        write_text(&dataset, name, text)?;
     }
     let pitch = [patch.column_pitch, patch.row_pitch];
     dataset.new_attr::<f64>().shape(2).create("pitch")?.write_raw(&pitch)?;

@@ -46,8 +46,7 @@ impl Spacing {
         }
         let last = along.len() - 1;
         let step = along[last] / last as f64;
-        let mut gaps: Vec<f64> = along.windows(2).map(|pair| pair[1] - pair[0]).collect();
-        gaps.sort_unstable_by(f64::total_cmp);
+        let gaps = gaps(&along);
         let (point, off) = farthest(&along, step);
         if half_range(along.iter().enumerate().map(|(point, x)| x - step * point as f64)) <= OFF * step {
             return Ok(Self { step, count: last + 1, places: (0..=last).collect(), rounded_to: None });
@@ -86,9 +85,13 @@ impl Spacing {
 
 /// How far numbers are from the middle between the least and the greatest of them: the first point may be off its place as any other.
 fn half_range(numbers: impl Iterator<Item = f64>) -> f64 {
-    let [least, most] =
-        numbers.fold([f64::INFINITY, f64::NEG_INFINITY], |[least, most], next| [least.min(next), most.max(next)]);
+    let [least, most] = extent(numbers);
     0.5 * (most - least)
+}
+
+/// The least and the greatest of numbers.
+fn extent(numbers: impl Iterator<Item = f64>) -> [f64; 2] {
+    numbers.fold([f64::INFINITY, f64::NEG_INFINITY], |[least, most], next| [least.min(next), most.max(next)])
 }
 
 /// The point that is farthest from its place on a grid, and how far.
@@ -396,9 +399,7 @@ impl Axis {
         let step = mean(&|value| (place(value) - mean_place) * (value - mean_value)) / spread;
         // Where an axis of this step begins that has the points equally far to both sides, and how far.
         let strip = |step: f64| {
-            let starts = values.iter().map(|value| value - step * place(*value));
-            let [least, most] = starts
-                .fold([f64::INFINITY, f64::NEG_INFINITY], |[least, most], start| [least.min(start), most.max(start)]);
+            let [least, most] = extent(values.iter().map(|value| value - step * place(*value)));
             (0.5 * (least + most), 0.5 * (most - least))
         };
         // Another step may have all points nearer: how far the farthest is has one minimum over the step.
