@@ -1,6 +1,7 @@
 //! `plateau accuracy`: its numbers are computed anew from run files of `plateau run` with the same settings.
 
 mod endings;
+mod mesh;
 mod reference;
 
 use std::fs;

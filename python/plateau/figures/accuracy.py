@@ -14,6 +14,7 @@ from plateau.style import APART, LINES, NARROW, QUIET, in_style, new
 # By the name in the document: what the runs of a ladder differ in, their mark, and whether a line goes through them.
 LADDERS = {
     "time_acceleration": ("time acceleration", "o", True),
+    "mesh": ("columns of the disc", "D", False),
     "tolerance": ("tolerance of the time acceleration", "s", False),
     "perturbation": ("heights times 1 + the number", "v", False),
 }
@@ -74,8 +75,13 @@ def plot_accuracy(folder_or_json: str | os.PathLike[str], ax: Any = None) -> Any
         ax.figure.legend(loc="outside upper left")
     else:
         ax.legend()
-    _name_points(ax, points(runs), [f"{run['value']:g}" for run in runs])
+    _name_points(ax, points(runs), [_name(run) for run in runs])
     return ax
+
+
+def _name(run: dict[str, Any]) -> str:
+    """The value of a run, with its time acceleration where both differ."""
+    return f"{run['value']:g}, m = {run['time_acceleration']:g}" if run["ladder"] == "mesh" else f"{run['value']:g}"
 
 
 def _number_axes(ax: Any) -> None:

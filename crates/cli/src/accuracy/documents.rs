@@ -89,6 +89,7 @@ pub fn json(report: &Report, making: &Making, state: &str) -> String {
         "reference": {
             "file": made.file.as_ref().map(|file| &file.path),
             "sha256": made.file.as_ref().map(|file| &file.sha256),
+            "setting": reference.setting,
             "time_acceleration": reference.time_acceleration,
             "steps": reference.outcome.steps,
             "wall_time": reference.outcome.wall_time,

@@ -26,7 +26,7 @@ fn reference(report: &Report) -> String {
     let (steps, workers) = (number::grouped(reference.outcome.steps), number::count(made.workers as usize, "worker"));
     let (count, width) = (report.windows.count, number::short(report.windows.width));
     let rows = [
-        ("reference", format!("time_acceleration = {}, {source}", reference.time_acceleration)),
+        ("reference", format!("{}, {source}", reference.setting)),
         ("its own error", own_error(report)),
         ("its wall time", format!("{wall_time} for {steps} steps on {workers}")),
         ("windows", format!("{count} of {width} s, over whose means runs are compared")),
@@ -41,8 +41,15 @@ fn own_error(report: &Report) -> String {
     let whole = report.own.whole();
     let errors: Vec<String> =
         report.counted().map(|(one, compared)| format!("{} {}", compared.words, percent(whole[one]))).collect();
-    let end = number::short(report.own.end);
-    format!("about {}: from a run with 1 over the first {end} s, growing as the other errors do", errors.join(", "))
+    let mut sources = Vec::new();
+    if report.own.cells != OwnError::NONE.cells {
+        sources.push("of its cells, as much as the change from cells twice as long".to_owned());
+    }
+    if report.own.end > 0.0 {
+        let end = number::short(report.own.end);
+        sources.push(format!("from a run with 1 over the first {end} s, growing as the other errors do"));
+    }
+    format!("about {}: {}", errors.join(", "), sources.join("; "))
 }
 
 fn errors(report: &Report) -> String {

@@ -52,6 +52,7 @@ fn ladder() -> impl TypedValueParser<Value = Ladder> {
 fn meaning(ladder: Ladder) -> &'static str {
     match ladder {
         Ladder::TimeAcceleration => "Revolutions that a simulated one stands for",
+        Ladder::Mesh => "The same with cells half and twice as long, in a scene with a transport length",
         Ladder::Tolerance => "Accelerations that the run chooses itself, by the error that it may make",
         Ladder::Perturbation => {
             "The reference anew with initial heights that differ a little: how much of the errors is chance"

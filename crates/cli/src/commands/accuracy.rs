@@ -24,7 +24,7 @@ use crate::terminal::{Messages, Terminal};
 use crate::version;
 
 /// Ladders unless others are asked for.
-const USUAL: [Ladder; 2] = [Ladder::TimeAcceleration, Ladder::Tolerance];
+const USUAL: [Ladder; 3] = [Ladder::TimeAcceleration, Ladder::Mesh, Ladder::Tolerance];
 
 /// Files that are written: tables, and the figure in every format, in the order of those.
 const FILES: [&str; 5] = ["accuracy.csv", "accuracy.json", "accuracy.png", "accuracy.svg", "accuracy.pdf"];

@@ -4,6 +4,8 @@ use std::path::PathBuf;
 
 use plateau_io::scene::{self, Scene, SceneError};
 
+use super::cells::Cells;
+
 /// Time accelerations that are tried, besides the scene's own: they have small common multiples, so that there are windows
 /// of whole revolutions of all of them.
 const TIME_ACCELERATIONS: [f64; 10] = [1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0, 1000.0];
@@ -21,6 +23,8 @@ const PERTURBATIONS: [f64; 3] = [1e-9, 1e-6, 1e-4];
 pub enum Ladder {
     /// Revolutions that a simulated one stands for.
     TimeAcceleration,
+    /// The same with cells half and twice as long along the sliding direction.
+    Mesh,
     /// Accelerations that the run chooses itself, by the error that it may make.
     Tolerance,
     /// The reference anew with initial heights that differ a little: how much of the errors is chance.
@@ -29,20 +33,29 @@ pub enum Ladder {
 
 impl Ladder {
     /// All of them.
-    pub const ALL: [Self; 3] = [Self::TimeAcceleration, Self::Tolerance, Self::Perturbation];
+    pub const ALL: [Self; 4] = [Self::TimeAcceleration, Self::Mesh, Self::Tolerance, Self::Perturbation];
 
     /// Its name on the command line and in files.
     pub fn name(self) -> &'static str {
         match self {
             Self::TimeAcceleration => "time_acceleration",
+            Self::Mesh => "mesh",
             Self::Tolerance => "tolerance",
             Self::Perturbation => "perturbation",
         }
     }
 }
 
-/// Place of a run on its ladder, with the value of what the ladder changes.
-pub type Step = (Ladder, f64);
+/// Place of a run on its ladder.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Step {
+    /// The ladder.
+    pub ladder: Ladder,
+    /// Time acceleration, tolerance, or part of the heights.
+    pub value: f64,
+    /// Its cells.
+    pub cells: Cells,
+}
 
 /// Time accelerations of a scene, increasing: 1, the scene's own, and others with which there are enough revolutions.
 pub fn time_accelerations(own: f64, revolutions: f64) -> Vec<f64> {
@@ -50,16 +63,30 @@ pub fn time_accelerations(own: f64, revolutions: f64) -> Vec<f64> {
     sorted(TIME_ACCELERATIONS.into_iter().filter(room).chain([own]))
 }
 
-/// Steps of these ladders that a reference with the time acceleration `reference` judges: coarser runs, or the reference with
-/// other heights. A run that chooses its acceleration begins with 1, so that nothing but the model itself is finer.
-pub fn steps(ladders: &[Ladder], accelerations: &[f64], own_tolerance: Option<f64>, reference: f64) -> Vec<Step> {
-    let values = |ladder: Ladder| match ladder {
-        Ladder::TimeAcceleration => accelerations.iter().copied().filter(|other| *other > reference).collect(),
-        Ladder::Tolerance if reference == 1.0 => sorted(TOLERANCES.into_iter().chain(own_tolerance)),
-        Ladder::Tolerance => Vec::new(),
-        Ladder::Perturbation => PERTURBATIONS.to_vec(),
+/// Steps of these ladders that a reference judges, which has the time acceleration `reference`, and halved cells if `finer`:
+/// coarser runs, or the reference with other heights. A run that chooses its acceleration begins with 1, so that nothing but the
+/// model itself is finer.
+pub fn steps(
+    ladders: &[Ladder],
+    accelerations: &[f64],
+    own_tolerance: Option<f64>,
+    reference: f64,
+    finer: bool,
+) -> Vec<Step> {
+    let coarser = |cells: Cells, equal: bool| {
+        let values = accelerations.iter().copied().filter(move |m| *m > reference || equal && *m == reference);
+        values.map(move |value| (value, cells)).collect::<Vec<_>>()
     };
-    ladders.iter().flat_map(|ladder| values(*ladder).into_iter().map(|value| (*ladder, value))).collect()
+    let same = |values: Vec<f64>, cells: Cells| values.into_iter().map(move |value| (value, cells)).collect();
+    let values = |ladder: Ladder| match ladder {
+        Ladder::TimeAcceleration => coarser(Cells::Own, finer),
+        Ladder::Mesh if finer => [coarser(Cells::Halved, false), coarser(Cells::Doubled, true)].concat(),
+        Ladder::Tolerance if reference == 1.0 => same(sorted(TOLERANCES.into_iter().chain(own_tolerance)), Cells::Own),
+        Ladder::Mesh | Ladder::Tolerance => Vec::new(),
+        Ladder::Perturbation => same(PERTURBATIONS.to_vec(), if finer { Cells::Halved } else { Cells::Own }),
+    };
+    let of = |ladder: Ladder| values(ladder).into_iter().map(move |(value, cells)| Step { ladder, value, cells });
+    ladders.iter().flat_map(|ladder| of(*ladder)).collect()
 }
 
 fn sorted(values: impl Iterator<Item = f64>) -> Vec<f64> {
@@ -85,8 +112,10 @@ pub struct Base {
 pub struct Rung {
     /// The ladder.
     pub ladder: Ladder,
-    /// Value of what it changes.
+    /// Value of what it changes: the time acceleration, the columns of the disc, the tolerance, the part of the heights.
     pub value: f64,
+    /// Its cells.
+    pub cells: Cells,
     /// Changes of the base, as after `--set`.
     sets: Vec<String>,
     /// The scene with them.
@@ -98,21 +127,27 @@ impl Rung {
     ///
     /// # Errors
     /// [`SceneError`] when the scene does not take these values.
-    pub fn new(base: &Base, (ladder, value): Step, reference: f64) -> Result<Self, SceneError> {
+    pub fn new(base: &Base, Step { ladder, value, cells }: Step, reference: f64) -> Result<Self, SceneError> {
         let accelerated = |acceleration: f64| format!("numerics.time_acceleration = {acceleration}");
-        let sets = match ladder {
-            Ladder::TimeAcceleration => vec![accelerated(value)],
+        let columns = cells.columns(&base.scene.parameters.mesh).filter(|_| cells != Cells::Own);
+        let mut sets = Vec::new();
+        if let Some([disc, pin]) = columns {
+            sets.extend([format!("mesh.disc_columns = {disc}"), format!("mesh.pin_columns = {pin}")]);
+        }
+        match ladder {
+            Ladder::TimeAcceleration | Ladder::Mesh => sets.push(accelerated(value)),
             Ladder::Tolerance => {
                 let largest = base.scene.adaptive.map_or(LARGEST, |adaptive| adaptive.largest);
-                vec![format!("numerics.time_acceleration = {{ tolerance = {value}, max = {largest} }}")]
+                sets.push(format!("numerics.time_acceleration = {{ tolerance = {value}, max = {largest} }}"));
             }
             Ladder::Perturbation => {
                 let scale = base.scene.disc_surface.preparation.scale * (1.0 + value);
-                vec![accelerated(reference), format!("disc.prepare.scale = {scale}")]
+                sets.extend([accelerated(reference), format!("disc.prepare.scale = {scale}")]);
             }
-        };
+        }
+        let value = columns.filter(|_| ladder == Ladder::Mesh).map_or(value, |[disc, _]| disc as f64);
         let scene = scene::load(&base.path, &[&base.sets[..], &sets].concat())?;
-        let rung = Self { ladder, value, sets, scene };
+        let rung = Self { ladder, value, cells, sets, scene };
         Ok(rung.lasting(base.scene.duration))
     }
 
@@ -126,7 +161,7 @@ impl Rung {
 
     /// Keys and values that make this run, as a scene has them.
     pub fn setting(&self) -> String {
-        self.sets.join(", ").replace("numerics.", "")
+        self.sets.join(", ").replace("numerics.", "").replace("mesh.", "")
     }
 }
 
@@ -152,7 +187,7 @@ mod tests {
     fn steps_are_coarser_than_the_reference() {
         let accelerations = [1.0, 5.0, 20.0, 50.0];
         let values = |ladder, own, reference| -> Vec<f64> {
-            steps(&[ladder], &accelerations, own, reference).into_iter().map(|(_, value)| value).collect()
+            steps(&[ladder], &accelerations, own, reference, false).into_iter().map(|step| step.value).collect()
         };
         assert_eq!(values(Ladder::TimeAcceleration, None, 1.0), [5.0, 20.0, 50.0]);
         assert_eq!(values(Ladder::TimeAcceleration, None, 7.0), [20.0, 50.0]);
@@ -160,30 +195,43 @@ mod tests {
         assert_eq!(values(Ladder::Tolerance, Some(0.03), 1.0), [0.002, 0.005, 0.01, 0.02, 0.03, 0.05]);
         assert!(values(Ladder::Tolerance, Some(0.03), 2.0).is_empty());
         assert_eq!(values(Ladder::Perturbation, None, 7.0), PERTURBATIONS);
+        assert!(values(Ladder::Mesh, None, 1.0).is_empty());
+        let pairs = |ladder| -> Vec<(f64, Cells)> {
+            let steps = steps(&[ladder], &accelerations, None, 5.0, true);
+            steps.into_iter().map(|step| (step.value, step.cells)).collect()
+        };
+        assert_eq!(pairs(Ladder::TimeAcceleration), [5.0, 20.0, 50.0].map(|m| (m, Cells::Own)));
+        let halved = [20.0, 50.0].map(|m| (m, Cells::Halved));
+        assert_eq!(pairs(Ladder::Mesh), [&halved[..], &[5.0, 20.0, 50.0].map(|m| (m, Cells::Doubled))].concat());
     }
 
     #[test]
     fn a_rung_is_the_scene_with_some_keys_set() {
         let base = base(&["disc.prepare.scale=0.5", "numerics.time_acceleration={ tolerance = 0.1, max = 30 }"]);
-        let rung = |step, reference| Rung::new(&base, step, reference).unwrap();
-        let fixed = rung((Ladder::TimeAcceleration, 7.5), 1.0);
+        let rung =
+            |ladder, value, cells, reference| Rung::new(&base, Step { ladder, value, cells }, reference).unwrap();
+        let fixed = rung(Ladder::TimeAcceleration, 7.5, Cells::Own, 1.0);
         assert_eq!(fixed.setting(), "time_acceleration = 7.5");
         assert!(fixed.scene.adaptive.is_none() && fixed.scene.parameters.time_acceleration == 7.5);
-        let chosen = rung((Ladder::Tolerance, 0.02), 1.0);
+        let chosen = rung(Ladder::Tolerance, 0.02, Cells::Own, 1.0);
         assert_eq!(chosen.setting(), "time_acceleration = { tolerance = 0.02, max = 30 }");
         assert_eq!(chosen.scene.adaptive.unwrap().tolerance, 0.02);
-        let perturbed = rung((Ladder::Perturbation, 1e-4), 2.0);
+        let perturbed = rung(Ladder::Perturbation, 1e-4, Cells::Own, 2.0);
         assert_eq!(perturbed.setting(), "time_acceleration = 2, disc.prepare.scale = 0.50005");
         assert_eq!(perturbed.scene.disc_surface.preparation.scale, 0.50005);
+        let mesh = rung(Ladder::Mesh, 20.0, Cells::Doubled, 1.0);
+        assert_eq!(mesh.setting(), "disc_columns = 345, pin_columns = 20, time_acceleration = 20");
+        assert_eq!((mesh.value, mesh.scene.parameters.mesh.pin_columns()), (345.0, 20));
     }
 
     #[test]
     fn runs_with_a_number_of_steps_are_as_long_as_the_scene() {
         let base = base(&["operation.steps=690"]);
-        let rung = Rung::new(&base, (Ladder::TimeAcceleration, 10.0), 1.0).unwrap();
+        let step = |ladder, value| Step { ladder, value, cells: Cells::Own };
+        let rung = Rung::new(&base, step(Ladder::TimeAcceleration, 10.0), 1.0).unwrap();
         // The scene has 20.
         assert_eq!((rung.scene.duration, rung.scene.steps), (base.scene.duration, 1380));
-        let refused = Rung::new(&base, (Ladder::Tolerance, 0.01), 1.0).unwrap_err();
+        let refused = Rung::new(&base, step(Ladder::Tolerance, 0.01), 1.0).unwrap_err();
         assert!(refused.to_string().contains("give operation.duration"), "{refused}");
         let half = rung.clone().lasting(0.5 * rung.scene.duration);
         assert!(half.scene.steps.abs_diff(rung.scene.steps / 2) <= 1, "{}", half.scene.steps);

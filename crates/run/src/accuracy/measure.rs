@@ -10,8 +10,9 @@ use plateau_io::number;
 use plateau_io::scene::Scene;
 use plateau_io::surface;
 
+use super::cells::Cells;
 use super::error::{AccuracyError, PlanError, Unfinished, enough};
-use super::ladder::{Base, Ladder, Rung, steps, time_accelerations};
+use super::ladder::{Base, Ladder, Rung, Step, steps, time_accelerations};
 use super::quantity::Course;
 use super::reference::{Provenance, ReadReference, Reference};
 use super::report::{Measured, OwnError, Report, Row};
@@ -76,9 +77,13 @@ pub fn measure(
     let accelerations = time_accelerations(parameters.time_acceleration, duration / revolution);
     let read = wish.reference.take();
     let started = Instant::now();
-    let mut run = Measurement { wish, surfaces, execution, observer, started, step_time: 0.0, notes: Vec::new() };
-    let model = run.rung((Ladder::TimeAcceleration, 1.0), 1.0)?;
-    run.step_time = try_steps(&model.scene, surfaces.clone(), execution)?;
+    let mut run =
+        Measurement { wish, surfaces, finest: None, execution, observer, started, step_time: 0.0, notes: Vec::new() };
+    if read.is_none() {
+        run.finest = run.halve()?;
+    }
+    let model = run.rung(1.0)?;
+    run.step_time = try_steps(&model.scene, run.surfaces_of(&model)?, execution)? / model.cells.work().sqrt();
 
     let time_acceleration = run.choose_reference(&accelerations, revolution, read.as_ref())?;
     let rungs = run.rungs(&accelerations, time_acceleration);
@@ -117,10 +122,12 @@ fn finest(references: &[f64], budget: f64, cost: impl Fn(f64) -> f64) -> Result<
 struct Measurement<'a> {
     wish: Wish,
     surfaces: &'a InitialSurfaces,
+    /// Surfaces on the mesh of halved cells, if the cell is varied; those of all runs are samples of them.
+    finest: Option<InitialSurfaces>,
     execution: Execution,
     observer: &'a mut dyn Observer,
     started: Instant,
-    /// Wall time of a step, s, from a trial or the last long run.
+    /// Wall time of a step with the scene's cells, s, from a trial or the last long run.
     step_time: f64,
     notes: Vec<String>,
 }
@@ -130,20 +137,59 @@ impl Measurement<'_> {
         &self.wish.base.scene
     }
 
-    fn rung(&self, step: (Ladder, f64), reference: f64) -> Result<Rung, PlanError> {
-        Ok(Rung::new(&self.wish.base, step, reference)?)
+    /// Makes the surfaces on the mesh of halved cells, if the mesh is to be varied and the cell is a numerical setting.
+    fn halve(&mut self) -> Result<Option<InitialSurfaces>, AccuracyError> {
+        if !self.wish.ladders.contains(&Ladder::Mesh) {
+            return Ok(None);
+        }
+        if self.base().parameters.plateaus.transport_length.is_none() {
+            let note = "the cell is part of the model of this scene, so the mesh is not varied; with \
+                        plateaus.transport_length it is a numerical setting";
+            self.notes.push(note.to_owned());
+            return Ok(None);
+        }
+        let step = Step { ladder: Ladder::TimeAcceleration, value: 1.0, cells: Cells::Halved };
+        let rung = Rung::new(&self.wish.base, step, 1.0).map_err(PlanError::Scene)?;
+        match surface::load(&rung.scene) {
+            Ok(loaded) => Ok(Some(loaded.surfaces)),
+            Err(error) => {
+                self.notes.push(format!("the mesh is not varied: with {}, {error}", rung.setting()));
+                Ok(None)
+            }
+        }
     }
 
-    /// Wall time of a run with this time acceleration, s.
-    fn seconds(&self, time_acceleration: f64) -> f64 {
+    /// Cells of the reference.
+    fn finest_cells(&self) -> Cells {
+        if self.finest.is_some() { Cells::Halved } else { Cells::Own }
+    }
+
+    /// A run with the cells of the reference and this time acceleration.
+    fn rung(&self, time_acceleration: f64) -> Result<Rung, PlanError> {
+        let step = Step { ladder: Ladder::TimeAcceleration, value: time_acceleration, cells: self.finest_cells() };
+        Ok(Rung::new(&self.wish.base, step, time_acceleration)?)
+    }
+
+    /// Initial surfaces of a run.
+    fn surfaces_of(&self, rung: &Rung) -> Result<InitialSurfaces, RunError> {
+        if rung.scene.disc_surface != self.base().disc_surface {
+            let loaded = surface::load(&rung.scene).map_err(|error| InputError::Surface(Box::new(error)))?;
+            return Ok(loaded.surfaces);
+        }
+        let rows = self.base().parameters.mesh.rows();
+        Ok(self.finest.as_ref().map_or_else(|| self.surfaces.clone(), |finest| rung.cells.sample(finest, rows)))
+    }
+
+    /// Wall time of a run with these cells and this time acceleration, s.
+    fn seconds(&self, cells: Cells, time_acceleration: f64) -> f64 {
         let parameters = &self.base().parameters;
         let steps = parameters.steps_of(self.base().duration) as f64;
-        steps * parameters.time_acceleration / time_acceleration * self.step_time
+        steps * parameters.time_acceleration / time_acceleration * self.step_time * cells.work()
     }
 
     /// Wall time that a window of the check takes, s, with so many seconds of physical time.
     fn check_seconds(&self, window: f64) -> f64 {
-        self.seconds(1.0) * window / self.base().duration
+        self.seconds(self.finest_cells(), 1.0) * window / self.base().duration
     }
 
     /// Time acceleration of the reference: that which was read, or the smallest that the budget allows. It is finer than the
@@ -160,7 +206,8 @@ impl Measurement<'_> {
         let needs_model =
             scene.adaptive.is_some() || Smoothness::forbids_from_the_start(&scene.parameters, self.surfaces);
         let is_fine = |reference: f64| reference == 1.0 || !needs_model && reference < own;
-        let judges = |reference: f64| !steps(&self.wish.ladders, accelerations, None, reference).is_empty();
+        let finer = self.finest.is_some();
+        let judges = |reference: f64| !steps(&self.wish.ladders, accelerations, None, reference, finer).is_empty();
         if let Some(read) = read {
             let reference = read.reference.time_acceleration;
             return match (is_fine(reference), judges(reference)) {
@@ -173,7 +220,8 @@ impl Measurement<'_> {
         let cost = |reference: f64| {
             let coarser: Vec<f64> = accelerations.iter().copied().filter(|other| *other >= reference).collect();
             let windows = Windows::new(scene.duration, common_multiple(&coarser) * revolution, LEAST_WINDOW);
-            self.seconds(reference) + if reference > 1.0 { self.check_seconds(windows.width) } else { 0.0 }
+            self.seconds(self.finest_cells(), reference)
+                + if reference > 1.0 { self.check_seconds(windows.width) } else { 0.0 }
         };
         let budget = self.wish.budget;
         let of_model = cost(1.0) / FOR_REFERENCE;
@@ -205,26 +253,41 @@ impl Measurement<'_> {
         }
         let own = self.base().adaptive.map(|adaptive| adaptive.tolerance);
         let mut rungs = Vec::new();
-        for step in steps(&self.wish.ladders, accelerations, own, reference) {
+        let mut left_out = Vec::new();
+        for step in steps(&self.wish.ladders, accelerations, own, reference, self.finest.is_some()) {
+            if step.cells.columns(&self.base().parameters.mesh).is_none() {
+                left_out.push("cells twice as long are left out: mesh.disc_columns is odd".to_owned());
+                continue;
+            }
             match Rung::new(&self.wish.base, step, reference) {
                 Ok(rung) => rungs.push(rung),
                 Err(error) => {
                     let reason = &error.problems()[0].message;
-                    let note = format!("the ladder {} is left out: {reason}", step.0.name());
-                    if !self.notes.contains(&note) {
-                        self.notes.push(note);
-                    }
+                    left_out.push(format!("the ladder {} is left out: {reason}", step.ladder.name()));
                 }
             }
         }
-        rungs.sort_by(|one, other| self.seconds_of(one).total_cmp(&self.seconds_of(other)));
+        left_out.dedup();
+        self.notes.append(&mut left_out);
+        // The run that tells the error by the reference's cells comes first.
+        let key = |rung: &Rung| (!self.tells_cells(rung, reference), self.seconds_of(rung));
+        rungs.sort_by(|one, other| {
+            let [one, other] = [key(one), key(other)];
+            one.0.cmp(&other.0).then(one.1.total_cmp(&other.1))
+        });
         rungs
+    }
+
+    /// Tells that a run differs from the reference in cells twice as long alone.
+    fn tells_cells(&self, rung: &Rung, reference: f64) -> bool {
+        let is_same = rung.ladder == Ladder::TimeAcceleration && rung.value == reference;
+        self.finest.is_some() && is_same && rung.cells == Cells::Own
     }
 
     /// Wall time of a run, s, as far as it can be told before.
     fn seconds_of(&self, rung: &Rung) -> f64 {
         let usual = if rung.scene.adaptive.is_some() { USUAL_ACCELERATION } else { 1.0 };
-        self.seconds(rung.scene.parameters.time_acceleration * usual)
+        self.seconds(rung.cells, rung.scene.parameters.time_acceleration * usual)
     }
 
     /// The same windows for all runs: whole revolutions of each of them, if that can be.
@@ -262,7 +325,7 @@ impl Measurement<'_> {
     }
 
     fn make_reference(&mut self, time_acceleration: f64, windows: &Windows) -> Result<Reference, AccuracyError> {
-        let rung = self.rung((Ladder::TimeAcceleration, time_acceleration), time_acceleration)?;
+        let rung = self.rung(time_acceleration)?;
         let start_time = now();
         let name = format!("the reference run with {}", rung.setting());
         let outcome = self.make(&rung, windows, &name).map_err(|unfinished| before_any(unfinished, &name))?;
@@ -274,17 +337,12 @@ impl Measurement<'_> {
             workers: self.execution.workers as u64,
             start_time,
         };
-        Ok(Reference { time_acceleration, outcome, provenance })
+        Ok(Reference { time_acceleration, setting: rung.setting(), outcome, provenance })
     }
 
     /// Takes the steps of a run; `name` is shown meanwhile.
     fn make(&mut self, rung: &Rung, windows: &Windows, name: &str) -> Result<Outcome, Unfinished> {
-        let surfaces = if rung.scene.disc_surface == self.base().disc_surface {
-            self.surfaces.clone()
-        } else {
-            let loaded = surface::load(&rung.scene).map_err(|error| InputError::Surface(Box::new(error)));
-            loaded.map_err(RunError::from)?.surfaces
-        };
+        let surfaces = self.surfaces_of(rung)?;
         self.observer.starts(name, rung.scene.duration);
         let outcome = make(&rung.scene, surfaces, self.execution, windows, self.observer);
         self.observer.ends();
@@ -293,13 +351,14 @@ impl Measurement<'_> {
         if let Some(wall_time) = outcome.wall_time.filter(|time| *time > 1.0)
             && rung.scene.adaptive.is_none()
         {
-            self.step_time = wall_time / outcome.steps as f64;
+            self.step_time = wall_time / outcome.steps as f64 / rung.cells.work().sqrt();
         }
         Ok(outcome)
     }
 
     /// Makes the runs, as long as there is time, and compares each with the course that is `expected`, and with the `opening` of it,
-    /// which has no moments where the reference is the model. The reference's own error grows as that of the finest of them.
+    /// which has no moments where the reference is the model. The reference's own error grows as that of the finest of them with the
+    /// same cells; that by its cells is taken from the first run, if the cells are varied.
     fn climb(
         &mut self,
         rungs: Vec<Rung>,
@@ -326,8 +385,15 @@ impl Measurement<'_> {
                 Err(failed) => Err(failed.to_string()),
                 Ok(Outcome { steps, wall_time, course }) => {
                     let errors = course.errors(expected);
-                    if opening.moments() > 0 && rung.ladder == Ladder::TimeAcceleration && rung.value < finest {
-                        finest = rung.value;
+                    let acceleration = rung.scene.parameters.time_acceleration;
+                    let is_like = rung.scene.adaptive.is_none()
+                        && rung.ladder != Ladder::Perturbation
+                        && rung.cells == self.finest_cells();
+                    if rows.is_empty() && self.finest.is_some() {
+                        own.cells = errors.map(|error| error.mean_square);
+                    }
+                    if opening.moments() > 0 && is_like && acceleration < finest {
+                        finest = acceleration;
                         *own = own.growing(&course.first(opening.moments()).errors(opening), &errors);
                     }
                     Ok(Measured { steps, wall_time: wall_time.unwrap_or(f64::NAN), errors })

@@ -4,6 +4,7 @@
 //! |---|---|
 //! | windows of physical time | `windows` |
 //! | quantities, their course over windows, and its errors | `quantity` |
+//! | half and twice as long cells, and their surfaces | `cells` |
 //! | runs that are a scene with some keys set | `ladder` |
 //! | one run, taken and timed | `run` |
 //! | a reference, made or read | `reference` |
@@ -11,6 +12,7 @@
 //! | all that was found, and what is advised | [`Report`] |
 //! | why nothing was | [`AccuracyError`] |
 
+mod cells;
 mod error;
 mod ladder;
 mod measure;

@@ -17,6 +17,8 @@ use super::windows::Windows;
 pub struct Reference {
     /// Its time acceleration.
     pub time_acceleration: f64,
+    /// Keys and values in which it differs from the scene.
+    pub setting: String,
     /// What is kept of it.
     pub outcome: Outcome,
     /// Where it comes from.
@@ -94,7 +96,8 @@ pub fn read(path: &Path, scene: &Scene, inputs: &[(PathBuf, String)]) -> Result<
         workers: run.number("workers").unwrap_or(0.0) as u64,
         start_time: text("start_time"),
     };
-    let reference = Reference { time_acceleration, outcome, provenance };
+    let setting = format!("time_acceleration = {time_acceleration}");
+    let reference = Reference { time_acceleration, setting, outcome, provenance };
     Ok(ReadReference { reference, sample_every })
 }
 

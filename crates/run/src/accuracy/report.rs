@@ -26,7 +26,8 @@ pub struct Report {
     pub notes: Vec<String>,
 }
 
-/// Error of the reference itself, from the first windows, the opening, in which the model itself was run, too.
+/// Error of the reference itself: of its time acceleration, from the first windows, the opening, in which the model itself was run,
+/// too, and of its cells, where these are a numerical setting.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct OwnError {
     /// Errors of the means in the opening, relative, root mean square.
@@ -35,11 +36,13 @@ pub struct OwnError {
     pub growth: Values,
     /// End of the opening, s; 0 where the reference is the model.
     pub end: f64,
+    /// Errors by the cells of the reference: as large as the change from cells twice as long, for an error of first order.
+    pub cells: Values,
 }
 
 impl OwnError {
     /// Of the model itself.
-    pub const NONE: Self = Self { opening: [0.0; COUNT], growth: [1.0; COUNT], end: 0.0 };
+    pub const NONE: Self = Self { opening: [0.0; COUNT], growth: [1.0; COUNT], end: 0.0, cells: [0.0; COUNT] };
 
     /// The same, with errors that grow after the opening as those of another run do: `opening` in the opening, `whole` over
     /// the whole run. Errors are not taken to shrink; where one of the two is not known there is no growth.
@@ -54,7 +57,7 @@ impl OwnError {
 
     /// Errors over the whole run, about.
     pub fn whole(&self) -> Values {
-        std::array::from_fn(|one| self.opening[one] * self.growth[one])
+        std::array::from_fn(|one| self.opening[one] * self.growth[one] + self.cells[one])
     }
 }
 
@@ -95,8 +98,9 @@ impl Report {
     /// Puts the rows in order, and finds the front.
     pub fn complete(&mut self) {
         self.rows.sort_by(|one, other| {
-            let [one, other] = [one, other].map(|row| (row.rung.ladder, row.rung.value));
-            one.0.cmp(&other.0).then(one.1.total_cmp(&other.1))
+            let acceleration = |row: &Row| row.rung.scene.parameters.time_acceleration;
+            let order = one.rung.ladder.cmp(&other.rung.ladder).then(one.rung.value.total_cmp(&other.rung.value));
+            order.then(acceleration(one).total_cmp(&acceleration(other)))
         });
         let costs: Vec<Option<[f64; 2]>> = self.rows.iter().map(|row| self.cost(row)).collect();
         for (row, on_front) in self.rows.iter_mut().zip(front(&costs)) {
@@ -194,7 +198,7 @@ mod tests {
     #[test]
     fn the_own_error_grows_as_the_error_of_another_run_does() {
         let errors = |mean_square| [QuantityError { mean_square, largest: 0.0, end: 0.0 }; COUNT];
-        let own = OwnError { opening: [2e-5; COUNT], growth: [1.0; COUNT], end: 5.0 };
+        let own = OwnError { opening: [2e-5; COUNT], end: 5.0, ..OwnError::NONE };
         // 0.01 % in the opening and 0.2 % in the end: 20 times as large, and so is the reference's.
         assert!((own.growing(&errors(1e-4), &errors(2e-3)).whole()[0] - 4e-4).abs() < 1e-18);
         for (opening, whole) in [(2e-3, 1e-3), (0.0, 1e-3), (0.0, 0.0), (1e-4, f64::NAN)] {
