@@ -59,10 +59,10 @@ mod tests {
 
     #[test]
     fn every_second_and_fourth_column_is_sampled() {
-        let own = Mesh::new(0.010, 0.011, 2, 6, 3).unwrap();
+        let own = Mesh::new(2, 6, 3, 0.010, 0.011).unwrap();
         let columns = [Cells::Halved, Cells::Own, Cells::Doubled].map(|cells| cells.columns(&own));
         assert_eq!(columns, [Some([12, 6]), Some([6, 3]), Some([3, 2])]);
-        assert_eq!(Cells::Doubled.columns(&Mesh::new(0.010, 0.011, 2, 7, 3).unwrap()), None);
+        assert_eq!(Cells::Doubled.columns(&Mesh::new(2, 7, 3, 0.010, 0.011).unwrap()), None);
         let numbers = |columns: usize| (0..2 * columns).map(|number| number as f64).collect();
         let finest =
             InitialSurfaces { disc_height: numbers(12), pin_height: numbers(6), pin_base: vec![Base::Primary; 12] };
