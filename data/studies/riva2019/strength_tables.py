@@ -1,0 +1,203 @@
+"""The tables of strength, levels and what the paper does not give, from strength.json, and of the mesh, from mesh.json."""
+
+import json
+from pathlib import Path
+
+from discs import NAMES
+from tables import RESULTS, head, row, shown, value, with_interval
+
+HERE = Path(__file__).parent
+RESULTS |= {
+    "strength": json.loads((HERE / "strength.json").read_text()),
+    "mesh": json.loads((HERE.parent / "mesh/mesh.json").read_text()),
+}
+#: No strength is asked for as one that nothing reaches.
+NONE = 1e12
+
+#: What tables of strengths have of each disc: heading, key, factor, form.
+OF_STRENGTHS = [
+    ("filled, %", "filled", 100, ".1f"),
+    ("secondary, %: disc", "disc_secondary", 100, ".1f"),
+    ("pin", "pin_secondary", 100, ".1f"),
+    ("area, mm²", "contact_area_mean", 1e6, ".2f"),
+    ("Gini", "pressure_gini", 1, ".3f"),
+    ("run-in, s", "run_in", 1, ".0f"),
+    ("wear at first", "first_wear", 1e13, ".2f"),
+    ("… at the end", "wear", 1e13, ".2f"),
+    ("emitted, mm³", "emitted", 1e9, ".2f"),
+]
+#: Claims of strength.py, in the words of the table.
+CLAIMS = {
+    "filled as in the paper": "1, near the paper's",
+    "less on the rough disc": "2, rough against both smooth ones",
+    "less on the rough disc's pin": "3, rough against both smooth ones",
+    "more even pressure": "5",
+    "lower contact area": "6",
+    "longer run-in": "7, first half",
+    "wears more on the rough disc": "Federici: smoother discs wear less",
+    "wear falls": "Federici: wear falls, rough disc",
+    "wear falls, heights / 10": "… heights / 10",
+    "emits more on the rough disc": "smoother discs emit less",
+}
+
+
+def named(strength: str) -> str:
+    """A strength as tables have it."""
+    return "none" if float(strength) >= NONE else f"{float(strength) / 1e6:g} MPa"
+
+
+def strengths(part: str = "strengths") -> dict[str, dict]:
+    """What was found of every strength, the lowest first."""
+    return dict(sorted(value(f"strength/{part}").items(), key=lambda one: float(one[0])))
+
+
+def of_discs(found: dict[str, dict], label: str) -> str:
+    """Rows of the three discs with one setting."""
+    text = ""
+    for heights, name in NAMES.items():
+        means = found["means"][heights]
+        text += row(label, name, *(with_interval(means[key], factor, form) for _, key, factor, form in OF_STRENGTHS))
+    return text
+
+
+def table_strengths() -> str:
+    """Means over sets of surfaces of every strength and disc after 3000 s."""
+    text = head("strength", "disc", *(heading for heading, *_ in OF_STRENGTHS))
+    return text + "".join(of_discs(found, named(strength)) for strength, found in strengths().items())
+
+
+def table_strength_claims() -> str:
+    """In how many sets of surfaces each claim holds with each strength."""
+    found = strengths()
+    text = head("claim; in how many sets", *map(named, found))
+    for claim, words in CLAIMS.items():
+        text += row(words, *(f"{of['holds'][claim][0]} of {of['holds'][claim][1]}" for of in found.values()))
+    return text
+
+
+def table_counterface() -> str:
+    """Means with a quarter of the wear rate against build-up."""
+    text = head("strength", "disc", *(heading for heading, *_ in OF_STRENGTHS))
+    return text + "".join(of_discs(found, named(strength)) for strength, found in strengths("counterface").items())
+
+
+def table_levels() -> str:
+    """Contact area at the end of long runs, by the wear rate of the disc's build-up."""
+    text = head("area of the last tenth, mm²; filled, %", *NAMES.values())
+
+    def cells(discs: dict[str, dict]) -> list[str]:
+        return [f"{with_interval(discs[of]['contact_area_mean'], 1e6, '.2f')}; {with_interval(discs[of]['filled'], 100, '.1f')}" for of in NAMES]
+
+    for discs in value("strength/levels").values():
+        text += row("plain rule, 30 000 s, three sets", *cells(discs))
+    for rate, discs in sorted(value("strength/steady").items(), key=lambda one: float(one[0])):
+        text += row(f"5 MPa and 200 µm, 15 000 s, build-up on the disc wears at {shown(float(rate), 'g')} 1/Pa", *cells(discs))
+    return text
+
+
+def table_unknowns() -> str:
+    """Filling with other correlation lengths and fibre fractions."""
+    text = head("correlation length, fibre fraction: filled, %", *NAMES.values())
+    for name, discs in value("strength/unknowns").items():
+        text += row(name, *(with_interval(discs[heights], 100, ".1f") for heights in NAMES))
+    return text
+
+
+#: What is told of the paper's pin with and without a strength, and its claims in claims.py.
+OF_FULL = [
+    ("1", "filled, %", "filled", 100, ".1f", "filled in order"),
+    ("2", "disc, secondary by status, %", "disc_secondary", 100, ".1f", "more on the disc"),
+    ("3", "pin, secondary by status, %", "pin_covered", 100, ".1f", "more on the pin, by status"),
+    ("4", "Sq of the fibres, nm", "sq_fibres", 1e9, ".0f", "smoother fibres"),
+    ("4", "Sq of the whole pin, µm", "sq_pin", 1e6, ".2f", "smoother pin"),
+    ("5", "Gini coefficient", "pressure_gini", 1, ".3f", "more even pressure"),
+    ("6", "contact area, mm²", "contact_area_mean", 1e6, ".2f", "lower contact area"),
+    ("7", "run-in, to 90 %, s", "run_in", 1, ".0f", "longer run-in"),
+    ("8", "inner less outer half, points", "inner_over_outer", 100, ".1f", "fuller inside"),
+]
+
+
+def table_full() -> str:
+    """The paper's pin with a transport length, with and without a strength: means, and in how many sets the order is strict."""
+    kinds = {"length": "no strength", "strength": "5 MPa"}
+    sets = value("strength/full/strength/sets")
+    text = head("claim", f"after 3000 s, {sets} sets", *(cell for name in kinds.values() for cell in (name, "in order in")))
+    for number, words, key, factor, form, claim in OF_FULL:
+        cells = []
+        for kind in kinds:
+            found = value(f"strength/full/{kind}")
+            cells.append(", ".join(with_interval(found["means"][heights][key], factor, form) for heights in NAMES))
+            cells.append(str(found["holds"][claim]["hits"]))
+        text += row(number, words, *cells)
+    late = [
+        ", ".join(with_interval(value(f"strength/full/{kind}/late/{heights}/filled"), 100, ".1f") for heights in NAMES) for kind in kinds
+    ]
+    return text + row("8", "filled after 7200 s, %", late[0], "", late[1], "")
+
+
+#: Quantities of the mesh: heading, key, factor, form.
+OF_MESH = [
+    ("filled, %", "filled", 100, ".1f"),
+    ("contact ratio, %", "contact_ratio", 100, ".1f"),
+    ("run-in, s", "run_in", 1, ".0f"),
+    ("pin, secondary, %", "pin_secondary", 100, ".1f"),
+    ("Gini", "pressure_gini", 1, ".3f"),
+]
+CELLS = ("100", "50", "25", "12.5")
+
+
+def with_error(found: list[float] | None, factor: float, form: str) -> str:
+    """Mean ± standard error; nothing where there is none."""
+    if not found:
+        return ""
+    mean, error, _ = found
+    return shown(mean * factor, form) + ("" if error is None else f" ± {shown(error * factor, form)}")
+
+
+def table_mesh(length: str, keys: tuple[str, ...]) -> str:
+    """Quantities on every mesh, and their change by the last halvings, with one transport length or the plain rule."""
+    cells = [cell for cell in CELLS if cell in value(f"mesh/values/{length}/1")]
+    halvings = [f"{coarse} to {fine}" for coarse, fine in zip(cells, cells[1:], strict=False)]
+    text = head("quantity", "disc", *(f"{cell} µm" for cell in cells), *(f"{halving} µm, %" for halving in halvings[-2:]))
+    for heading, key, factor, form in OF_MESH:
+        for heights, name in NAMES.items() if key in keys else ():
+            of = value(f"mesh/values/{length}/{heights}")
+            changes = value(f"mesh/changes/{length}/{heights}")
+            values = (with_error(of.get(cell, {}).get(key), factor, form) for cell in cells)
+            text += row(heading, name, *values, *(with_error(changes.get(halving, {}).get(key), 100, ".1f") for halving in halvings[-2:]))
+    return text
+
+
+def table_mesh_200() -> str:
+    """All quantities with a transport length of 200 um."""
+    return table_mesh("200", tuple(key for _, key, *_ in OF_MESH))
+
+
+def table_mesh_150() -> str:
+    """Filling and contact with a transport length of 150 um."""
+    return table_mesh("150", ("filled", "contact_ratio"))
+
+
+def table_mesh_100() -> str:
+    """Filling and contact with a transport length of 100 um."""
+    return table_mesh("100", ("filled", "contact_ratio"))
+
+
+def table_mesh_none() -> str:
+    """Filling and contact with the plain rule."""
+    return table_mesh("none", ("filled", "contact_ratio"))
+
+
+def table_mesh_numerics() -> str:
+    """What rows of half the size change, and what the time acceleration of 100 does."""
+    names = {key: heading.split(",")[0] for heading, key, *_ in OF_MESH}
+    text = head("change, %", "disc", *names.values())
+    for heights, name in NAMES.items():
+        for cell, change in value(f"mesh/rows/{heights}").items():
+            if change:
+                text += row(f"rows of 25 instead of 50 µm, cells of {cell} µm", name, *(with_error(change[key], 100, ".1f") for key in names))
+    for heights, name in NAMES.items():
+        change = value(f"mesh/acceleration/{heights}")
+        if change:
+            text += row("m = 100 instead of 1, one set", name, *(with_error(change[key], 100, ".1f") for key in names))
+    return text
