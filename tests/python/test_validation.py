@@ -20,6 +20,7 @@ import history  # noqa: E402, where the study is
 import make_points  # noqa: E402, where the study is
 import maps  # noqa: E402, where the study is
 import measures  # noqa: E402
+import strength  # noqa: E402, where the study is
 import tables  # noqa: E402, where the study is
 import write_docs  # noqa: E402, where the study is
 
@@ -144,6 +145,45 @@ class Friction(unittest.TestCase):
         self.assertAlmostEqual(mean, 0.2)
         self.assertAlmostEqual(half, 1.27062, places=4)
         self.assertEqual(friction.order(values)["hits"], 2)
+
+
+class Strength(unittest.TestCase):
+    """A pin of which 2 mm³ are worn per metre in the first 300 s, 1 mm³ later, at 2 m/s and 11.7 N."""
+
+    time = np.arange(10.0, 3001.0, 10.0)
+    series = {
+        "time": time,
+        "sliding_distance": 2 * time,
+        "worn_whole_pin": 1e-9 * (2 * time + 2 * np.minimum(time, 300.0)),
+        "emitted": 1e-9 * time,
+        "contact_area_integral": 10e-6 * time,
+        "filled_fraction": time / 3000,
+        **{name: time for name in ("worn_pin", "worn_resin", "worn_disc", "deposited_pin", "deposited_disc")},
+    }
+
+    def test_wear_at_first_and_at_the_end(self) -> None:
+        found = strength.numbers(self.series, 3000.0)
+        self.assertAlmostEqual(found["first_wear"] * 11.7 * 1e9, 2.0)
+        self.assertAlmostEqual(found["wear"] * 11.7 * 1e9, 1.0)
+        self.assertAlmostEqual(found["emitted"], 3e-6)
+
+    def test_claims_are_counted_over_sets(self) -> None:
+        keys = ("filled", "disc_secondary", "pin_secondary", "pressure_gini", "contact_area_mean", "run_in", "wear", "first_wear", "emitted")
+        # In the first set everything falls from disc to disc, in the second everything is equal.
+        discs = {heights: [dict.fromkeys(keys, value), dict.fromkeys(keys, 1.0)] for heights, value in (("1", 3.0), ("0.1", 2.0), ("0.01", 1.0))}
+        held = {name: found[0] for name, found in strength.holds(discs).items()}
+        falling = ("more even pressure", "longer run-in", "wears more on the rough disc", "emits more on the rough disc")
+        self.assertEqual(held, {name: 1 if name in falling else 0 for name in held})
+
+
+class Mesh(unittest.TestCase):
+    def test_every_mesh_has_the_same_surfaces(self) -> None:
+        """Columns of each mesh divide those of the finest, on disc and pin alike, and every file of a table is one that is made."""
+        lines = [line.split(",") for line in (STUDY.parent / "mesh/length.csv").read_text().splitlines()[1:]]
+        self.assertEqual(len(lines), 3 * 3 * (3 * 10 + 3) + 2 * 3 * 3 + 3)
+        for file, _, disc, pin, rows, _, _ in lines:
+            self.assertEqual((2768 % int(disc), 2768 // int(disc)), (0, 160 // int(pin)))
+            self.assertRegex(file, rf"^surfaces/set-([1-9]|10)-columns-{disc}-rows-{rows}\.h5$")
 
 
 class RunFiles(InFolder):

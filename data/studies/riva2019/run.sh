@@ -1,7 +1,7 @@
 #!/bin/sh
 # The whole study: runs without time acceleration of the paper's three discs with local and with pooled debris, sets of surfaces,
-# checks of symmetry, and what the local rule rests on; then all numbers, figures and tables. Takes two hours or more on two
-# cores. Called again after it was stopped, it goes on.
+# checks of symmetry, what the local rule rests on, and what a strength of the build-up does; then all numbers, figures and tables.
+# Takes four hours or more on two cores. Called again after it was stopped, it goes on.
 #
 # usage: data/studies/riva2019/run.sh [--keep-pooled]
 #   --keep-pooled  without the runs with pooled debris and without time acceleration: their numbers are those that were kept in
@@ -92,6 +92,20 @@ of_the_rig() {
     done
 }
 
+of_strength() {
+    for scale in 1 0.1 0.01; do
+        for seed in 1 2 3; do
+            with_set strength "strength-$seed-$scale" "$seed" "$seed" "$scale"
+            # A strength that nothing reaches: none.
+            with_set strength "length-$seed-$scale" "$seed" "$seed" "$scale" \
+                --set 'materials.pin_secondary.strength="1e6 MPa"'
+        done
+    done
+}
+
+# Studies of a few runs to some hundred, which take both cores.
+studies="open-questions ../strength unknowns counterface steady levels"
+
 # One core each: the longest runs, and all else.
 (
     of_the_model
@@ -104,17 +118,21 @@ long=$!
     of_symmetry
     of_sets
     of_the_rig
+    of_strength
     "$root/.venv-study/bin/python" -B "$study/variants.py" || exit 1
     "$program" sweep run "$study/open-questions.toml" --jobs 1 --task 2/2 >/dev/null 2>"$runs/open-questions-2.log"
 ) || die 'the study is not complete; call this again to go on'
 wait $long || die 'the baseline is not complete; call this again to go on'
-"$program" sweep run "$study/open-questions.toml" --jobs 2 >/dev/null || die 'call this again to go on'
-"$program" sweep collect "$study/open-questions.toml" >/dev/null || exit 1
+for name in $studies; do
+    "$program" sweep run "$study/$name.toml" --jobs 2 >/dev/null || die 'call this again to go on'
+    "$program" sweep collect "$study/$name.toml" >/dev/null || exit 1
+done
 
 # shellcheck disable=SC2086
 {
     $python "$study/evaluate.py" || exit 1
     $python "$study/round_pin.py" || exit 1
+    $python "$study/strength.py" || exit 1
     $python "$study/write_docs.py" || exit 1
 }
 exec "$study/figures.sh"

@@ -31,7 +31,7 @@ CLAIMS = {
     "filled as in the paper": "1, near the paper's",
     "less on the rough disc": "2, rough against both smooth ones",
     "less on the rough disc's pin": "3, rough against both smooth ones",
-    "more even pressure": "5",
+    "more even pressure": "5, rough against both smooth ones",
     "lower contact area": "6",
     "longer run-in": "7, first half",
     "wears more on the rough disc": "Federici: smoother discs wear less",
@@ -152,6 +152,22 @@ def with_error(found: list[float] | None, factor: float, form: str) -> str:
         return ""
     mean, error, _ = found
     return shown(mean * factor, form) + ("" if error is None else f" ± {shown(error * factor, form)}")
+
+
+def change(length: str, heights: str, what: str) -> str:
+    """A change by a halving of the cell, such as `50 to 25 filled`, with its sign."""
+    halving, key = what.rsplit(maxsplit=1)
+    found = value(f"mesh/changes/{length}/{heights}/{halving}/{key}")
+    return f"{shown(100 * found[0], '+.1f')} ± {shown(100 * found[1], '.1f')} %"
+
+
+def table_lengths() -> str:
+    """Filling with every rule on the mesh of 25 um."""
+    text = head("filled, %, cells of 25 µm", *NAMES.values())
+    names = {"200": "200 µm", "150": "150 µm", "100": "100 µm", "none": "one cell"}
+    for length, name in names.items():
+        text += row(name, *(with_error(value(f"mesh/values/{length}/{heights}/25/filled"), 100, ".1f") for heights in NAMES))
+    return text
 
 
 def table_mesh(length: str, keys: tuple[str, ...]) -> str:

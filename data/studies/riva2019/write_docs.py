@@ -1,11 +1,12 @@
-"""Writes the numbers of results.json into documents: docs/evidence/validation.md and the first screen of README.md.
+"""Writes the numbers of results.json, strength.json and mesh.json into documents: docs/evidence/validation.md, mesh.md and the first
+screen of README.md.
 
 usage: write_docs.py [--check]: with --check only says whether they agree, as exit status
 
 Templates have `{{path}}`, `{{path|format}}` and `{{path|factor|format}}`: a path in results.json, a factor and a Python
-format; with `*` in the path for the three discs, one after the other. `{{table NAME}}` is one of tables.py or friction_tables.py, `{{m runs}}` the
+format; with `*` in the path for the three discs, one after the other. `{{table NAME}}` is one of tables.py, friction_tables.py or strength_tables.py, `{{m runs}}` the
 time acceleration of a part of the study; between `{{if PATH}}`, `{{else}}` and `{{end}}` stands what depends on a part that may
-not be there yet; `{{last tenth HEIGHTS END}}` is the mean contact area of a run at m = 1 over the last tenth of the time to its end, mm².
+not be there yet; `{{change LENGTH HEIGHTS HALVING QUANTITY}}` is one of the mesh; `{{last tenth HEIGHTS END}}` is the mean contact area of a run at m = 1 over the last tenth of the time to its end, mm².
 """
 
 import re
@@ -13,6 +14,7 @@ import sys
 from pathlib import Path
 
 import friction_tables
+import strength_tables
 import tables
 from discs import NAMES
 from tables import last_tenth, m_of, told, value
@@ -50,9 +52,12 @@ def filled_in(template: str) -> str:
         what = match.group(1)
         if what.startswith("table "):
             name = "table_" + what.removeprefix("table ")
-            return getattr(friction_tables if hasattr(friction_tables, name) else tables, name)().rstrip("\n")
+            module = next(of for of in (friction_tables, strength_tables, tables) if hasattr(of, name))
+            return getattr(module, name)().rstrip("\n")
         if what.startswith("m "):
             return m_of(what.removeprefix("m "))
+        if what.startswith("change "):
+            return strength_tables.change(*what.removeprefix("change ").split(maxsplit=2))
         if what.startswith("last tenth "):
             heights, end = what.removeprefix("last tenth ").split()
             return last_tenth(heights, float(end))
@@ -75,6 +80,7 @@ def documents() -> dict[Path, str]:
     found = filled_in((HERE / "readme.md.in").read_text())
     return {
         ROOT / "docs/evidence/validation.md": filled_in((HERE / "validation.md.in").read_text()),
+        ROOT / "docs/evidence/mesh.md": filled_in((HERE.parent / "mesh/mesh.md.in").read_text()),
         readme: before + MARKS[0] + found + MARKS[1] + after,
     }
 
