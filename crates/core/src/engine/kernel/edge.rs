@@ -80,10 +80,8 @@ impl Edge {
 /// What eight cells must know of the cells ahead of them in their rows, at the start of a step.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Reach {
-    /// z_p of the next column after wear and before any deposit, m.
+    /// z_p of the next column after wear and before any deposit, m; out of reach where it was no plateau.
     pub height: Chunk,
-    /// Which cells of the next column were plateaus, one bit each.
-    pub plateau: u8,
     /// v̄ of the edge that the next column is fed from, m.
     pub share: Chunk,
     /// How many more cells it feeds.
@@ -99,8 +97,7 @@ impl Reach {
     pub fn none(columns: usize) -> Self {
         let zero = Chunk([0.0; LANES]);
         Self {
-            height: zero,
-            plateau: 0,
+            height: Chunk([f64::INFINITY; LANES]),
             share: zero,
             remaining: zero,
             touches: vec![0; columns],
@@ -110,16 +107,15 @@ impl Reach {
 
     /// Words of one on its way to another worker.
     pub fn words(columns: usize) -> usize {
-        3 * LANES + 1 + columns * (LANES + 1)
+        3 * LANES + columns * (LANES + 1)
     }
 
     /// Writes it for another worker.
     pub fn write(&self, words: &mut Vec<u64>) {
-        let Self { height, plateau, share, remaining, touches, lost } = self;
+        let Self { height, share, remaining, touches, lost } = self;
         for chunk in [height, share, remaining].into_iter().chain(lost) {
             words.extend(chunk.0.map(f64::to_bits));
         }
-        words.push(u64::from(*plateau));
         words.extend(touches.iter().map(|touches| u64::from(*touches)));
     }
 
@@ -132,10 +128,9 @@ impl Reach {
         let [height, share, remaining] = [next(), next(), next()];
         Self {
             height,
-            plateau: bytes[0] as u8,
             share,
             remaining,
-            touches: bytes[1..].iter().map(|word| *word as u8).collect(),
+            touches: bytes.iter().map(|word| *word as u8).collect(),
             lost: (0..columns).map(|_| next()).collect(),
         }
     }

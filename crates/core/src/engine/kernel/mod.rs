@@ -26,5 +26,5 @@ pub(crate) use pass::{Pass, pass};
 pub(crate) use read::{Read, Span, read};
 pub(crate) use reading::{Bracket, NearPair, Reading, told_apart};
 pub(crate) use rules::{Conditions, Rules};
-pub(crate) use transport::{Transport, transport};
+pub(crate) use transport::{ReachOf, reach_of};
 pub(crate) use worn_pair::{WearColumn, wear_column};

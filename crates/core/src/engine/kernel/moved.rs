@@ -1,6 +1,7 @@
 //! What a pass moved, row by row.
 
 use super::pairs::lanes_of;
+use super::rules::StripRules;
 use crate::engine::exact::RowIntegers;
 use crate::engine::lanes::{Chunk, IntegerChunk, Integers, LANES, Lanes};
 use crate::engine::parts::build_up;
@@ -76,7 +77,7 @@ impl Moved {
     }
 }
 
-/// The losses of a strip while it wears; only where build-up has properties of its own.
+/// The losses of a strip while it wears, anchored; only where build-up has properties of its own.
 #[derive(Clone, Copy)]
 pub(super) struct StripMoved<L: Lanes> {
     pub lost_pin: [L::Integers; 2],
@@ -91,14 +92,23 @@ impl<L: Lanes> StripMoved<L> {
         Self { lost_pin: [zero; 2], lost_disc: [zero; 2] }
     }
 
-    /// Adds the sums of the strip to the others.
+    /// Adds the sums of the strip, with a term for each of so many columns, to the others.
     #[inline(always)]
-    pub fn store<const BUILD_UP: u8>(self, strip: usize, moved: &mut Moved) {
+    pub fn store<const BUILD_UP: u8, const DISC_WEARS: bool>(
+        self,
+        rules: &StripRules<L>,
+        strip: usize,
+        columns: usize,
+        moved: &mut Moved,
+    ) {
         if BUILD_UP == build_up::DISTINCT {
+            let (pin, disc) = (rules.losses(self.lost_pin, columns), rules.losses(self.lost_disc, columns));
             let mut size = 0;
             while size < 2 {
-                add::<L>(&mut moved.lost_pin[size].0[strip], self.lost_pin[size]);
-                add::<L>(&mut moved.lost_disc[size].0[strip], self.lost_disc[size]);
+                add::<L>(&mut moved.lost_pin[size].0[strip], pin[size]);
+                if DISC_WEARS {
+                    add::<L>(&mut moved.lost_disc[size].0[strip], disc[size]);
+                }
                 size += 1;
             }
         }

@@ -98,6 +98,16 @@ impl<L: Lanes> Entries<L> {
     pub fn plateau(&self) -> L {
         self.0[PLATEAU]
     }
+
+    /// The entries of plateaus, by whether pin and disc are secondary.
+    #[inline(always)]
+    pub fn plateaus<const BUILD_UP: u8>(&self, [pin, disc]: [L::Mask; 2]) -> L {
+        if BUILD_UP != build_up::DISTINCT {
+            return self.plateau();
+        }
+        let on_coating = L::select(pin, self.0[4], self.0[2]);
+        L::select(disc, L::select(pin, self.0[5], self.0[3]), on_coating)
+    }
 }
 
 /// The index of one of eight pairs, from their statuses as bytes.

@@ -8,6 +8,7 @@
 //!
 //! In most steps nothing out of the ordinary happens to most cells. Eight such cells at a time are done with few
 //! instructions ([`super::ordinary`]), which also show where something else happens; those eight are then done by all rules.
+//! Where debris has a transport length, [`super::transport`] does all of this, from the last column to the first.
 
 use super::deposit::{COLUMNS, deposit};
 use super::edge::Edge;
@@ -19,7 +20,8 @@ use super::read::Span;
 use super::reading::{Reading, StripReading};
 use super::rules::{Conditions, Rules, StripRules};
 use super::strip::{Behind, Strip};
-use super::worn::{Cells, wear};
+use super::transport::pass_against_sliding;
+use super::worn::{Worn, wear, wear_ordinary};
 use crate::engine::lanes::{Chunk, LANES, Lanes, Mask};
 use crate::engine::parts::{Needs, build_up};
 use crate::engine::pin_strips::PinStrips;
@@ -36,6 +38,7 @@ pub type Pass =
 /// The pass that does what a scene needs and nothing else; chosen once per run.
 pub fn pass(needs: Needs) -> Pass {
     match (needs.build_up(), needs.disc_wears) {
+        _ if needs.transport.is_some() => with_build_up!(needs, pass_against_sliding),
         (build_up::NONE, false) => pass_over_span::<{ build_up::NONE }, false>,
         (build_up::NONE, true) => pass_over_span::<{ build_up::NONE }, true>,
         _ => with_build_up!(needs, pass_over_span),
@@ -72,8 +75,7 @@ fn pass_over_strips<L: Lanes, const BUILD_UP: u8, const DISC_WEARS: bool>(
         let mut strip = Strip::new::<L, BUILD_UP>(index, pin, disc, span, joined);
         let strip_rules = StripRules::<L>::new(rules, conditions, index);
         let (mut strip_moved, mut next) = (StripMoved::<L>::new(), StripReading::<L, BUILD_UP>::new());
-        // Over a transport length it has been compacted before the pass.
-        let deposits = BUILD_UP != build_up::NONE && rules.transport.is_none();
+        let deposits = BUILD_UP != build_up::NONE;
         let edge = Edge::strip(conditions.ahead.filter(|_| deposits), index);
         if deposits {
             strip.pin.touches[span.columns] = edge.touches;
@@ -113,7 +115,7 @@ fn pass_over_strips<L: Lanes, const BUILD_UP: u8, const DISC_WEARS: bool>(
                 column += 1;
             }
         }
-        strip_moved.store::<BUILD_UP>(index, moved);
+        strip_moved.store::<BUILD_UP, DISC_WEARS>(&strip_rules, index, some.len(), moved);
         next.store(index, reading);
     }
 }
@@ -131,29 +133,15 @@ fn update<L: Lanes, const BUILD_UP: u8, const DISC_WEARS: bool>(
     next: &mut StripReading<L, BUILD_UP>,
     reading: &mut Reading,
 ) -> Behind<L> {
-    let fields = [&*strip.pin.height, &*strip.pin.substrate, &*strip.disc_height, &*strip.disc_substrate];
-    let cells = Cells::<L>::load::<BUILD_UP, DISC_WEARS>(fields, strip.pin.resin[column], [column, column]);
-    let worn = wear::<L, BUILD_UP, DISC_WEARS>(rules, cells);
-    if BUILD_UP == build_up::DISTINCT {
-        moved.lost_pin = rules.plus_loss(moved.lost_pin, worn.lost_pin);
-        if DISC_WEARS {
-            moved.lost_disc = rules.plus_loss(moved.lost_disc, worn.lost_disc);
-        }
-    } else if worn.worn_through.any() {
-        let (mut heights, mut gaps) = (Chunk([0.0; LANES]), Chunk([0.0; LANES]));
-        (worn.b_p - cells.z_p).store(&mut heights);
-        (cells.z_p - cells.z_d).store(&mut gaps);
-        note_worn_through(seldom, &heights, &gaps, worn.worn_through.byte(), rules.strip);
-    }
-    if (BUILD_UP == build_up::BRITTLE || BUILD_UP == build_up::DISTINCT) && worn.broken.any() {
-        let mut heights = Chunk([0.0; LANES]);
-        (worn.b_p - worn.z_p).store(&mut heights);
-        note_broken(seldom, &heights, worn.broken.byte(), rules.strip);
-    }
+    let worn = if BUILD_UP == build_up::DISTINCT {
+        wear_column::<L, BUILD_UP, DISC_WEARS>(rules, strip, column, moved, seldom)
+    } else {
+        wear_any::<L, BUILD_UP, DISC_WEARS>(rules, strip, column, seldom)
+    };
     let nothing = L::Mask::of_byte(0);
     let (mut z_p, mut pin_secondary) = (worn.z_p, nothing);
     if BUILD_UP != build_up::NONE {
-        z_p = L::select(worn.worn_through | worn.broken, worn.b_p, z_p);
+        z_p = worn.height();
         let b_p = worn.b_p.greater(z_p);
         b_p.store(&mut strip.pin.substrate[column]);
         pin_secondary = z_p.below(b_p);
@@ -173,4 +161,53 @@ fn update<L: Lanes, const BUILD_UP: u8, const DISC_WEARS: bool>(
     strip.pin.touches[column] = next.add(z_p - behind.height, pairs, &rules.bracket, place, reading).byte();
     let secondary = if BUILD_UP == build_up::DISTINCT { worn.b_d.below(worn.z_d) } else { nothing };
     Behind { height: worn.z_d, secondary }
+}
+
+/// Wears the eight cells of a column, with few instructions where nothing out of the ordinary happens to them, and notes what
+/// they lose.
+#[inline(always)]
+pub(super) fn wear_column<L: Lanes, const BUILD_UP: u8, const DISC_WEARS: bool>(
+    rules: &StripRules<L>,
+    strip: &Strip,
+    column: usize,
+    moved: &mut StripMoved<L>,
+    seldom: &mut Vec<SeldomEvent>,
+) -> Worn<L> {
+    let bytes = [strip.pin.touches[column], strip.pin.plateau[column], strip.pin.resin[column]];
+    let cells = strip.cells::<L, BUILD_UP, DISC_WEARS>(column);
+    let worn = match wear_ordinary::<L, BUILD_UP, DISC_WEARS>(rules, cells, bytes) {
+        Some(worn) => worn,
+        None => wear_any::<L, BUILD_UP, DISC_WEARS>(rules, strip, column, seldom),
+    };
+    if BUILD_UP == build_up::DISTINCT {
+        moved.lost_pin = rules.plus_loss(moved.lost_pin, worn.lost_pin);
+        if DISC_WEARS {
+            moved.lost_disc = rules.plus_loss(moved.lost_disc, worn.lost_disc);
+        }
+    }
+    worn
+}
+
+/// Wears the eight cells of a column, and notes what happens to few of them.
+#[inline(always)]
+fn wear_any<L: Lanes, const BUILD_UP: u8, const DISC_WEARS: bool>(
+    rules: &StripRules<L>,
+    strip: &Strip,
+    column: usize,
+    seldom: &mut Vec<SeldomEvent>,
+) -> Worn<L> {
+    let cells = strip.cells::<L, BUILD_UP, DISC_WEARS>(column);
+    let worn = wear::<L, BUILD_UP, DISC_WEARS>(rules, cells);
+    if BUILD_UP != build_up::DISTINCT && worn.worn_through.any() {
+        let (mut heights, mut gaps) = (Chunk([0.0; LANES]), Chunk([0.0; LANES]));
+        (worn.b_p - cells.z_p).store(&mut heights);
+        (cells.z_p - cells.z_d).store(&mut gaps);
+        note_worn_through(seldom, &heights, &gaps, worn.worn_through.byte(), rules.strip);
+    }
+    if (BUILD_UP == build_up::BRITTLE || BUILD_UP == build_up::DISTINCT) && worn.broken.any() {
+        let mut heights = Chunk([0.0; LANES]);
+        (worn.b_p - worn.z_p).store(&mut heights);
+        note_broken(seldom, &heights, worn.broken.byte(), rules.strip);
+    }
+    worn
 }

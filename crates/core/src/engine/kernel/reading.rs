@@ -121,7 +121,7 @@ struct Stand<L: Lanes> {
     near: L::Mask,
 }
 
-/// The sums of a strip while it is read.
+/// The sums of a strip while it is read; those of resin, which seldom touches, are not among them.
 #[derive(Clone, Copy)]
 pub(super) struct StripReading<L: Lanes, const BUILD_UP: u8> {
     overlap: [L::Integers; StatusPair::COUNT],
@@ -156,18 +156,27 @@ impl<L: Lanes, const BUILD_UP: u8> StripReading<L, BUILD_UP> {
         reading: &mut Reading,
     ) -> L::Mask {
         let Stand { overlap, touches, near } = self.face(gap, bracket);
+        let resin = touches & pairs.resin();
+        let plateaus = touches & !pairs.resin();
         if BUILD_UP == build_up::DISTINCT {
-            let mut pair = 0;
-            while pair < StatusPair::COUNT {
-                self.overlap[pair] = self.overlap[pair].plus_where(touches & pairs.are(pair), overlap);
-                pair += 1;
-            }
+            let Pairs { pin_secondary, disc_secondary, .. } = pairs;
+            let (on_coating, on_debris) = (plateaus & !disc_secondary, plateaus & disc_secondary);
+            let [_, _, a, b, c, d] = self.overlap;
+            self.overlap[2] = a.plus_where(on_coating & !pin_secondary, overlap);
+            self.overlap[3] = b.plus_where(on_debris & !pin_secondary, overlap);
+            self.overlap[4] = c.plus_where(on_coating & pin_secondary, overlap);
+            self.overlap[5] = d.plus_where(on_debris & pin_secondary, overlap);
         } else {
-            let resin = touches & pairs.resin();
-            self.overlap[PLATEAU] = self.overlap[PLATEAU].plus_where(touches & !pairs.resin(), overlap);
-            if resin.any() {
-                let sum = &mut reading.overlap[RESIN].0[strip];
-                L::Integers::load(sum).plus_where(resin, overlap).store(sum);
+            self.overlap[PLATEAU] = self.overlap[PLATEAU].plus_where(plateaus, overlap);
+        }
+        // Seldom.
+        if resin.any() {
+            let mut pair = RESIN;
+            while pair < PLATEAU && (pair == RESIN || BUILD_UP == build_up::DISTINCT) {
+                let of_pair = if BUILD_UP == build_up::DISTINCT { touches & pairs.are(pair) } else { resin };
+                let sum = &mut reading.overlap[pair].0[strip];
+                L::Integers::load(sum).plus_where(of_pair, overlap).store(sum);
+                pair += 1;
             }
         }
         if near.any() {
@@ -190,7 +199,7 @@ impl<L: Lanes, const BUILD_UP: u8> StripReading<L, BUILD_UP> {
     /// Adds the sums of the strip to the others.
     #[inline(always)]
     pub fn store(self, strip: usize, reading: &mut Reading) {
-        let mut pair = 0;
+        let mut pair = PLATEAU;
         while pair < StatusPair::COUNT {
             if BUILD_UP == build_up::DISTINCT || pair == PLATEAU {
                 let overlap = &mut reading.overlap[pair].0[strip];

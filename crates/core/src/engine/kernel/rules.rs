@@ -97,6 +97,7 @@ pub struct Conditions<'a> {
 /// Rules and conditions of a strip, for eight cells at a time.
 pub(super) struct StripRules<'a, L: Lanes> {
     pub rules: &'a Rules,
+    pub conditions: &'a Conditions<'a>,
     /// Strip of the mesh.
     pub strip: usize,
     pub zero: L,
@@ -110,10 +111,11 @@ pub(super) struct StripRules<'a, L: Lanes> {
 
 impl<'a, L: Lanes> StripRules<'a, L> {
     #[inline(always)]
-    pub fn new(rules: &'a Rules, conditions: &Conditions, strip: usize) -> Self {
+    pub fn new(rules: &'a Rules, conditions: &'a Conditions, strip: usize) -> Self {
         let strip = conditions.first_strip + strip;
         Self {
             rules,
+            conditions,
             strip,
             zero: L::splat(0.0),
             displacement: L::splat(conditions.displacement),
@@ -153,18 +155,37 @@ impl<'a, L: Lanes> StripRules<'a, L> {
         L::splat(self.rules.wear_height)
     }
 
-    /// A sum of deposits in quanta, with another deposit.
+    /// A sum of anchored deposits, with another.
     #[inline(always)]
     pub fn plus_deposit(&self, sum: L::Integers, height: L) -> L::Integers {
-        sum.plus((self.deposit_anchor + height).bits().minus(self.deposit_anchor.bits()))
+        sum.plus((self.deposit_anchor + height).bits())
     }
 
-    /// Sums of losses in coarse quanta, and of what those leave in fine ones, with another loss.
+    /// What a sum of so many anchored deposits is in quanta.
+    #[inline(always)]
+    pub fn deposits(&self, sum: L::Integers, terms: usize) -> L::Integers {
+        without(sum, self.conditions.deposit_quantum, terms)
+    }
+
+    /// Sums of losses anchored in coarse quanta, and of what those leave in fine ones, with another loss.
     #[inline(always)]
     pub fn plus_loss(&self, [coarse, fine]: [L::Integers; 2], height: L) -> [L::Integers; 2] {
         let [coarse_anchor, fine_anchor] = self.loss_anchors;
         let anchored = coarse_anchor + height;
         let rest = fine_anchor + (height - (anchored - coarse_anchor));
-        [coarse.plus(anchored.bits().minus(coarse_anchor.bits())), fine.plus(rest.bits().minus(fine_anchor.bits()))]
+        [coarse.plus(anchored.bits()), fine.plus(rest.bits())]
     }
+
+    /// What sums of so many anchored losses are in quanta.
+    #[inline(always)]
+    pub fn losses(&self, [coarse, fine]: [L::Integers; 2], terms: usize) -> [L::Integers; 2] {
+        let [coarse_quantum, fine_quantum] = self.conditions.loss_quanta;
+        [without(coarse, coarse_quantum, terms), without(fine, fine_quantum, terms)]
+    }
+}
+
+/// A sum of so many terms without their anchors.
+#[inline(always)]
+fn without<I: Integers>(sum: I, quantum: Quantum, terms: usize) -> I {
+    sum.minus(I::splat((quantum.anchor().to_bits() as i64).wrapping_mul(terms as i64)))
 }

@@ -1,6 +1,7 @@
 //! A strip of the columns that a pass goes over, and what lies behind them.
 
 use super::read::Span;
+use super::worn::Cells;
 use crate::engine::lanes::{Chunk, LANES, Lanes, Mask};
 use crate::engine::parts::build_up;
 use crate::engine::pin_strips::{PinStrip, PinStrips};
@@ -66,6 +67,43 @@ impl<'a> Strip<'a> {
             strip.disc_substrate = &mut substrate[..columns];
         }
         strip
+    }
+
+    /// Leaves out the columns from `end` on: of fields of one length it is seen that each has a column that one has.
+    #[inline(always)]
+    pub fn shorten(&mut self, end: usize) {
+        let PinStrip { height, substrate, resin, plateau, touches, present } = &mut self.pin;
+        *height = &mut std::mem::take(height)[..end];
+        *substrate = &mut std::mem::take(substrate)[..end];
+        *resin = &resin[..end];
+        *plateau = &mut std::mem::take(plateau)[..end];
+        *touches = &mut std::mem::take(touches)[..end];
+        *present = &present[..present.len().min(end)];
+        self.disc_height = &mut std::mem::take(&mut self.disc_height)[..end];
+        self.disc_substrate = &mut std::mem::take(&mut self.disc_substrate)[..end];
+    }
+
+    /// Which cells of a column are there.
+    #[inline(always)]
+    pub fn present(&self, column: usize) -> u8 {
+        self.pin.present.get(column).copied().unwrap_or(u8::MAX)
+    }
+
+    /// The pairs of a column, as far as a scene keeps and needs the fields: without substrates b = z.
+    #[inline(always)]
+    pub fn cells<L: Lanes, const BUILD_UP: u8, const DISC_WEARS: bool>(&self, column: usize) -> Cells<L> {
+        let (z_p, z_d) = (L::load(&self.pin.height[column]), L::load(&self.disc_height[column]));
+        Cells {
+            z_p,
+            b_p: if BUILD_UP == build_up::NONE { z_p } else { L::load(&self.pin.substrate[column]) },
+            z_d,
+            b_d: if BUILD_UP == build_up::DISTINCT || (BUILD_UP != build_up::NONE && DISC_WEARS) {
+                L::load(&self.disc_substrate[column])
+            } else {
+                z_d
+            },
+            on_resin: L::Mask::of_byte(self.pin.resin[column]),
+        }
     }
 
     /// What lies behind a column.

@@ -2,7 +2,7 @@
 
 use super::pairs::Pairs;
 use super::rules::StripRules;
-use crate::engine::lanes::{Chunk, Lanes, Mask};
+use crate::engine::lanes::{Lanes, Mask};
 use crate::engine::parts::build_up;
 use crate::engine::wear;
 
@@ -16,29 +16,6 @@ pub(super) struct Cells<L: Lanes> {
     pub on_resin: L::Mask,
 }
 
-impl<L: Lanes> Cells<L> {
-    /// From memory, as far as a scene keeps and needs the fields: without substrates b = z.
-    #[inline(always)]
-    pub fn load<const BUILD_UP: u8, const DISC_WEARS: bool>(
-        [pin_height, pin_substrate, disc_height, disc_substrate]: [&[Chunk]; 4],
-        resin: u8,
-        [column, over]: [usize; 2],
-    ) -> Self {
-        let (z_p, z_d) = (L::load(&pin_height[column]), L::load(&disc_height[over]));
-        Self {
-            z_p,
-            b_p: if BUILD_UP == build_up::NONE { z_p } else { L::load(&pin_substrate[column]) },
-            z_d,
-            b_d: if BUILD_UP == build_up::DISTINCT || (BUILD_UP != build_up::NONE && DISC_WEARS) {
-                L::load(&disc_substrate[over])
-            } else {
-                z_d
-            },
-            on_resin: L::Mask::of_byte(resin),
-        }
-    }
-}
-
 /// Eight pairs after wear.
 #[derive(Clone, Copy)]
 pub(super) struct Worn<L: Lanes> {
@@ -47,14 +24,32 @@ pub(super) struct Worn<L: Lanes> {
     pub b_p: L,
     pub z_d: L,
     pub b_d: L,
+    /// z_p − z_d − δ before wear, m.
+    pub clearance: L,
     pub on_resin: L::Mask,
+    /// Resin without build-up before wear.
+    pub resin: L::Mask,
     /// Build-up on resin that is worn through.
     pub worn_through: L::Mask,
     /// Build-up on resin that breaks away, and is not worn through.
     pub broken: L::Mask,
-    /// What plateaus of the pin and what the disc really lost, m; only where build-up has properties of its own.
+    /// What plateaus of the pin and what the disc really lost, m.
     pub lost_pin: L,
     pub lost_disc: L,
+}
+
+impl<L: Lanes> Worn<L> {
+    /// z_p without the build-up that is worn through or breaks away, m.
+    #[inline(always)]
+    pub fn height(&self) -> L {
+        L::select(self.worn_through | self.broken, self.b_p, self.z_p)
+    }
+
+    /// What plateaus and the disc under them really lost, m (v of model 4L).
+    #[inline(always)]
+    pub fn lost<const DISC_WEARS: bool>(&self) -> L {
+        if DISC_WEARS { self.lost_pin + self.lost_disc.only(!self.resin) } else { self.lost_pin }
+    }
 }
 
 /// Wears eight pairs.
@@ -77,7 +72,8 @@ pub(super) fn wear<L: Lanes, const BUILD_UP: u8, const DISC_WEARS: bool>(
 
     // 4.2 Resin loses its wear height at once, all else wears by its coefficient times the overlap.
     let raw_pin = (clearance * pairs.pick::<BUILD_UP>(&rules.pin_loss())).only(touches & !pairs.resin());
-    let mut lost_pin = rules.zero;
+    let before = z_p;
+    let mut lost_pin = raw_pin;
     if BUILD_UP == build_up::DISTINCT {
         let below = L::select(on_resin, rules.zero, pairs.pick::<{ build_up::DISTINCT }>(&rules.fibre()));
         let worn = wear::pin(z_p, b_p, raw_pin, below);
@@ -94,7 +90,7 @@ pub(super) fn wear<L: Lanes, const BUILD_UP: u8, const DISC_WEARS: bool>(
             let worn = wear::disc(z_d, b_d, raw_disc, pairs.pick::<{ build_up::DISTINCT }>(&rules.coating()));
             (z_d, lost_disc) = (worn.height, worn.lost);
         } else {
-            z_d = z_d - raw_disc;
+            (z_d, lost_disc) = (z_d - raw_disc, raw_disc);
         }
         b_d = b_d.lesser(z_d);
     }
@@ -104,6 +100,9 @@ pub(super) fn wear<L: Lanes, const BUILD_UP: u8, const DISC_WEARS: bool>(
         build_up::NONE => nothing,
         _ => on_resin & pairs.pin_secondary & !z_p.below(b_p),
     };
+    if BUILD_UP != build_up::DISTINCT {
+        lost_pin = L::select(worn_through, b_p - before, lost_pin);
+    }
     // 4.2a
     let mut broken = nothing;
     if (BUILD_UP == build_up::BRITTLE || BUILD_UP == build_up::DISTINCT)
@@ -112,5 +111,62 @@ pub(super) fn wear<L: Lanes, const BUILD_UP: u8, const DISC_WEARS: bool>(
         let least = L::select(pairs.disc_secondary, L::splat(on_secondary), L::splat(on_coating));
         broken = on_resin & pairs.pin_secondary & clearance.below(least) & !worn_through;
     }
-    Worn { z_p, b_p, z_d, b_d, on_resin, worn_through, broken, lost_pin, lost_disc }
+    Worn { z_p, b_p, z_d, b_d, clearance, on_resin, resin: pairs.resin(), worn_through, broken, lost_pin, lost_disc }
+}
+
+/// Wears eight pairs by [`wear`]'s rules, with fewer instructions; none where one of them is bare resin that touches, or loses
+/// its build-up. `touching`, `plateau` and `resin` tell which touch, are plateaus, and lie on resin, one bit each.
+#[inline(always)]
+pub(super) fn wear_ordinary<L: Lanes, const BUILD_UP: u8, const DISC_WEARS: bool>(
+    rules: &StripRules<L>,
+    cells: Cells<L>,
+    [touching, plateau, resin]: [u8; 3],
+) -> Option<Worn<L>> {
+    if !rules.rules.shortcut {
+        return None;
+    }
+    let Cells { z_p, b_p, mut z_d, mut b_d, on_resin } = cells;
+    let (touches, nothing) = (L::Mask::of_byte(touching), L::Mask::of_byte(0));
+    let clearance = z_p - z_d - rules.displacement;
+    let distinct = BUILD_UP == build_up::DISTINCT;
+    let secondary = if distinct { [z_p.below(b_p), b_d.below(z_d)] } else { [nothing; 2] };
+    let lost_pin = (clearance * rules.pin_loss().plateaus::<BUILD_UP>(secondary)).only(touches);
+    let worn = z_p + lost_pin;
+    let mut ends = worn.at_least(b_p);
+    if distinct {
+        ends = (ends | lost_pin.at_least(b_p - z_p)) & secondary[0];
+    }
+    let mut unusual = if distinct { ends.byte() | !plateau } else { ends.byte() & resin };
+    if (BUILD_UP == build_up::BRITTLE || distinct)
+        && let Some([on_coating, on_secondary]) = rules.rules.strength
+    {
+        let least = L::select(secondary[1], L::splat(on_secondary), L::splat(on_coating));
+        unusual |= clearance.below(least).byte() & resin;
+    }
+    let mut lost_disc = rules.zero;
+    if DISC_WEARS {
+        lost_disc = (clearance * rules.disc_loss().plateaus::<BUILD_UP>(secondary)).only(touches);
+        if distinct {
+            unusual |= (secondary[1] & lost_disc.at_least(z_d - b_d)).byte();
+        }
+        z_d = z_d - lost_disc;
+        b_d = b_d.lesser(z_d);
+    }
+    // Without a closure or a call, which would be compiled without the instruction set.
+    if unusual & touching != 0 {
+        return None;
+    }
+    Some(Worn {
+        z_p: worn,
+        b_p,
+        z_d,
+        b_d,
+        clearance,
+        on_resin,
+        resin: L::Mask::of_byte(!plateau),
+        worn_through: nothing,
+        broken: nothing,
+        lost_pin,
+        lost_disc,
+    })
 }

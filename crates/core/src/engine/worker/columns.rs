@@ -122,7 +122,7 @@ impl<C: Communicator> Worker<C> {
         let conditions = conditions(&self.contact, &self.debris, bracket, self.rows.start, None);
         if self.needs.transport.is_some() {
             let Self { instructions, rules, pin, moved, .. } = self;
-            (self.transport)(*instructions, rules, &conditions, pin, sector, span, moved, Some(&mut edge));
+            (self.reach_of)(*instructions, rules, &conditions, pin, sector, span, moved, &mut edge);
         } else {
             (self.wear_column)(&self.rules, &conditions, &self.pin, sector, span, &mut edge);
         }
@@ -152,10 +152,6 @@ impl<C: Communicator> Worker<C> {
             over: segment.over + columns.start,
             columns: columns.len(),
         };
-        if self.needs.transport.is_some() {
-            let Self { instructions, rules, pin, moved, .. } = self;
-            (self.transport)(*instructions, rules, &conditions, pin, sector, span, moved, None);
-        }
         (self.pass)(
             self.instructions,
             &self.rules,

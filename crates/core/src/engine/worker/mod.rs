@@ -21,7 +21,7 @@ use crate::engine::execution::Execution;
 use crate::engine::filling::{Filling, relief};
 use crate::engine::forecast::Forecast;
 use crate::engine::kernel::{
-    Bracket, Edge, InstructionSet, Moved, Pass, Read, Reading, Rules, Transport, WearColumn, pass, read, transport,
+    Bracket, Edge, InstructionSet, Moved, Pass, ReachOf, Read, Reading, Rules, WearColumn, pass, reach_of, read,
     wear_column,
 };
 use crate::engine::parts::Needs;
@@ -52,7 +52,7 @@ pub(crate) struct Worker<C> {
     pass: Pass,
     read: Read,
     wear_column: WearColumn,
-    transport: Transport,
+    reach_of: ReachOf,
     rules: Rules,
     coefficients: Coefficients,
     /// Of which the overlaps of the coming steps are counted as multiples, by the largest of the last step; of the first,
@@ -137,7 +137,7 @@ impl<C: Communicator> Worker<C> {
             pass: pass(needs),
             read: read(needs),
             wear_column: wear_column(needs),
-            transport: transport(needs),
+            reach_of: reach_of(needs),
             rules: Rules::new(&parameters, &coefficients, filling.reference_height(), execution.shortcut),
             contact: Contact::new(&weights, by_status),
             overlap_quantum: quantum,
