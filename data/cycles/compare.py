@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Contact area and filling in a drive and in constant operation with the same work over the same distance.
+"""Contact area and filling in a drive and in constant operation with the same load times distance over the same distance.
 
     PYTHONPATH=python python3 data/cycles/compare.py drive.h5 constant.h5 docs/images/cycles-drive.png
 
-Both are held against the volume worn, which is proportional to the work (docs/model.md, 4.2), whatever carries the load where. Means
+Both are held against the volume worn, which is proportional to it (docs/model.md, 4.2), whatever carries the load where. Means
 of the contact area are weighted by what is worn meanwhile. Needs the package plateau (docs/python.md) and matplotlib.
 """
 

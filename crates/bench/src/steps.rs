@@ -6,7 +6,7 @@ use plateau_core::engine::kernel::InstructionSet;
 use plateau_core::observe::Map;
 use plateau_core::simulation::{Execution, Simulation};
 
-use crate::case::{Case, MeshSize};
+use crate::case::{Case, MeshSize, Source};
 use crate::race::{Entry, Measurement, Runner, race};
 use crate::{Outcome, Session};
 
@@ -94,12 +94,14 @@ impl Runner for Simulation {
     }
 }
 
+/// What the others are compared with.
+const THE_SCENE: &str = "the scene";
+
 /// Changes of the scene that switch one part on or off, with their names.
 ///
-/// The first is what the others are compared with; it takes part twice, so that the difference of a scene from itself
-/// shows what can be told apart.
+/// The first, none, takes part twice, so that the difference of a scene from itself shows what can be told apart.
 const VARIANTS: [(&str, &[&str]); 13] = [
-    ("the scene", &[]),
+    (THE_SCENE, &[]),
     ("the scene once more", &[]),
     ("no formation", &["plateaus.formation=false"]),
     ("no resin", &["pin.base.uniform=primary"]),
@@ -114,12 +116,43 @@ const VARIANTS: [(&str, &[&str]); 13] = [
     ("time acceleration 100", &["numerics.time_acceleration=100"]),
 ];
 
+/// The friction law of `cermet-hot.toml`.
+const FRICTION: &str = "friction={ pressure_coefficient = 0.33, shear_strength = \"0.75 MPa\", maximum = 0.6 }";
+/// Its bodies, without the coating.
+const HEAT: &str = "thermal={ ambient = \"23 degC\", \
+    disc = { conductivity = \"50 W/(m K)\", density = \"7200 kg/m^3\", specific_heat = \"500 J/(kg K)\", area = \"31 cm^2\", \
+    thickness = \"6 mm\", cooling = \"0.4 W/K\", cooling_per_speed = \"1 mJ/(K rad)\" }, \
+    pin = { conductivity = \"1.5 W/(m K)\", density = \"2600 kg/m^3\", specific_heat = \"900 J/(kg K)\", area = \"78.5 mm^2\", \
+    length = \"12 mm\", cooling = \"0.02 W/K\" } }";
+
+/// Friction, and what needs it: its name, that of what it is compared with, and changes of the scene.
+fn with_friction(source: &Source) -> Outcome<[(&'static str, &'static str, Vec<String>); 4]> {
+    let parameters = source.parameters()?;
+    let (force, speed) = (parameters.normal_force, parameters.angular_velocity);
+    let row = |time: f64, load: &str| format!("[\"{time} s\", \"{load}\", \"{speed} rad/s\"]");
+    // About the load of the scene, at a coefficient of friction of 0.5. As a cycle, for a changed mesh sets the force.
+    let torque = format!("{} N m", 0.5 * force * parameters.mesh.mean_radius());
+    let torque = format!("operation.cycle={{ points = [{}, {}] }}", row(0.0, &torque), row(1e5, &torque));
+    // Several pauses in every block of steps.
+    let (force, active) = (format!("{force} N"), 10.0 * parameters.step_time());
+    let rows = [row(0.0, &force), row(active, &force), row(active, "0 N"), row(active + 0.1, "0 N")].join(", ");
+    let pauses = format!("operation.cycle={{ points = [{rows}], repeat = 100000 }}");
+    let [friction, heat] = [FRICTION, HEAT].map(str::to_owned);
+    Ok([
+        ("friction", THE_SCENE, vec![friction.clone()]),
+        ("braking torque", "friction", vec![friction.clone(), torque]),
+        ("heat", "friction", vec![friction.clone(), heat.clone()]),
+        ("lifted for 0.1 s after every 10 steps", "heat", vec![friction, heat, pauses]),
+    ])
+}
+
 /// Times a step with optional parts of the model and of the output on and off.
 pub fn parts(session: &Session) -> Outcome<Found> {
-    let mut entries = Vec::new();
-    for (name, sets) in VARIANTS {
-        let source = session.source.with(sets.iter().map(|set| (*set).to_owned()));
-        entries.push(entry(name, 0, session.mesh, 1, alone(&source.case()?)?));
+    let of_scene = VARIANTS.map(|(name, sets)| (name, THE_SCENE, sets.iter().map(|set| (*set).to_owned()).collect()));
+    let mut entries: Vec<Entry> = Vec::new();
+    for (name, other, sets) in of_scene.into_iter().chain(with_friction(&session.source)?) {
+        let against = entries.iter().position(|entry| entry.name == other).unwrap_or(0);
+        entries.push(entry(name, against, session.mesh, 1, alone(&session.source.with(sets).case()?)?));
     }
     let revolution = session.mesh.disc_columns as u64;
     let case = session.source.case()?;

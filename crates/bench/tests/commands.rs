@@ -108,6 +108,12 @@ fn parts_times_the_scene_twice_and_every_variant() {
     for name in ["no formation", "transport length of 200 um", "strength of build-up", "a sample every step"] {
         assert!(names.contains(&name), "{name} in {names:?}");
     }
+    // What needs friction or heat is compared with a scene that has it.
+    let against = |name: &str| {
+        let place = names.iter().position(|other| *other == name).expect("a row");
+        names[results["measurements"][place]["against"].as_u64().expect("a place") as usize]
+    };
+    assert_eq!([against("braking torque"), against("lifted for 0.1 s after every 10 steps")], ["friction", "heat"]);
 }
 
 #[test]

@@ -26,7 +26,7 @@ pub const GENERATIONS: &[Generation] = &[
     },
     Generation {
         reason: "pauses cool at the mean speed of the disc, and pooled debris is computed by the plain model",
-        results: "b38d17013655a85c63322f594e9a85de69b0f35b46f814cbf116dad63718572f",
+        results: "1d96a223341efcd11404c95b249dccf5a7939f88250f614754c2a1c9fb9bb4d6",
     },
 ];
 

@@ -1,11 +1,11 @@
 //! Intervals and pauses of the accounts, driven step by step without any surface (model 11, order).
 
 use super::expected::{Expected, MU, WORN, parameters, take};
-use super::{off, thermal};
+use super::{IRON, insulating_pin, off, thermal};
 use plateau_core::model::accounts::Accounts;
 use plateau_core::model::cycle::{Cycle, Interpolation, Kind, Node};
-use plateau_core::model::heat::Thermal;
 use plateau_core::model::heat::factor::Factor;
+use plateau_core::model::heat::{Disc, Substance, Thermal};
 use plateau_core::model::parameters::Parameters;
 
 #[test]
@@ -126,6 +126,43 @@ fn a_pause_ends_the_interval_and_is_reported_sub_step_by_sub_step() {
     expected.interval(revolution, load, speed, 1.0);
     let found = accounts.report(35, angle, 0.0, None);
     assert!(expected.agrees(&found), "{found:?}, {:?}", expected.state);
+}
+
+#[test]
+fn a_lumped_disc_under_lifted_pads_is_cooled_at_its_speed() {
+    // A disc that conducts so well that it has one temperature: from θ it falls as exp(−∫(H₀ + H₁ω)dt/C).
+    let (at_rest, per_speed) = (0.4, 0.01);
+    let substance = Substance { conductivity: 1e12, ..IRON };
+    let disc = Disc { substance, cooling: at_rest, cooling_per_speed: per_speed, coating: None, ..thermal().disc };
+    let lumped = Thermal { disc, pin: insulating_pin(), ..thermal() };
+    let capacity = 7200.0 * 500.0 * disc.area * disc.thickness;
+    let plain = parameters(lumped.clone(), None);
+    let (load, speed, angle) = (plain.normal_force, plain.angular_velocity, plain.step_angle());
+    let active = 20.0 * plain.step_time();
+    // Lifted: on at this speed for 30 s, up to three times as fast in 10 s, down to rest in 20 s, and 15 s there.
+    let rows = [
+        (0.0, load, speed),
+        (active, load, speed),
+        (active, 0.0, speed),
+        (active + 30.0, 0.0, speed),
+        (active + 40.0, 0.0, 3.0 * speed),
+        (active + 60.0, 0.0, 0.0),
+        (active + 75.0, 0.0, 0.0),
+    ];
+    let nodes = rows.map(|(time, force, speed)| Node::new(time, force, speed));
+    let parameters = parameters(lumped, Some(Cycle::new(&nodes, Interpolation::Linear, 1).unwrap()));
+    let mut accounts = Accounts::of(&parameters).unwrap();
+    (1..=20).for_each(|number| take(&mut accounts, &parameters, number));
+    let warmed = accounts.report(20, angle, active, None).heat.unwrap().disc - 296.15;
+    // By hand: ∫ω dt in speeds times s, until the end of each part.
+    for (end, turned) in [(30.0, 30.0), (40.0, 30.0 + 20.0), (60.0, 50.0 + 30.0), (75.0, 80.0)] {
+        let left = (accounts.report(20, angle, active + end, Some(Kind::Lifted)).heat.unwrap().disc - 296.15) / warmed;
+        let exponent = (at_rest * end + per_speed * speed * turned) / capacity;
+        // Implicit Euler lies above an exponential, by at most Σ(H Δt/C)²/2 in its logarithm, H at most that of twice the speed.
+        let slower = (at_rest + 2.0 * per_speed * speed) / capacity * 0.1 * exponent / 2.0;
+        let above = left.ln() + exponent;
+        assert!((-1e-9..=slower).contains(&above), "{end} s: {left}, {above} above, at most {slower}");
+    }
 }
 
 #[test]

@@ -71,7 +71,10 @@ fn changed_cycles_are_accepted_or_refused() {
     let decimal = "time [s];normal_force [N];sliding_speed [m/s]\n0;47,5;2\n1;40;2\n1;0;0\n4,5;0;0\n";
     let shipped = "../../data/cycles/wltc-front-brake.csv";
     let seeds = vec![stops.to_owned(), decimal.to_owned(), lines(shipped)];
-    let sets = [format!("operation.cycle.file=\"{}\"", path.display()), "operation.duration=5 s".to_owned()];
+    // The shipped one has a braking torque, which needs friction.
+    let friction = "friction={ pressure_coefficient = 0.33, shear_strength = \"0.75 MPa\", maximum = 0.6 }".to_owned();
+    let file_set = format!("operation.cycle.file=\"{}\"", path.display());
+    let sets = [file_set, friction, "operation.duration=5 s".to_owned()];
     Fuzz { corpus: "cycles", cases: 600, least_accepted: 40 }.run(changed(seeds), |content| {
         fs::write(&path, content).unwrap();
         match scene::load(&file("../../data/scenes/quick.toml"), &sets) {
