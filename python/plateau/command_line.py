@@ -15,7 +15,6 @@ import unicodedata
 import warnings
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from pathlib import Path
 from typing import Any, NoReturn
 
 from plateau.errors import InputError, PlateauError, PlateauNote, PlateauWarning, RunFailed, RunStopped, in_program_words, not_installed

@@ -15,8 +15,8 @@ PROGRAM = os.environ.get("PLATEAU_PROGRAM", str(ROOT / "plateau"))
 # The paper's mesh has cells of 50 um; surfaces are measured in pixels of a quarter of that. Pixels of ring and patch.
 COLUMNS, ROWS, PATCH = 4 * 2764, 4 * 80, 4 * 64
 PIXEL = 2 * np.pi * 22e-3 / COLUMNS
-# Pairs of a ring and a patch that are cut out of one surface.
-CUTS = 8
+# Pairs of a ring and a patch that are cut out of one surface; in short as many as tell a scatter.
+CUTS = 8 if "PLATEAU_LONG" in os.environ else 3
 # Correlation length over the size of a pixel, rms height in m.
 LENGTH, RMS = 120e-6 / PIXEL, 3e-6
 

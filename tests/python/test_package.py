@@ -64,7 +64,9 @@ class Documentation(InFolder):
             import mypy.api
         except ImportError:
             self.skipTest("mypy is not installed")
-        found, errors, status = mypy.api.run(["--config-file", str(ROOT / "pyproject.toml"), str(ROOT / "python" / "plateau")])
+        found, errors, status = mypy.api.run(
+            ["--config-file", str(ROOT / "pyproject.toml"), "--cache-dir", str(ROOT / ".mypy_cache"), str(ROOT / "python" / "plateau")]
+        )
         self.assertEqual(status, 0, found + errors)
 
 

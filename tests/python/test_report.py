@@ -48,10 +48,13 @@ class Report(unittest.TestCase):
         self.addCleanup(folder.cleanup)
         self.enterContext(contextlib.chdir(folder.name))
 
-    def page(self, *names):
+    def draw_few(self):
         # Figures have tests of their own.
         few = {name: figures.FIGURES[name] for name in ("contact-area", "filled", "friction")}
         self.enterContext(unittest.mock.patch.dict(figures.FIGURES, few, clear=True))
+
+    def page(self, *names):
+        self.draw_few()
         return pathlib.Path(plateau.report([self.made / f"{name}.h5" for name in names])).read_text()
 
     def test_numbers_are_those_of_the_run(self):
@@ -128,6 +131,7 @@ class Report(unittest.TestCase):
     def test_an_interrupted_run_is_told(self):
         run = plateau.open_run(self.made / "quick.h5").copy()
         run.attrs["state"] = "interrupted"
+        self.draw_few()
         page = report_page([run])
         self.assertIn("The run is not finished: interrupted by its user. It has 200 samples.", page)
 
@@ -179,9 +183,10 @@ class Report(unittest.TestCase):
         self.assertFalse(os.path.exists("other"))
 
     def test_the_word_report(self):
+        self.draw_few()
         status, out, err = self.call("report", self.made / "quick.h5", self.made / "quick.h5")
         self.assertEqual((status, "quick.h5 is named more than once" in err), (0, True))
-        self.assertRegex(out, r"^wrote report.html \([\d.]+ MB\)\n$")
+        self.assertRegex(out, r"^wrote report.html \([\d.]+ kB\)\n$")
         status, _, err = self.call("report", "no.h5")
         self.assertEqual((status, err), (2, "plateau: no.h5: there is no such run file\n"))
 

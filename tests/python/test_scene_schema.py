@@ -63,7 +63,7 @@ ACCEPT_MINUS_7 = {
 }
 UNITS = "m mm um µm N kN Pa GPa s min m/s km/h rpm rad/s Hz 1/Pa m^2/N mm^3/(N_m) m^2 um^2 kg x deg".split()
 # Random values, each of which is tried with every key.
-VALUES = 256
+VALUES = 256 if "PLATEAU_LONG" in os.environ else 32
 # Keys that are given to the program at a time.
 AT_ONCE = 12
 

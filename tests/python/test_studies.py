@@ -19,7 +19,7 @@ QUICK = ROOT / "data" / "scenes" / "quick.toml"
 STUDY = """
 version = 1
 base = "{base}"
-set = ["operation.duration = '2 s'", "output.sample_every = '0.5 s'", "plateaus.debris = 'contact'", "plateaus.captured_fraction = 0.06"]
+set = ["operation.duration = '0.4 s'", "output.sample_every = '0.1 s'", "plateaus.debris = 'contact'", "plateaus.captured_fraction = 0.06"]
 design = "full-factorial"
 replicates = {{ keys = ["disc.surface.synthetic.seed"], seeds = [1, 2] }}
 [[factor]]

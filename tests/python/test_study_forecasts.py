@@ -2,6 +2,7 @@
 
 import itertools
 import json
+import os
 import sys
 import tempfile
 import unittest
@@ -93,6 +94,7 @@ class ProcessTest(unittest.TestCase):
         process = Process(np.column_stack([x, indicators]), y, axes=[0, 1, 1, 1])
         self.assertLess(np.abs(process.mean([[0.2, 0, 0, 1.0], [0.2, 1.0, 0, 0]]) - np.sin(0.4) - [5.0, 0.0]).max(), 0.1)
 
+    @unittest.skipUnless("PLATEAU_LONG" in os.environ, "a simulation, of 120 fits")
     def test_intervals_cover_the_truth(self):
         # Places of one function are alike: forty functions leave a standard error of 1 to 1.5 %.
         for study in (("very smooth", 2, 10, 2), ("comes to an end", 4, 20, 2), ("smooth", 3, 15, 1)):

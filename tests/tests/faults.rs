@@ -85,7 +85,7 @@ fn a_run_loses_nothing() {
     let whole = whole();
     let calls = count(short_run(&WorkingDirectory::new(), &[]));
     println!("{calls} calls of a run");
-    for (fault, call) in strikes(calls, few_or_all(149, 47)) {
+    for (fault, call) in strikes(calls, few_or_all(307, 47)) {
         let directory = WorkingDirectory::new();
         let outcome = strike(short_run(&directory, &[]), fault, call);
         let what = format!("{fault:?} at call {call} of {calls}: {outcome:?}");
@@ -133,7 +133,7 @@ fn going_on_loses_nothing() {
     let (whole, killed) = (whole(), Killed::new());
     let calls = count(short_run(&killed.directory(), &["--resume"]));
     println!("{calls} calls of --resume");
-    for (fault, call) in strikes(calls, few_or_all(149, 47)) {
+    for (fault, call) in strikes(calls, few_or_all(307, 47)) {
         let directory = killed.directory();
         let outcome = strike(short_run(&directory, &["--resume"]), fault, call);
         check(&directory, &whole, &format!("{fault:?} at call {call} of {calls} of --resume: {outcome:?}"));
@@ -148,7 +148,7 @@ fn repairing_loses_nothing() {
     println!("{calls} calls of repair");
     let samples = |directory: &WorkingDirectory| RunFile::follow(directory.path("run.h5")).unwrap().shape("/time");
     let expected = samples(&killed.directory());
-    for (fault, call) in strikes(calls, few_or_all(149, 47)) {
+    for (fault, call) in strikes(calls, few_or_all(307, 47)) {
         let directory = killed.directory();
         let outcome = strike(repair(&directory), fault, call);
         let what = format!("{fault:?} at call {call} of {calls} of repair: {outcome:?}");

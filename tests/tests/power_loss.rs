@@ -54,9 +54,9 @@ fn number(variable: &str) -> Option<u64> {
     std::env::var(variable).ok()?.parse().ok()
 }
 
-/// How many losses are tried, unless `PLATEAU_LOSSES` says so.
+/// How many losses are tried, in short half as many, unless `PLATEAU_LOSSES` says so.
 fn losses(few: usize) -> usize {
-    number("PLATEAU_LOSSES").map_or_else(|| few_or_all(few, 20 * few), |number| number as usize)
+    number("PLATEAU_LOSSES").map_or_else(|| few_or_all(few / 2, 20 * few), |number| number as usize)
 }
 
 /// The lot, which is another one each time.
@@ -229,7 +229,7 @@ fn losses_during(name: &str, command: impl Fn(&WorkingDirectory) -> Command) {
         after_starts(&mut command, starts);
         let (outcome, journal) = Journal::of(&directory, command);
         assert_eq!(outcome.status, Some(0), "{outcome:?}");
-        for _ in 0..(count - tally.losses).min(6) {
+        for _ in 0..(count - tally.losses).min(3) {
             let calls = below(&mut random, journal.calls() + 1);
             let files = journal.disk_after(calls, &mut random);
             let what = format!("after call {calls} of {} of {name}, {starts} starts", journal.calls());

@@ -118,6 +118,10 @@ fn parts_times_the_scene_twice_and_every_variant() {
 
 #[test]
 fn peers_agree_before_they_are_timed() {
+    if std::env::var_os("PLATEAU_LONG").is_none() {
+        println!("skipped without PLATEAU_LONG=1: it installs Numba, of 100 MB");
+        return;
+    }
     let Some((results, printed)) = quick("peers", "cermet.toml") else { return };
     assert_eq!(names(&results), ["Plateau", "Numba loops"]);
     // At the scene's time acceleration and at a large one.

@@ -158,6 +158,7 @@ def predict(
     confidence: float = 0.95,
     jobs: int | None = None,
     workers: int | None = None,
+    progress: bool | None = None,
 ) -> Prediction:
     """Predicts the responses of a study.
 
@@ -174,11 +175,13 @@ def predict(
     extrapolate : bool
         Predict beyond the runs, too.
     confirm : bool
-        Make runs there, with all seeds of the study; `jobs` at a time with `workers` threads each.
+        Make runs there, with all seeds of the study.
     model, terms : str, optional
         As for `effects`.
     confidence : float
         Level of the intervals.
+    jobs, workers, progress
+        As for ``plateau.sweep``.
 
     Returns
     -------
@@ -212,7 +215,7 @@ def predict(
     if confirm:
         from plateau.study.runs import make_runs
 
-        made = make_runs(opened, places, jobs=jobs, workers=workers)
+        made = make_runs(opened, places, jobs=jobs, workers=workers, progress=progress)
     general = [*together(opened), *no_curve(opened, places)]
     for said in general:
         warnings.warn(said, PlateauWarning, stacklevel=2)

@@ -188,7 +188,7 @@ def _predict(given: argparse.Namespace) -> str:
     if given.output is not None:
         refuse_file(given.output, given.force, inputs)
     asked = options(given, "at", "grid", "points", "extrapolate", "confirm", "model", "terms", "confidence", "jobs", "workers")
-    found = predict(study, **asked)
+    found = predict(study, **asked, progress=progress(given))
     if given.output is not None:
         refuse_file(given.output, given.force, inputs)
         put(given.output, csv_of(found.wide))

@@ -157,7 +157,8 @@ impl<'a> Runner<'a> {
         let changed = lock(&self.changed);
         if !changed.is_empty() && self.signal().is_none() {
             return Err(SweepError::Failed(format!(
-                "{}: files that the runs read were changed meanwhile; {} read others than were there at the beginning, and count as what they read:                  {}; the same command makes what is missing with the files as they are now",
+                "{}: files that the runs read were changed meanwhile; {} read others than were there at the beginning, and count as what they read: \
+                 {}; the same command makes what is missing with the files as they are now",
                 self.plan.study().path.display(),
                 number::count(changed.len(), "run"),
                 text::list(changed.iter().map(ToString::to_string), ", ")
