@@ -97,7 +97,7 @@ pub enum Command {
     #[command(after_help = "Example:\n  plateau accuracy data/scenes/quick.toml --budget 20s -o quick-accuracy")]
     Accuracy(AccuracyArguments),
     /// Make many runs of a scene with other values, and tell what these values do
-    #[command(subcommand, after_help = "Example:\n  plateau sweep plan data/studies/pad-properties.toml")]
+    #[command(subcommand, after_help = "Example:\n  plateau sweep plan data/studies/published/factors.toml")]
     Sweep(SweepCommand),
     /// Find the values of keys with which runs give what was measured
     #[command(disable_help_flag = true)]

@@ -222,7 +222,7 @@ fn a_cutoff_cuts_peaks() {
 fn shipped_studies_are_plausible() {
     let data = Path::new("../../data");
     let mut checked = 0;
-    for folder in ["studies", "studies/riva2019"] {
+    for folder in ["studies", "studies/published", "studies/riva2019"] {
         let files = std::fs::read_dir(data.join(folder)).expect("the shipped studies");
         let files = files.map(|entry| entry.expect("an entry").path());
         for path in files.filter(|path| path.extension().is_some_and(|ending| ending == "toml")) {

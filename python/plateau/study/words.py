@@ -56,11 +56,11 @@ def add(words: Words) -> None:
         made.add_argument("--jobs", type=count, metavar="N", help="Runs at a time; as many as there are cores unless given")
         made.add_argument("--workers", type=count, default=1, metavar="N", help="Threads of each run [default: 1]")
 
-    made = word(study, "effects", "Tell what the factors do: effects, analysis of variance, figures", _effects, "  plateau sweep effects data/studies/pad-properties.toml")
+    made = word(study, "effects", "Tell what the factors do: effects, analysis of variance, figures", _effects, "  plateau sweep effects data/studies/published/factors.toml")
     model(made)
     common(made, output='Folder for tables, figures and the page; "effects" in the study\'s own unless given')
 
-    made = word(study, "predict", "Tell what responses are expected to be where no run was made", _predict, "  plateau sweep predict data/studies/pad-properties.toml --at load=\"7 N\"")
+    made = word(study, "predict", "Tell what responses are expected to be where no run was made", _predict, "  plateau sweep predict data/studies/answer.toml --at load=\"7 N\"")
     several(made, "--at", "FACTOR=VALUE", 'Set a factor, such as load="7 N"; may be repeated')
     made.add_argument("--grid", type=count, metavar="N", help="Predict at so many values of each range and at all levels")
     made.add_argument("--points", type=Path, metavar="FILE", help="Predict at the points of a table in CSV, a column for each factor")
@@ -71,7 +71,7 @@ def add(words: Words) -> None:
     model(made)
     common(made, force="Replace that file if it exists")
 
-    made = word(study, "optimize", "Find the settings at which responses are best", _optimize, "  plateau sweep optimize data/studies/pad-properties.toml --minimize \"worn off the pin\"")
+    made = word(study, "optimize", "Find the settings at which responses are best", _optimize, "  plateau sweep optimize data/studies/answer.toml --minimize \"worn off the pin\"")
     for flag, example in (("maximize", "contact area=1 mm2..2 mm2"), ("minimize", "worn=0..1 mm3"), ("target", "filled=0.5..0.7..0.8")):
         several(made, f"--{flag}", "RESPONSE", f'A goal, such as "{example}"; may be repeated')
     several(made, "--limit", "RESPONSE<=VALUE", 'Keep a response below or above a value: "filled<=0.9"')
@@ -87,7 +87,7 @@ def add(words: Words) -> None:
     model(made)
     common(made, output='Folder for figures and table; "optimum" in the study\'s own unless given')
 
-    made = word(study, "sensitivity", "Tell which part of a response's variation each factor has", _sensitivity, "  plateau sweep sensitivity data/studies/pad-properties.toml")
+    made = word(study, "sensitivity", "Tell which part of a response's variation each factor has", _sensitivity, "  plateau sweep sensitivity data/studies/answer.toml")
     confidence(made)
     common(made, output='Folder for table and figures; "sensitivity" in the study\'s own unless given')
 

@@ -10,22 +10,22 @@ use super::run::{CoresArguments, HandedArguments};
 #[derive(Debug, Subcommand)]
 pub enum SweepCommand {
     /// Show the design, the number of runs and what they will cost, without running any
-    #[command(after_help = "Example:\n  plateau sweep plan data/studies/pad-properties.toml")]
+    #[command(after_help = "Example:\n  plateau sweep plan data/studies/published/factors.toml")]
     Plan(PlanArguments),
     /// Make the runs that are not there yet, several at a time
-    #[command(after_help = "Examples:\n  plateau sweep run data/studies/pad-properties.toml\n  \
-                      plateau sweep run data/studies/pad-properties.toml --task 3/10\n\n\
+    #[command(after_help = "Examples:\n  plateau sweep run data/studies/published/factors.toml\n  \
+                      plateau sweep run data/studies/published/factors.toml --task 3/10\n\n\
                       It can be stopped and started again at any time, and several times at once, on several machines that share a folder: \
                       no run is made twice.")]
     Run(SweepRunArguments),
     /// Write a batch script that makes the runs as a Slurm job array
     #[command(
-        after_help = "Example:\n  plateau sweep slurm data/studies/pad-properties.toml --tasks 4 -o pads.sbatch\n  \
-                      sbatch pads.sbatch"
+        after_help = "Example:\n  plateau sweep slurm data/studies/published/factors.toml --tasks 4 -o factors.sbatch\n  \
+                      sbatch factors.sbatch"
     )]
     Slurm(SlurmArguments),
     /// Put all results into one HDF5 file and a table
-    #[command(after_help = "Example:\n  plateau sweep collect data/studies/pad-properties.toml")]
+    #[command(after_help = "Example:\n  plateau sweep collect data/studies/published/factors.toml")]
     Collect(CollectArguments),
     /// Tell what the factors do: effects, analysis of variance, figures
     #[command(disable_help_flag = true)]
