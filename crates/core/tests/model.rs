@@ -157,7 +157,7 @@ fn compare(parameters: &Parameters, seed: u64, execution: Execution) -> End {
 /// Scenes with a rule; instruction set, number of workers and the kernel's shortcut change from scene to scene.
 fn agrees(debris: DebrisRule) {
     let sets: Vec<InstructionSet> = InstructionSet::available().collect();
-    let scenes = few_or_all(100, 1000);
+    let scenes = few_or_all(100, 3000);
     let mut ties = 0;
     for seed in 0..scenes {
         // Some pins are round.

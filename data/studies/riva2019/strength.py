@@ -147,7 +147,7 @@ def main() -> None:
         "counterface": {value: told(discs) for value, discs in by_value("counterface", "strength", END).items()},
         "steady": levels("steady", "wear_rate_of_the_disc_s_build_up", 15000.0),
         "steady at 8000 s": levels("steady", "wear_rate_of_the_disc_s_build_up", 8000.0),
-        "levels": levels("levels", "design", 30000.0),
+        "levels": levels("levels", "state", 30000.0),
         "unknowns": unknowns(),
         "full": {name: on_the_paper_s_mesh(name) for name in ("length", "strength")},
     }
