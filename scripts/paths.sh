@@ -41,7 +41,7 @@ is_fresh() {
     git_dir=$root/.git
     [ ! -f "$git_dir" ] || read -r _ git_dir <"$git_dir"
     command -v find >/dev/null 2>&1 || return 2
-    newer=$(find "$root/crates" "$root/Cargo.toml" "$root/Cargo.lock" "$root/.cargo" "$root/rust-toolchain" \
+    newer=$(find "$root/crates" "$root/data/scene.schema.json" "$root/Cargo.toml" "$root/Cargo.lock" "$root/.cargo" "$root/rust-toolchain" \
         "$root/rust-toolchain.toml" "$git_dir/logs/HEAD" -newer "$stamp" -print -quit 2>/dev/null)
     [ -z "$newer" ]
 }

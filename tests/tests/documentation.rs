@@ -3,12 +3,17 @@
 //! Where a table differs the test fails; `UPDATE_DOCS=1 cargo test --release -p plateau-tests --test end_to_end documentation`
 //! writes it anew.
 
+mod scene_schema;
+mod units;
+
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 use plateau_core::observe::event::EVENT_QUANTITIES;
 use plateau_core::observe::{EXTRAS, Map, QUANTITIES, Quantity, TOTALS, quantities};
 use plateau_io::scene::schema::{self, Key, Kind, Need, Range, WAYS};
+
+use scene_schema::{example_of, table_meaning};
 
 /// The text between the two marks of a table in a document is this, or is made so.
 fn expect_table(document: &str, name: &str, table: &str) {
@@ -79,7 +84,7 @@ fn kind(key: &Key) -> String {
 }
 
 fn plain(key: &Key) -> String {
-    let example = key.example().map(|example| format!(", such as `{example}`")).unwrap_or_default();
+    let example = example_of(key).map(|example| format!(", such as `{example}`")).unwrap_or_default();
     match key.kind {
         Kind::Quantity { dimension, .. } => format!("{}{example}", dimension.name()),
         Kind::Lengths { single, count, .. } => {
@@ -169,7 +174,7 @@ fn section(tables: &[&str]) -> String {
     let mut text = if first.is_empty() {
         "### At the top, before the first table\n".to_owned()
     } else {
-        let purpose = |table: &str| schema::table_meaning(table).expect("what the table is for");
+        let purpose = |table: &str| table_meaning(table).expect("what the table is for");
         let purposes: Vec<_> = match tables {
             [table] => vec![format!("{}.\n", capitalised(purpose(table)))],
             _ => tables.iter().zip(&names).map(|(table, name)| format!("- {name}: {}\n", purpose(table))).collect(),
@@ -213,19 +218,6 @@ fn every_key_of_a_scene_is_documented() {
         }
     }
     expect_table("scenes.md", "keys", &text);
-}
-
-/// The copy that scenes name in `#:schema`, for editors.
-#[test]
-fn the_schema_of_scenes_is_up_to_date() {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../data/scene.schema.json");
-    let text = format!("{:#}\n", schema::json_schema());
-    if std::env::var_os("UPDATE_DOCS").is_some() {
-        std::fs::write(&path, text).expect("a schema that can be written");
-    } else {
-        let found = std::fs::read_to_string(&path).expect("the schema");
-        assert!(found == text, "data/scene.schema.json is out of date; UPDATE_DOCS=1 writes it anew");
-    }
 }
 
 fn series(quantities: &[Quantity]) -> String {

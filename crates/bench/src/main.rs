@@ -83,7 +83,7 @@ struct WorkerOptions {
 
 /// A time on the command line, s.
 fn time(text: &str) -> Result<f64, String> {
-    units::parse(text, Dimension::Time).map_err(|error| error.to_string())
+    units::parse(text, Dimension::Time)
 }
 
 /// A benchmark under way.

@@ -2,7 +2,6 @@
 
 mod accuracy;
 mod new;
-mod quantity;
 mod reading;
 mod run;
 mod surface;
@@ -14,6 +13,7 @@ use std::path::PathBuf;
 use clap::{Args, Parser, Subcommand};
 use clap_complete::Shell;
 use plateau_io::text::{odd_character, shown_on_one_line};
+use plateau_io::units::{self, Dimension};
 
 use crate::failure::Failure;
 use crate::version;
@@ -45,9 +45,6 @@ pub struct Arguments {
 
 /// Refuses what a terminal would obey, and names of several lines: they stand in messages and tables. Values of `--set` may have
 /// line breaks, as TOML has.
-///
-/// # Errors
-/// [`Failure::Input`] with the argument.
 pub fn refuse_odd_characters(arguments: impl Iterator<Item = OsString>) -> Result<(), Failure> {
     let mut is_value = false;
     for argument in arguments.skip(1) {
@@ -158,5 +155,37 @@ pub struct ManArguments {
     pub force: bool,
 }
 
+/// A quantity of this dimension, SI.
+fn quantity(text: &str, dimension: Dimension) -> Result<f64, String> {
+    units::parse(text.trim(), dimension)
+}
+
+/// A time of the run, s.
+fn run_time(text: &str) -> Result<f64, String> {
+    let time = quantity(text, Dimension::Time)?;
+    if time >= 0.0 {
+        Ok(time)
+    } else {
+        Err(format!("{text} is before the start of a run, expected a time such as \"100 s\""))
+    }
+}
+
+/// A finite length, m.
+fn length(text: &str) -> Result<f64, String> {
+    let length = quantity(text, Dimension::Length)?;
+    if length.is_finite() { Ok(length) } else { Err("expected a finite length".to_owned()) }
+}
+
+/// The text, if it is a quantity of this dimension above 0.
+fn positive(text: &str, dimension: Dimension) -> Result<String, String> {
+    let value = units::parse(text, dimension)?;
+    if value > 0.0 && value.is_finite() { Ok(text.to_owned()) } else { Err("expected more than 0".to_owned()) }
+}
+
 #[cfg(test)]
+#[path = "../tests/unit/arguments.rs"]
 mod tests;
+
+#[cfg(test)]
+#[path = "../tests/unit/arguments/quantity.rs"]
+mod quantity_tests;

@@ -162,9 +162,6 @@ impl fmt::Display for Failure {
 
 /// Works together with the other processes of the job if there are any. From here on only the first of them gives warnings; if
 /// one fails, all end with its exit status.
-///
-/// # Errors
-/// Those of `work`, and [`Failure::Run`] when the others cannot be joined.
 pub fn in_job(work: impl FnOnce(&mut Job) -> Result<(), Failure>) -> Result<(), Failure> {
     let mut job = Job::start().map_err(Failure::run)?;
     if !job.leads() {
@@ -190,45 +187,5 @@ pub fn in_job(work: impl FnOnce(&mut Job) -> Result<(), Failure>) -> Result<(), 
 }
 
 #[cfg(test)]
-mod tests {
-    use std::io;
-    use std::path::{Path, PathBuf};
-
-    use plateau_core::simulation::SimulationError;
-    use plateau_io::scene::{Origin, Problem};
-    use plateau_run::InputError;
-
-    use super::*;
-
-    #[test]
-    fn the_mark_stands_below_the_column() {
-        let text = "version = 1\n\tname = \"a\u{7}\"\n";
-        assert_eq!(marked(text, 2, 9).as_deref(), Some("  2 |  name = \"a \"\n    |         ^"));
-        assert_eq!(marked(text, 1, 12).as_deref(), Some("  1 | version = 1\n    |            ^"));
-        assert_eq!(marked("\u{540d} = 1", 1, 5).as_deref(), Some("  1 | \u{540d} = 1\n    |      ^"));
-        assert_eq!(marked(text, 3, 1), None);
-        assert_eq!(marked(text, 1, 40), None);
-        assert_eq!(marked(&"x".repeat(1000), 1, 170), None);
-    }
-
-    #[test]
-    fn the_status_comes_from_the_error_and_not_from_its_words() {
-        let named = "cannot read notes (os error 24), errno = 12, of mine.toml";
-        assert_eq!(Failure::input(named).status(), 2);
-        let system = |number| io::Error::from_raw_os_error(number);
-        for (number, status) in [(2, 2), (13, 2), (11, 1), (12, 1), (23, 1), (24, 1)] {
-            assert_eq!(Failure::input(system(number)).status(), status, "{number}");
-            assert_eq!(Failure::because(&system(number), "said in other words").status(), status, "{number}");
-            // However deep it lies.
-            let aside = InputError::SetAside { path: PathBuf::from("run.h5"), error: system(number) };
-            assert_eq!(Failure::of(RunError::Input(aside)).status(), status, "{number}");
-            let origin = Origin::File(Path::new("mine.toml").into());
-            let scene = Problem { origin, key: None, message: named.into(), system: Some(number) };
-            assert_eq!(Failure::input(SceneError::from(scene.clone())).status(), status, "{number}");
-            assert_eq!(Failure::of_scene(SceneError::from(scene.clone())).status(), status, "{number}");
-            assert_eq!(Failure::of_study(StudyError(vec![scene])).status(), status, "{number}");
-        }
-        let threads = SimulationError::Threads { workers: 2, message: "no".into() };
-        assert_eq!(Failure::of(RunError::Input(InputError::Simulation(threads))).status(), 1);
-    }
-}
+#[path = "../tests/unit/failure.rs"]
+mod tests;

@@ -1,14 +1,16 @@
-//! Words that other programs answer: `plateau WORD` is `plateau-WORD`, beside this program or on the path.
+//! Words that other programs answer: `plateau WORD` is `plateau-WORD`, beside this program or on the path; and figures, which the Python
+//! package draws from data of this program.
 
-use std::env;
 use std::ffi::{OsStr, OsString};
-use std::io;
 use std::os::unix::process::CommandExt as _;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
+use std::{env, fs, io};
+
+use tempfile::TempDir;
 
 use crate::failure::Failure;
-use crate::message;
+use crate::{message, output};
 
 /// Names this program to the one that answers, which calls it.
 const PROGRAM: &str = "PLATEAU_PROGRAM";
@@ -18,9 +20,6 @@ const HANDED: &str = "PLATEAU_HANDED";
 const OF_PYTHON: [&str; 8] = ["sweep", "fit", "compare", "plot", "report", "export", "figure", "surface"];
 
 /// Becomes the program that answers a word, with these arguments; comes back only where that fails.
-///
-/// # Errors
-/// [`Failure::Run`] where there is no such program, with what to install, or it cannot be started.
 pub fn hand_over(word: &str, arguments: impl IntoIterator<Item = OsString>) -> Result<(), Failure> {
     let mut command = command(word)?;
     let error: io::Error = command.args(arguments).args(message::level_as_option()).exec();
@@ -28,9 +27,6 @@ pub fn hand_over(word: &str, arguments: impl IntoIterator<Item = OsString>) -> R
 }
 
 /// The program that answers a word, to be started.
-///
-/// # Errors
-/// [`Failure::Run`] where there is no such program, with what to install.
 fn command(word: &str) -> Result<Command, Failure> {
     let Some(answering) = answering(word) else {
         let package = if OF_PYTHON.contains(&word) {
@@ -55,9 +51,6 @@ fn command(word: &str) -> Result<Command, Failure> {
 }
 
 /// What the program that answers a word has to say, asked with these arguments; it has no terminal.
-///
-/// # Errors
-/// [`Failure::Run`] as [`command`], or where it cannot be started.
 pub fn asked(word: &str, arguments: impl IntoIterator<Item = impl AsRef<OsStr>>) -> Result<Output, Failure> {
     let mut command = command(word)?;
     command.args(arguments).stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped());
@@ -88,4 +81,40 @@ pub fn is_word(word: &OsStr) -> bool {
 fn is_program(file: &Path) -> bool {
     use std::os::unix::fs::PermissionsExt as _;
     file.metadata().is_ok_and(|found| found.is_file() && found.permissions().mode() & 0o111 != 0)
+}
+
+/// Formats of figures, which are the endings of their names.
+pub const FORMATS: [&str; 3] = ["png", "svg", "pdf"];
+/// The word of the package that draws.
+const WORD: &str = "figure";
+
+/// The format that the ending of a name tells, if it is one.
+pub fn format_of(path: &Path) -> Option<&'static str> {
+    let ending = output::ending(path);
+    FORMATS.into_iter().find(|format| *format == ending)
+}
+
+/// A folder for data of figures, which goes with the value.
+pub fn temporary_folder() -> Result<TempDir, Failure> {
+    tempfile::tempdir().map_err(|error| Failure::run(format_args!("no temporary folder: {error}")))
+}
+
+/// Figures of a kind ("accuracy", "surfaces", "fibre-map") from data, a file or a folder: names and contents, page by page, each in
+/// all these formats, with more options of the word.
+pub fn draw(kind: &str, data: &Path, formats: &[&str], options: &[&str]) -> Result<Vec<(String, Vec<u8>)>, Failure> {
+    let folder = temporary_folder()?;
+    let mut arguments = vec![OsStr::new(kind), data.as_os_str(), OsStr::new("-o"), folder.path().as_os_str()];
+    arguments.extend(options.iter().map(OsStr::new));
+    arguments.extend(formats.iter().flat_map(|format| ["--format", format]).map(OsStr::new));
+    let done = asked(WORD, arguments)?;
+    if !done.status.success() {
+        return Err(Failure::run(reason(&done, "no figure was drawn")));
+    }
+    // A line for each file: its path.
+    let said = String::from_utf8_lossy(&done.stdout);
+    let read = |path: &str| {
+        let name = Path::new(path).file_name().unwrap_or_default().to_string_lossy().into_owned();
+        fs::read(folder.path().join(&name)).map(|content| (name, content))
+    };
+    said.lines().map(read).collect::<Result<_, _>>().map_err(|error| Failure::run(format_args!("a figure: {error}")))
 }

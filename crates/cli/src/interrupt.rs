@@ -30,9 +30,6 @@ pub struct Preparation {
 impl Interrupt {
     /// From now on SIGINT, SIGTERM, SIGHUP (the terminal is gone) and SIGXCPU (the time limit of the system is reached) are noted
     /// instead of ending the program. What the caller ignores stays ignored, as SIGHUP behind `nohup`.
-    ///
-    /// # Errors
-    /// When the system does not take the handlers.
     pub fn listen() -> io::Result<Self> {
         let signal = Arc::new(AtomicUsize::new(0));
         let ignored = ignored_signals();
@@ -77,9 +74,6 @@ impl Interrupt {
     }
 
     /// From now on SIGUSR1, with which batch systems announce the end, asks for a checkpoint.
-    ///
-    /// # Errors
-    /// When the system does not take the handler.
     pub fn listen_for_save(&self) -> io::Result<()> {
         signal_hook::flag::register(SIGUSR1, Arc::clone(&self.save)).map(drop)
     }

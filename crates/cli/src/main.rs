@@ -4,7 +4,6 @@ mod accuracy;
 mod arguments;
 mod commands;
 mod failure;
-mod figure;
 mod hand_over;
 mod interrupt;
 mod invocation;

@@ -11,9 +11,6 @@ use crate::failure::Failure;
 
 /// Refuses an output path that is taken, has no directory, is one of the inputs or a link to nothing; before any work is done for
 /// it.
-///
-/// # Errors
-/// [`Failure::Input`].
 pub fn check(path: &Path, force: bool, inputs: &[PathBuf]) -> Result<(), Failure> {
     let shown = path.display();
     if path.as_os_str().as_encoded_bytes().ends_with(b"/") {
@@ -60,9 +57,6 @@ pub fn write(path: &Path, content: &[u8], force: bool) -> Result<(), Failure> {
 
 /// As [`write()`], a file in a folder that was named: a link of its name is not followed but replaced, for it was somebody else who
 /// made it lead elsewhere.
-///
-/// # Errors
-/// Those of [`write()`].
 pub fn write_in_folder(path: &Path, content: &[u8], force: bool) -> Result<(), Failure> {
     write_at(path, path, content, force)
 }
@@ -76,9 +70,6 @@ fn write_at(path: &Path, target: &Path, content: &[u8], force: bool) -> Result<(
 }
 
 /// Makes a folder, with those that it is in, unless it is there.
-///
-/// # Errors
-/// [`Failure::Input`] when something else has its name or the system refuses.
 pub fn make_directory(path: &Path) -> Result<(), Failure> {
     fs::create_dir_all(path).map_err(|error| {
         let reason = if path.exists() { "there is a file of that name".to_owned() } else { error.to_string() };

@@ -40,9 +40,6 @@ impl Screen {
     }
 
     /// Shows a look, and the warning if there is one.
-    ///
-    /// # Errors
-    /// When standard output takes no more.
     pub fn show(&mut self, look: &Look, pace: &Pace, warning: Option<&str>) -> io::Result<()> {
         match &self.terminal {
             Some(terminal) => {
@@ -88,19 +85,5 @@ fn is_unicode(variable: impl Fn(&str) -> Option<String>) -> bool {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::is_unicode;
-
-    #[test]
-    fn the_locale_is_that_of_the_first_variable_that_is_set() {
-        let with = |all: &'static str, lang: &'static str| {
-            is_unicode(move |name| match name {
-                "LC_ALL" => Some(all.to_owned()),
-                "LANG" => Some(lang.to_owned()),
-                _ => None,
-            })
-        };
-        assert!(with("", "de_DE.UTF-8") && with("C.utf8", "C") && !with("C", "de_DE.UTF-8") && !with("", ""));
-        assert!(!with("", "de_DE.ISO-8859-1"));
-    }
-}
+#[path = "../tests/unit/screen.rs"]
+mod tests;

@@ -46,9 +46,6 @@ pub fn fit_environment() {
 }
 
 /// Begins only where there is as much memory as any command may need, and ends with status 1 where it runs out later.
-///
-/// # Errors
-/// [`Failure::Run`] where there is too little.
 pub fn refuse_little_memory() -> Result<(), Failure> {
     end_where_it_runs_out();
     let refused = |no_room| Failure::run(format_args!("the program needs {no_room}: allow more of it (ulimit -v)"));
@@ -98,15 +95,5 @@ fn payload_text(payload: &(dyn Any + Send)) -> String {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn what_is_lacking_is_told_from_what_is_wrong() {
-        let lacking = in_words("failed to spawn thread: Os { code: 11,\n kind: WouldBlock }", " at a.rs:1");
-        assert!(lacking.starts_with("the system gives no more threads") && !lacking.contains('\n'), "{lacking}");
-        let lacking = in_words("called `Result::unwrap()` on an `Err` value: MemError", " at a.rs:1");
-        assert!(lacking.starts_with("the system gives no more memory") && !lacking.contains("mistake"), "{lacking}");
-        assert!(in_words("index out of bounds", " at a.rs:1").starts_with("the program panicked at a.rs:1: index"));
-    }
-}
+#[path = "../tests/unit/startup.rs"]
+mod tests;

@@ -126,17 +126,11 @@ pub struct Terminal {
 
 impl Terminal {
     /// From now on signals are noted; another process of the job shows the progress unless this one does.
-    ///
-    /// # Errors
-    /// When the system does not take the handlers.
     pub fn listen(visible: bool) -> io::Result<Self> {
         Ok(Self { interrupt: Interrupt::listen()?, preparation: None, visible, progress: None })
     }
 
     /// The same, and SIGUSR1 asks for a checkpoint.
-    ///
-    /// # Errors
-    /// When the system does not take the handlers.
     pub fn listen_for_save(visible: bool) -> io::Result<Self> {
         let terminal = Self::listen(visible)?;
         terminal.interrupt.listen_for_save()?;

@@ -5,16 +5,15 @@
 //! has no links it is made by an open that fails where there is one. So no locks of the system are needed, which network
 //! file systems may lack.
 //!
-//! A process that was killed leaves its lock. Another process of the same machine sees that, and takes it over: it first
-//! claims the right to do so in the same way, with a file named by the number that only this lock has; then it looks
-//! whether that lock still is there, and replaces it. So of several that find a lock left over one gets it, and nobody
-//! takes a new one for it.
+//! A process that was killed leaves its lock. Another process of the same machine sees that, and takes it over: it locks that file for
+//! the system, which a kill ends, looks whether it still is there, and replaces it. So of several that find a lock left over one gets it,
+//! and nobody takes a new one for it. Where a file system knows no such locks, that holds unless two do so at the very same moment.
 //!
 //! Of a process of another machine nobody can see whether it lives. Where others wait for what it has, as those that share a study, it
 //! touches its lock now and then: [`Claim::touch`]. Who has seen for long that nobody touches it takes it over: [`Claim::of_silent`]. Only
 //! changes count, so clocks need not agree.
 
-use std::fs::{self, File};
+use std::fs::{self, File, TryLockError};
 use std::io::{self, ErrorKind, Read, Write};
 use std::os::unix::fs::MetadataExt;
 use std::path::{Path, PathBuf};
@@ -38,8 +37,6 @@ const LARGEST: u64 = 4096;
 /// Number of times that a lock that is not complete is read, and how long is waited before: without links it is first made, then filled.
 const LOOKS: u32 = 20;
 const PAUSE: Duration = Duration::from_millis(50);
-/// Processes killed one after the other while each took over the lock of the one before: more is something else.
-const DEPTH: usize = 6;
 
 /// The right to write a run file and what lies beside it, until it is dropped.
 #[derive(Debug)]
@@ -77,112 +74,46 @@ struct Version {
     plateau_lock: u32,
 }
 
-/// Reason why a file is not claimed.
+/// Reason why a file, named first, is not claimed.
 #[derive(Debug, Error)]
 pub enum ClaimError {
-    /// A living process of this machine has it.
-    #[error("{} is being written by process {process}, since {since}; stop that first, or write elsewhere", path.display(), since = short(since))]
-    Here {
-        /// The file to be claimed.
-        path: PathBuf,
-        /// The process.
-        process: u32,
-        /// Since when, ISO 8601.
-        since: String,
-    },
+    /// A living process of this machine has it, since that time, ISO 8601.
+    #[error("{} is being written by process {}, since {}; stop that first, or write elsewhere", .0.display(), .1, short(.2))]
+    Here(PathBuf, u32, String),
     /// Nobody here can tell whether the process that has it lives.
-    #[error(
-        "{} is being written by process {process} of the machine {host}, since {since}, and from here it cannot be told whether that lives; \
-        if it has ended, remove {}",
-        path.display(), lock.display(), host = short(host), since = short(since)
-    )]
-    Elsewhere {
-        /// The file to be claimed.
-        path: PathBuf,
-        /// The file that says so.
-        lock: PathBuf,
-        /// The process.
-        process: u32,
-        /// Its machine.
-        host: String,
-        /// Since when, ISO 8601.
-        since: String,
-    },
-    /// Something else has the name of the lock.
-    #[error(
-        "{} is not a complete lock of plateau, but is where that of {} would be; move it away, or write elsewhere",
-        lock.display(), path.display()
-    )]
-    Foreign {
-        /// The file to be claimed.
-        path: PathBuf,
-        /// The path that is in the way.
-        lock: PathBuf,
-    },
-    /// Another version of the program has it, or had.
-    #[error(
-        "{} is a lock of another version of plateau (format {found}, expected {VERSION}): if no process writes {}, remove it",
-        lock.display(), path.display()
-    )]
-    OtherVersion {
-        /// The file to be claimed.
-        path: PathBuf,
-        /// The file that says so.
-        lock: PathBuf,
-        /// Version of its format.
-        found: u32,
-    },
-    /// Nobody can tell who has it.
-    #[error("cannot read {}, which says who writes {}: {error}", lock.display(), path.display())]
-    Unreadable {
-        /// The file to be claimed.
-        path: PathBuf,
-        /// The file that says so.
-        lock: PathBuf,
-        /// Message of the system.
-        #[source]
-        error: io::Error,
-    },
-    /// No lock can be made.
-    #[error("cannot make a file in {}: {error}; make the directory writable, or write elsewhere with -o FILE", directory.display())]
-    System {
-        /// The directory.
-        directory: PathBuf,
-        /// Message of the system.
-        #[source]
-        error: io::Error,
-    },
+    #[error("{0}")]
+    Elsewhere(String),
+    /// Something else has the name of the lock, or another version of the program has it, or had.
+    #[error("{0}")]
+    Foreign(String),
+    /// Nobody can tell who has it, or no lock can be made, for what the system says.
+    #[error("{0}")]
+    System(String, #[source] io::Error),
 }
 
 impl ClaimError {
     /// Tells whether the disk is full: nothing that another name would mend.
     pub fn lacks_space(&self) -> bool {
         let full = [ErrorKind::StorageFull, ErrorKind::QuotaExceeded, ErrorKind::FileTooLarge];
-        matches!(self, Self::System { error, .. } if full.contains(&error.kind()))
+        matches!(self, Self::System(_, error) if full.contains(&error.kind()))
     }
 }
 
 impl Claim {
     /// Claims a file, which need not be there. Its folder must be. Where it is a link, what that points to is claimed.
-    ///
-    /// # Errors
-    /// [`ClaimError`] when another process has it, or this one, or no lock can be made.
     pub fn of(path: &Path) -> Result<Self, ClaimError> {
         Self::with(path, None)
     }
 
     /// As [`of`](Self::of), and takes over the lock of a process of another machine if it still is as it was [`seen`](Self::seen).
-    ///
-    /// # Errors
-    /// Those of [`of`](Self::of).
     pub fn of_silent(path: &Path, seen: &Seen) -> Result<Self, ClaimError> {
         Self::with(path, Some(seen))
     }
 
     fn with(path: &Path, silent: Option<&Seen>) -> Result<Self, ClaimError> {
         let lock = lock_of(path);
-        let claim = Self::take(path, &lock, silent, 0)?;
-        remove_left(&lock);
+        let claim = Self::take(path, &lock, silent)?;
+        Temporary::remove_abandoned(&lock);
         Ok(claim)
     }
 
@@ -207,8 +138,12 @@ impl Claim {
     }
 
     /// Makes a lock.
-    fn take(path: &Path, lock: &Path, silent: Option<&Seen>, depth: usize) -> Result<Self, ClaimError> {
-        let system = |error| ClaimError::System { directory: folder(lock).to_owned(), error };
+    fn take(path: &Path, lock: &Path, silent: Option<&Seen>) -> Result<Self, ClaimError> {
+        let system = |error| {
+            let directory = folder(lock).display();
+            let advice = "make the directory writable, or write elsewhere with -o FILE";
+            ClaimError::System(format!("cannot make a file in {directory}: {error}; {advice}"), error)
+        };
         let owner = Owner::this();
         let text = serde_json::to_string(&owner).map_err(|error| system(error.into()))? + "\n";
         loop {
@@ -225,17 +160,19 @@ impl Claim {
                 Life::Unknown => is_silent(),
                 Life::Lives => false,
             };
-            if !is_gone || depth == DEPTH {
+            if !is_gone {
                 return Err(there.refusal(path, lock));
             }
             // Whoever writes the file on this machine lives, whatever the lock says.
-            if depth == 0
-                && let Writer::Process(process) = writer_of(path)
-            {
-                return Err(ClaimError::Here { path: path.to_owned(), process, since: there.since });
+            if let Writer::Process(process) = writer_of(path) {
+                return Err(ClaimError::Here(path.to_owned(), process, there.since));
             }
-            let _right = Self::take(path, &right_to(lock, &there.number), None, depth + 1)?;
-            // Only who has the right replaces that lock, and nobody else would remove it.
+            let Ok(left) = File::open(lock) else { continue };
+            if let Err(TryLockError::WouldBlock) = left.try_lock() {
+                thread::sleep(PAUSE / LOOKS);
+                continue;
+            }
+            // Only who has locked that file replaces it, and nobody else would remove it.
             if read(path, lock)?.is_some_and(|now| now == there) {
                 fs::rename(temporary.path(), lock).map_err(system)?;
                 return Ok(Self { lock: lock.to_owned(), owner, before: Some(there.writer) });
@@ -250,9 +187,6 @@ impl Claim {
 
     /// Tells whether a file could be claimed now, for a quick answer; touches nothing. True where there is the lock of a process that
     /// has ended, so that it is known who wrote the file last.
-    ///
-    /// # Errors
-    /// [`ClaimError`] when another process has it.
     pub fn check(path: &Path) -> Result<bool, ClaimError> {
         let lock = lock_of(path);
         match read(path, &lock)? {
@@ -288,12 +222,18 @@ impl Owner {
     }
 
     fn refusal(self, path: &Path, lock: &Path) -> ClaimError {
-        let (path, lock, since) = (path.to_owned(), lock.to_owned(), self.since);
         let process = self.writer.number;
-        match self.writer.life() {
-            Life::Unknown => ClaimError::Elsewhere { path, lock, process, host: self.writer.machine.host, since },
-            _ => ClaimError::Here { path, process, since },
+        if self.writer.life() != Life::Unknown {
+            return ClaimError::Here(path.to_owned(), process, self.since);
         }
+        ClaimError::Elsewhere(format!(
+            "{} is being written by process {process} of the machine {}, since {}, and from here it cannot be told whether that lives; \
+             if it has ended, remove {}",
+            path.display(),
+            short(&self.writer.machine.host),
+            short(&self.since),
+            lock.display()
+        ))
     }
 }
 
@@ -304,14 +244,6 @@ pub fn lock_of(path: &Path) -> PathBuf {
     let mut name = path.file_name().unwrap_or_default().to_owned();
     name.push(".lock");
     path.with_file_name(name)
-}
-
-/// The lock of the right to take over the lock of that number.
-fn right_to(lock: &Path, number: &str) -> PathBuf {
-    let mut name = lock.file_name().unwrap_or_default().to_owned();
-    name.push(".");
-    name.push(number);
-    lock.with_file_name(name)
 }
 
 /// Gives a complete file the name of a lock; whether that was free.
@@ -339,8 +271,15 @@ fn make(complete: &Path, lock: &Path, text: &str) -> io::Result<bool> {
 
 /// Content of a lock, if there is one.
 fn read(path: &Path, lock: &Path) -> Result<Option<Owner>, ClaimError> {
-    let unreadable = |error| ClaimError::Unreadable { path: path.to_owned(), lock: lock.to_owned(), error };
-    let foreign = || ClaimError::Foreign { path: path.to_owned(), lock: lock.to_owned() };
+    let (shown, path) = (lock.display(), path.display());
+    let unreadable =
+        |error| ClaimError::System(format!("cannot read {shown}, which says who writes {path}: {error}"), error);
+    let foreign = || {
+        let advice = "move it away, or write elsewhere";
+        ClaimError::Foreign(format!(
+            "{shown} is not a complete lock of plateau, but is where that of {path} would be; {advice}"
+        ))
+    };
     for _ in 0..LOOKS {
         match fs::symlink_metadata(lock) {
             Err(error) if error.kind() == ErrorKind::NotFound => return Ok(None),
@@ -357,7 +296,10 @@ fn read(path: &Path, lock: &Path) -> Result<Option<Owner>, ClaimError> {
         if text.ends_with('\n') || !(text.starts_with(START) || START.starts_with(&text)) {
             let Version { plateau_lock: found } = serde_json::from_str(&text).map_err(|_| foreign())?;
             if found != VERSION {
-                return Err(ClaimError::OtherVersion { path: path.to_owned(), lock: lock.to_owned(), found });
+                return Err(ClaimError::Foreign(format!(
+                    "{shown} is a lock of another version of plateau (format {found}, expected {VERSION}): if no process writes {path}, \
+                     remove it"
+                )));
             }
             let owner = serde_json::from_str::<Owner>(&text).ok().filter(Owner::is_whole);
             return owner.map(Some).ok_or_else(foreign);
@@ -367,20 +309,6 @@ fn read(path: &Path, lock: &Path) -> Result<Option<Owner>, ClaimError> {
     Err(foreign())
 }
 
-/// Removes what processes left that were killed while they made this lock or took it over. Who has the lock needs nobody's right to it.
-fn remove_left(lock: &Path) {
-    let own = lock.file_name().unwrap_or_default().to_string_lossy();
-    let is_right = |name: &str| {
-        let numbers = name.strip_prefix(&*own).and_then(|rest| rest.strip_prefix('.'));
-        numbers.is_some_and(|numbers| numbers.split('.').all(temporary::is_unique_word))
-    };
-    Temporary::remove_abandoned_of(folder(lock), |name| name == own || is_right(name));
-    let Ok(entries) = fs::read_dir(folder(lock)) else { return };
-    for entry in entries.flatten().filter(|entry| is_right(&entry.file_name().to_string_lossy())) {
-        // Somebody else may have been quicker.
-        let _ = fs::remove_file(entry.path());
-    }
-}
-
 #[cfg(test)]
+#[path = "../tests/unit/claim.rs"]
 mod tests;

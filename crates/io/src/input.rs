@@ -7,22 +7,15 @@ use std::path::{Path, PathBuf};
 
 use sha2::{Digest, Sha256};
 
-use crate::limits;
 use crate::temporary::folder;
 use crate::text::nearest;
 
 /// Opens a regular file for reading.
-///
-/// # Errors
-/// What the system says, and a message where something else has the name.
 pub fn open(path: &Path) -> io::Result<File> {
     open_own(path).map_err(|error| not_there(path, error))
 }
 
 /// The same for a file of the program's own, which nobody has named: it may well not be there, and no other one is meant.
-///
-/// # Errors
-/// Those of [`open`].
 pub(crate) fn open_own(path: &Path) -> io::Result<File> {
     let there = fs::metadata(path)?;
     if there.is_dir() {
@@ -80,9 +73,6 @@ fn is_like(name: &str, other: &str) -> bool {
 }
 
 /// All of a regular file of at most so many bytes.
-///
-/// # Errors
-/// Those of [`open`], what the system says, and [`ErrorKind::FileTooLarge`] where there are more.
 pub fn read(path: &Path, most: u64) -> io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
     open_small(path, most)?.take(most + 1).read_to_end(&mut bytes)?;
@@ -92,9 +82,6 @@ pub fn read(path: &Path, most: u64) -> io::Result<Vec<u8>> {
 }
 
 /// All of a regular file of at most so many bytes, as text.
-///
-/// # Errors
-/// Those of [`read`], and [`ErrorKind::InvalidData`] where it is not UTF-8.
 pub fn read_to_string(path: &Path, most: u64) -> io::Result<String> {
     String::from_utf8(read(path, most)?).map_err(|error| {
         let at = error.utf8_error().valid_up_to();
@@ -103,9 +90,6 @@ pub fn read_to_string(path: &Path, most: u64) -> io::Result<String> {
 }
 
 /// Opens a regular file of at most so many bytes for reading.
-///
-/// # Errors
-/// Those of [`open`], and [`ErrorKind::FileTooLarge`] where it has more.
 pub fn open_small(path: &Path, most: u64) -> io::Result<File> {
     let file = open(path)?;
     refuse_large(file.metadata()?.len(), most)?;
@@ -123,9 +107,6 @@ fn refuse_large(bytes: u64, most: u64) -> io::Result<()> {
 const READINGS: usize = 5;
 
 /// Result of `read` of a file, and the SHA-256 of the content that it read: a file that is replaced or written meanwhile is read again.
-///
-/// # Errors
-/// Those of `read`; as `failed` puts it what the system says, and [`ErrorKind::InvalidData`] where the file changes again and again.
 pub(crate) fn digested<T, E>(
     path: &Path,
     mut read: impl FnMut() -> Result<T, E>,
@@ -155,75 +136,42 @@ pub fn sha256_of(bytes: &[u8]) -> String {
 }
 
 /// SHA-256 of a file's content, 64 hexadecimal digits.
-///
-/// # Errors
-/// What the system says when the file cannot be read.
 pub(crate) fn sha256(path: &Path) -> io::Result<String> {
     let mut hasher = Sha256::new();
     io::copy(&mut open(path)?, &mut hasher)?;
     Ok(format!("{:x}", hasher.finalize()))
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
+pub mod limits {
+    //! Limits for files that anybody may have made. What is larger is refused, with both numbers in the message.
+    //!
+    //! Surfaces have bounds of their own besides: points of a grid, and what deflate can make of the bytes that are there.
 
-    #[test]
-    fn a_name_that_is_mistyped_is_told_with_the_one_beside_it() {
-        let folder = tempfile::tempdir().unwrap();
-        fs::write(folder.path().join("quick.toml"), "").unwrap();
-        let said = |name: &str| open(&folder.path().join(name)).unwrap_err().to_string();
-        let meant = folder.path().join("quick.toml");
-        assert_eq!(
-            said("quik.toml"),
-            format!("No such file or directory (os error 2); did you mean {}?", meant.display())
-        );
-        for like in ["quick", "quick.tml", "qiuck.toml"] {
-            assert!(said(like).ends_with("quick.toml?"), "{}", said(like));
-        }
-        // Neither what has only its beginning nor what has only its ending.
-        assert_eq!(said("quick.h5"), "No such file or directory (os error 2)");
-        assert_eq!(said("else.toml"), "No such file or directory (os error 2)");
-        assert_eq!(said("."), "it is a folder, expected a file");
-    }
+    /// Bytes of a study: brackets take fifty times their size while they are read.
+    pub const STUDY: u64 = 4 << 20;
+    /// Bytes of a table of load and speed, or of the points of a design.
+    pub const TABLE: u64 = 64 << 20;
+    /// Rows of such a table.
+    pub const ROWS: usize = 1_000_000;
+    /// Values of the points of a design, rows times columns.
+    pub const CELLS: usize = 10_000_000;
+    /// Bytes of heights as text: what becomes of them needs several times that.
+    pub const SURFACE_TEXT: u64 = 1 << 30;
+    /// Bytes of heights as an array or an image.
+    pub const SURFACE: u64 = 4 << 30;
+    /// Bytes of a line of a journal, which holds the series of a run.
+    pub const RECORD: u64 = 256 << 20;
+    /// Numbers in a line of a journal.
+    pub const RECORD_NUMBERS: usize = 1 << 27;
+    /// Scenes that extend each other.
+    pub const LAYERS: usize = 64;
 
-    #[test]
-    fn the_digest_is_that_of_what_was_read() {
-        let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("surface");
-        fs::write(&path, "0").unwrap();
-        // It grows behind the first two readings.
-        let mut readings = 0;
-        let growing = || {
-            let content = read_to_string(&path, 9)?;
-            readings += 1;
-            let next = "0".repeat(readings.min(2) + 1);
-            if content != next { fs::write(&path, next).map(|()| content) } else { Ok(content) }
-        };
-        let (content, digest) = digested(&path, growing, |error| error).unwrap();
-        assert_eq!((content.as_str(), readings, digest), ("000", 3, sha256_of(b"000")));
-        let mut count = 0;
-        let endless = || {
-            count += 1;
-            fs::write(&path, "0".repeat(count))
-        };
-        let said = digested(&path, endless, |error| error).unwrap_err().to_string();
-        assert!(said.starts_with("it changes while it is read"), "{said}");
-    }
-
-    #[test]
-    fn what_is_larger_than_expected_is_not_read() {
-        let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("file");
-        fs::write(&path, "12345").unwrap();
-        assert_eq!(read_to_string(&path, 5).unwrap(), "12345");
-        let error = read(&path, 4).unwrap_err();
-        assert_eq!(
-            (error.kind(), error.to_string().as_str()),
-            (ErrorKind::FileTooLarge, "5 bytes, expected at most 4")
-        );
-        // It takes no room on the disk, and would take all memory.
-        File::options().write(true).open(&path).unwrap().set_len(1 << 40).unwrap();
-        assert_eq!(read(&path, 1 << 20).unwrap_err().kind(), ErrorKind::FileTooLarge);
+    /// Says that there is more of something than is read.
+    pub(crate) fn more(found: impl std::fmt::Display, most: impl std::fmt::Display, what: &str) -> String {
+        format!("{found} {what}, expected at most {most}")
     }
 }
+
+#[cfg(test)]
+#[path = "../tests/unit/input.rs"]
+mod tests;

@@ -24,7 +24,6 @@ pub mod delimited;
 pub mod generation;
 mod hdf5_file;
 pub mod input;
-pub mod limits;
 pub mod memory;
 pub mod number;
 pub mod plausibility;
@@ -33,8 +32,9 @@ pub mod run_file;
 pub mod scene;
 pub mod study;
 pub mod surface;
-mod syntax;
 pub mod temporary;
 pub mod text;
 mod timestamp;
 pub mod units;
+
+pub use input::limits;

@@ -28,9 +28,6 @@ pub struct Temporary {
 
 impl Temporary {
     /// A new file beside `target`, empty and open for writing, of a name that nobody knows beforehand.
-    ///
-    /// # Errors
-    /// What the system says.
     pub fn create(target: &Path) -> io::Result<(Self, File)> {
         loop {
             let own = target.file_name().unwrap_or_default().to_string_lossy();
@@ -71,9 +68,6 @@ impl Temporary {
     }
 
     /// Gives the file its name; takes the place of another, whose permissions it gets, only with `replace`.
-    ///
-    /// # Errors
-    /// What the system says; [`ErrorKind::AlreadyExists`] when there is a file that is not to be replaced.
     pub fn publish(self, replace: bool) -> io::Result<()> {
         // Else a loss of power could leave an empty file of this name.
         File::open(&self.path)?.sync_all()?;
@@ -135,45 +129,5 @@ impl Drop for Temporary {
 }
 
 #[cfg(test)]
-mod tests {
-    use std::os::unix::fs::{PermissionsExt, symlink};
-
-    use super::*;
-
-    #[test]
-    fn a_file_that_is_replaced_keeps_its_permissions() {
-        let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("run.h5");
-        let mode = || fs::metadata(&path).unwrap().permissions().mode() & 0o777;
-        fs::write(&path, "old").unwrap();
-        fs::set_permissions(&path, fs::Permissions::from_mode(0o604)).unwrap();
-        for durably in [false, true] {
-            let (temporary, _) = Temporary::create(&path).unwrap();
-            if durably { temporary.publish_durably() } else { temporary.publish(true) }.unwrap();
-            assert_eq!((mode(), fs::read(&path).unwrap().len()), (0o604, 0));
-        }
-    }
-
-    #[test]
-    fn only_what_a_dead_process_left_is_removed() {
-        let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("run.h5");
-        let dead = u32::MAX;
-        let word = unique_word();
-        let left = format!(".run.h5.plateau-{dead}-{word}.tmp");
-        let kept = [
-            format!(".run.h5.plateau-{}-{word}.tmp", std::process::id()),
-            format!(".run.h5.plateau-{dead}-notes.tmp"),
-            format!(".run.h5.plateau-{dead}-{word}"),
-            format!(".other.h5.plateau-{dead}-{word}.tmp"),
-        ];
-        for name in kept.iter().chain([&left]) {
-            fs::write(folder.path().join(name), "").unwrap();
-        }
-        let link = folder.path().join(format!(".run.h5.plateau-{dead}-0.tmp"));
-        symlink("elsewhere", &link).unwrap();
-        Temporary::remove_abandoned(&path);
-        assert!(!folder.path().join(left).exists());
-        assert!(kept.iter().all(|name| folder.path().join(name).exists()) && link.is_symlink());
-    }
-}
+#[path = "../tests/unit/temporary.rs"]
+mod tests;

@@ -5,108 +5,56 @@
 
 mod dimension;
 mod expression;
-pub mod pattern;
 
 use dimension::meaning;
 use expression::Scale;
-use thiserror::Error;
 
 use crate::text::short;
 
 pub use dimension::Dimension;
+pub use expression::PREFIXES;
 
 /// 0 °C, K.
 const CELSIUS: f64 = 273.15;
 
-/// Reason why a text is no quantity of the kind that is asked for.
-#[derive(Debug, Clone, PartialEq, Eq, Error)]
-pub enum UnitError {
-    /// It does not start with a number.
-    #[error("\"{text}\" does not start with a number, expected {expected}")]
-    NoNumber {
-        /// The value found.
-        text: String,
-        /// The value asked for.
-        expected: Dimension,
-    },
-    /// The number is infinite, not a number, or larger than a double can hold.
-    #[error("\"{text}\" is not finite, expected {expected}")]
-    NotFinite {
-        /// The value found.
-        text: String,
-        /// The value asked for.
-        expected: Dimension,
-    },
-    /// A number alone.
-    #[error("{text} has no unit, expected {expected}")]
-    NoUnit {
-        /// The value found.
-        text: String,
-        /// The value asked for.
-        expected: Dimension,
-    },
-    /// The unit cannot be read.
-    #[error("\"{text}\": {reason}, expected {expected}")]
-    Unit {
-        /// The value found.
-        text: String,
-        /// Problem with its unit.
-        reason: String,
-        /// The value asked for.
-        expected: Dimension,
-    },
-    /// The unit measures something else.
-    #[error("\"{text}\" is {found}, expected {expected}{}", advice(found, *expected))]
-    WrongDimension {
-        /// The value found.
-        text: String,
-        /// Dimension of its unit.
-        found: &'static str,
-        /// The value asked for.
-        expected: Dimension,
-    },
+/// Says that what was found has no unit, and what is expected.
+pub(crate) fn no_unit(found: impl std::fmt::Display, expected: Dimension) -> String {
+    format!("{found} has no unit, expected {expected}")
 }
 
-fn advice(found: &str, expected: Dimension) -> &'static str {
-    if expected == Dimension::RotationalSpeed && found == "a frequency" {
-        "; a frequency does not say whether it counts turns or radians"
-    } else {
-        ""
-    }
-}
-
-/// Reads a number with a unit of the given dimension, as the nearest double in the SI unit.
-///
-/// # Errors
-/// [`UnitError`], which says what was found and shows what is expected.
-pub fn parse(text: &str, expected: Dimension) -> Result<f64, UnitError> {
-    let shown = || short(text.trim()).escape_debug().to_string();
+/// Reads a number with a unit of the given dimension, as the nearest double in the SI unit; else says what was found and what is expected.
+pub fn parse(text: &str, expected: Dimension) -> Result<f64, String> {
+    let shown = format!("\"{}\"", short(text.trim()).escape_debug());
+    let not_finite = || format!("{shown} is not finite, expected {expected}");
     let Some((number, unit)) = split_number(text.trim()) else {
         let word = text.trim().trim_start_matches(['+', '-']).to_ascii_lowercase();
         return Err(if word.starts_with("inf") || word.starts_with("nan") {
-            UnitError::NotFinite { text: shown(), expected }
+            not_finite()
         } else {
-            UnitError::NoNumber { text: shown(), expected }
+            format!("{shown} does not start with a number, expected {expected}")
         });
     };
     if unit.is_empty() {
-        return Err(UnitError::NoUnit { text: format!("\"{}\"", shown()), expected });
+        return Err(no_unit(shown, expected));
     }
     if expected == Dimension::Temperature && is_celsius(unit) {
-        return finite(shift_decimal(number, 0) + CELSIUS, || UnitError::NotFinite { text: shown(), expected });
+        return finite(shift_decimal(number, 0) + CELSIUS, not_finite);
     }
-    let scale = Scale::parse(unit).map_err(|reason| UnitError::Unit { text: shown(), reason, expected })?;
+    let scale = Scale::parse(unit).map_err(|reason| format!("{shown}: {reason}, expected {expected}"))?;
     if scale.powers != expected.powers() {
-        return Err(UnitError::WrongDimension { text: shown(), found: meaning(scale.powers), expected });
+        let found = meaning(scale.powers);
+        let advice = match expected {
+            Dimension::RotationalSpeed if found == "a frequency" => {
+                "; a frequency does not say whether it counts turns or radians"
+            }
+            _ => "",
+        };
+        return Err(format!("{shown} is {found}, expected {expected}{advice}"));
     }
-    let value = shift_decimal(number, scale.tens) * scale.times / scale.over;
-    finite(value, || UnitError::NotFinite { text: shown(), expected })
+    finite(shift_decimal(number, scale.tens) * scale.times / scale.over, not_finite)
 }
 
 /// Reads a number with a unit that measures the same as `si_unit`, a product of SI units such as `m2` or `kg s-1`; in that unit.
-///
-/// # Errors
-/// What is wrong with it, in words.
 pub fn parse_as(text: &str, si_unit: &str) -> Result<f64, String> {
     let (number, unit) = split_number(text.trim()).ok_or("it does not start with a number")?;
     if unit.is_empty() {
@@ -234,4 +182,5 @@ fn decimal(scientific: &str, tens: i32) -> String {
 }
 
 #[cfg(test)]
+#[path = "../tests/unit/units.rs"]
 mod tests;

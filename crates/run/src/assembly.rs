@@ -48,9 +48,6 @@ impl Assembly {
     }
 
     /// The simulation of a scene that all processes of a job carry out together.
-    ///
-    /// # Errors
-    /// As [`new`](Self::new).
     pub(crate) fn on(
         job: &Job,
         scene: &Scene,
@@ -113,9 +110,6 @@ impl Assembly {
     }
 
     /// The complete state between two steps. All processes of a job take it together.
-    ///
-    /// # Errors
-    /// [`SimulationError`] when a worker failed.
     pub fn checkpoint(&mut self) -> Result<SimulationState, SimulationError> {
         Ok(SimulationState {
             run: self.simulation.checkpoint()?,
@@ -126,9 +120,6 @@ impl Assembly {
     }
 
     /// Goes on from a state of a run of the same scene, instead of from the start.
-    ///
-    /// # Errors
-    /// When the state is of another run.
     pub fn restore(&mut self, state: &SimulationState) -> Result<(), SimulationError> {
         let SimulationState { run, scout, reached, events } = state;
         self.simulation.restore(run)?;

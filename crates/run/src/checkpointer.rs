@@ -79,9 +79,6 @@ impl Checkpointer {
 
     /// Takes the state of a run between two steps, and writes it as soon as what was sent to the run file is on the disk,
     /// which `synced` tells. All processes of a job must call this together; those that write nothing give no `synced`.
-    ///
-    /// # Errors
-    /// [`SimulationError`] when a worker failed.
     pub fn write(
         &mut self,
         assembly: &mut Assembly,

@@ -2,7 +2,7 @@
 
 use std::error::Error as StdError;
 use std::io;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use plateau_core::engine::comm::CommError;
 use plateau_core::simulation::SimulationError;
@@ -41,16 +41,6 @@ pub enum InputError {
     /// No run file can be made there.
     #[error("{0}")]
     RunFile(#[source] RunFileError),
-    /// There is a run file, whose run has not come to its end.
-    #[error(
-        "{} exists, and its run was stopped before its end; --resume goes on with it if the scene is the same, --force begins again, \
-         -o FILE writes elsewhere",
-        path.display()
-    )]
-    Unfinished {
-        /// The run file.
-        path: PathBuf,
-    },
     /// Another process writes it.
     #[error(transparent)]
     Claim(Box<ClaimError>),
@@ -60,87 +50,16 @@ pub enum InputError {
     /// A run file cannot be read.
     #[error("{0}")]
     Read(#[from] ReadError),
-    /// The output, or a checkpoint of it, is a file that the run reads.
-    #[error("the {what} {} is an input of this run and is not replaced; write elsewhere with -o FILE", path.display())]
-    ReplacesInput {
-        /// Which file it is.
-        what: &'static str,
-        /// Its path.
-        path: PathBuf,
-    },
-    /// Another program has the run file open for writing.
-    #[error("{} is being written by process {process}; stop that first, or write elsewhere with -o FILE", path.display())]
-    Written {
-        /// The run file.
-        path: PathBuf,
-        /// Who writes it.
-        process: u32,
-    },
-    /// The checkpoints of an earlier run cannot be moved out of the way.
-    #[error("cannot replace the checkpoints of {}: {error}; write elsewhere with -o FILE", path.display())]
-    SetAside {
-        /// The run file.
-        path: PathBuf,
-        /// Message of the system.
-        #[source]
-        error: io::Error,
-    },
-    /// The samples of a run without a checkpoint cannot be kept.
-    #[error(
-        "cannot keep the samples of {} beside it: {error}; move that file away, or write elsewhere with -o FILE", path.display()
-    )]
-    KeptAside {
-        /// The run file.
-        path: PathBuf,
-        /// Message of the system.
-        #[source]
-        error: io::Error,
-    },
-    /// A run that is to be extended has come further.
-    #[error("--extend-to: {} has come to {} s already; give a later time", path.display(), number::short(*time))]
-    Passed {
-        /// The run file.
-        path: PathBuf,
-        /// Physical time that it has come to, s.
-        time: f64,
-    },
-    /// The run file is not one to go on with.
-    #[error("{} {what}; without --resume, --force begins again", path.display())]
-    NotResumable {
-        /// The run file.
-        path: PathBuf,
-        /// Its problem.
-        what: String,
-    },
     /// The file that is there cannot be kept.
     #[error(transparent)]
     Keep(#[from] KeepError),
-    /// The run file that is to be gone on with cannot be read.
-    #[error("{0}; without --resume, --force begins again")]
-    Unreadable(ReadError),
-    /// The run file or its checkpoint is of another run.
-    #[error("{} cannot be resumed: {difference}; undo that, or begin again without --resume", path.display())]
-    OtherRun {
-        /// The run file.
-        path: PathBuf,
-        /// In what the two differ.
-        difference: String,
-    },
-    /// There are checkpoints, but none that holds; each with what is wrong.
-    #[error("{}; without --resume, --force begins again from the beginning", .0.join("; "))]
-    NoCheckpoint(Vec<String>),
-    /// The run file has what no checkpoint says of it; each with what is wrong.
-    #[error("{}; begin again without --resume", .0.join("; "))]
-    NoneFits(Vec<String>),
-    /// The processes of a job were not given the same.
-    #[error(
-        "rank {rank} was given another scene, other surfaces or another build of this program than rank 0: \
-         give all ranks the same, where the machines share no files by copying them"
-    )]
-    RanksDiffer {
-        /// The first that differs.
-        rank: usize,
-    },
+    /// What an earlier run left cannot be moved out of the way.
+    #[error("{0}")]
+    Aside(String, #[source] io::Error),
+    /// What is there is an input, of another run, written by another program, damaged or not to be replaced; or the processes of a job
+    /// were not given the same.
+    #[error("{0}")]
+    Refused(String),
 }
 
 /// Failure of a run.
@@ -220,6 +139,13 @@ impl std::fmt::Display for Progress {
     }
 }
 
+impl InputError {
+    /// Of a run file that is not one to go on with, for its problem.
+    pub(crate) fn not_resumable(path: &Path, what: &str) -> Self {
+        Self::Refused(format!("{} {what}; without --resume, --force begins again", path.display()))
+    }
+}
+
 impl From<SurfaceError> for InputError {
     fn from(error: SurfaceError) -> Self {
         Self::Surface(Box::new(error))
@@ -256,10 +182,7 @@ impl From<RunFileError> for RunError {
     /// Of a file that is being made, new or anew.
     fn from(error: RunFileError) -> Self {
         match error {
-            RunFileError::SetUp { .. }
-            | RunFileError::Anew { .. }
-            | RunFileError::NoThread { .. }
-            | RunFileError::Write { .. } => RunFailure::RunFile(error).into(),
+            RunFileError::Failed(_) | RunFileError::Write(..) => RunFailure::RunFile(error).into(),
             _ => InputError::RunFile(error).into(),
         }
     }
@@ -272,7 +195,7 @@ const LACKS: [i32; 4] = [11, 12, 23, 24];
 /// True of an error that is, or comes from, a lack of the system: no thread, no memory, no file handle. Then the input is not wrong.
 pub fn lacks_resources(error: &(dyn StdError + 'static)) -> bool {
     let number = |error: &(dyn StdError + 'static)| match error.downcast_ref::<ReadError>() {
-        Some(ReadError::System { number, .. }) => *number,
+        Some(ReadError::System(_, _, number)) => *number,
         _ => error.downcast_ref::<io::Error>().and_then(io::Error::raw_os_error),
     };
     let of_problems = |problems: &[Problem]| {

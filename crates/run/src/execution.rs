@@ -32,9 +32,6 @@ const WARM_UP_STEPS: u64 = 200;
 
 /// Decides how a scene is carried out by `ranks` processes together, and says what is worth knowing about it. Where
 /// there are several, each of them is one worker.
-///
-/// # Errors
-/// [`SimulationError`] when a trial fails.
 pub fn decide(
     scene: &Scene,
     ranks: usize,
@@ -111,9 +108,6 @@ fn fastest(
 
 /// Wall time of a step, s: measured for about as long as `trial` on the first steps of a simulation, after some to warm up; step
 /// `last` is the last, at the latest.
-///
-/// # Errors
-/// [`SimulationError`] when these steps fail.
 pub fn time_per_step(simulation: &mut Simulation, last: u64, trial: Duration) -> Result<f64, SimulationError> {
     let warm_up = Instant::now();
     while simulation.steps_done() < WARM_UP_STEPS.min(last / 2) && warm_up.elapsed() < trial {

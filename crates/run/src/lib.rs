@@ -39,14 +39,12 @@ mod start;
 mod summary;
 pub mod sweep;
 mod time_loop;
-mod warnings;
 
 pub use assembly::Assembly;
 pub use error::{InputError, Progress, RunError, RunFailure, Stopped, lacks_resources, signal_in_words};
 pub use job::Job;
 pub use options::{ExecutionOptions, Observer, Program, RunOptions, StartMode};
-pub use recorder::input_files;
+pub use recorder::{idle_warning, input_files, stiffness_warning};
 pub use run::run;
 pub use summary::{PartsSummary, RunSummary};
 pub use time_loop::Sink;
-pub use warnings::{idle_warning, stiffness_warning};

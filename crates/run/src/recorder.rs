@@ -1,10 +1,14 @@
-//! Recorder of a run: the header of its run file, the way of its samples and maps, and what may end it.
+//! Recorder of a run: the header of its run file, the way of its samples and maps, what may end it, and warnings of the stiffness that it
+//! comes to.
 
 use std::path::PathBuf;
 
+use plateau_core::acceleration::scout::Idle;
 use plateau_core::engine::comm::CommError;
+use plateau_core::model::parameters::{Integrator, Parameters};
 use plateau_core::observe::{Sample, Snapshot};
 use plateau_core::simulation::{Simulation, SimulationError};
+use plateau_io::number;
 use plateau_io::plausibility::Recorded;
 use plateau_io::run_file::{Header, InputFile, RunFileError, RunWriter};
 use plateau_io::scene::Scene;
@@ -16,7 +20,6 @@ use crate::execution;
 use crate::job::{Agreement, Job};
 use crate::options::{Observer, Program};
 use crate::time_loop::Sink;
-use crate::warnings::{grown_stiffness_warning, is_stiff};
 
 /// The part of the run file that is known before the first step. `surface_files` are those that were read, with their digests;
 /// `surfaces` says what was done for the surfaces.
@@ -138,4 +141,40 @@ impl Sink for Recorder<'_> {
         self.checkpointer.wait(self.observer);
         Err(Interruption::Stopped(signal))
     }
+}
+
+/// Π above which the explicit rule errs noticeably.
+const LARGE_STIFFNESS_NUMBER: f64 = 0.1;
+
+/// Tells whether the wear rule of a scene is out of its depth with a stiffness number (model section 8).
+pub fn is_stiff(parameters: &Parameters, stiffness_number: f64) -> bool {
+    parameters.integrator == Integrator::Explicit && stiffness_number > LARGE_STIFFNESS_NUMBER
+}
+
+/// Says where that is so at the temperature with which a run begins.
+pub fn stiffness_warning(parameters: &Parameters) -> Option<String> {
+    let stiffness_number = parameters.first_stiffness_number();
+    is_stiff(parameters, stiffness_number).then(|| in_words("the stiffness number is", stiffness_number))
+}
+
+/// Says that it has become so.
+pub fn grown_stiffness_warning(stiffness_number: f64, time: f64) -> String {
+    let time = number::rounded(time, 4);
+    in_words(
+        &format!("with the wear rates of the temperature after {time} s the stiffness number is"),
+        stiffness_number,
+    )
+}
+
+fn in_words(what: &str, stiffness_number: f64) -> String {
+    let found = number::short(stiffness_number);
+    format!(
+        "{what} {found}: above {LARGE_STIFFNESS_NUMBER} the explicit rule errs, above 1 it overshoots, \
+         above 2 it is unstable; lower numerics.time_acceleration or set numerics.integrator = \"exponential\""
+    )
+}
+
+/// Says why a run is not accelerated although it might choose.
+pub fn idle_warning(idle: Idle) -> String {
+    format!("numerics.time_acceleration: {idle}; see docs/evidence/accuracy.md")
 }

@@ -30,9 +30,6 @@ pub struct Kept {
 impl Kept {
     /// Keeps a run file of so many samples as `RUN.before-resume`. Where a file of an earlier beginning of the same run has that name,
     /// the one with more samples is kept; what else has it stays, and another name is taken.
-    ///
-    /// # Errors
-    /// What the system says.
     pub fn of(path: &Path, samples: usize) -> io::Result<Self> {
         for count in 1..=MOST {
             let place = place(path, count);
@@ -97,9 +94,6 @@ fn samples_of_same(place: &Path, run: &Path) -> Option<usize> {
 }
 
 /// The states to go on from, the newest first; none if there is no checkpoint.
-///
-/// # Errors
-/// [`InputError`] when there are some, but none of them holds or they are of another run.
 pub fn states(
     run_file: &Path,
     mesh: &Mesh,
@@ -118,7 +112,9 @@ pub fn states(
         }
     }
     if states.is_empty() && !trouble.is_empty() {
-        return Err(InputError::NoCheckpoint(trouble));
+        let trouble = trouble.join("; ");
+        let message = format!("{trouble}; without --resume, --force begins again from the beginning");
+        return Err(InputError::Refused(message));
     }
     let mut states = states.into_iter();
     let Some(newest) = states.next() else { return Ok(Vec::new()) };
@@ -154,9 +150,6 @@ fn compare(run_file: &Path, state: &RunState, identity: &RunIdentity, extends: b
 }
 
 /// Refuses a run file of another scene.
-///
-/// # Errors
-/// [`InputError`], which names the keys that differ.
 pub fn compare_scenes(run_file: &Path, scene: &str, identity: &RunIdentity, extends: bool) -> Result<(), InputError> {
     let now = identity.scene.parse().unwrap_or_default();
     let free = |key: &str| match schema::role(key) {
@@ -181,16 +174,14 @@ pub fn compare_scenes(run_file: &Path, scene: &str, identity: &RunIdentity, exte
 }
 
 fn refusal(run_file: &Path, difference: impl std::fmt::Display) -> InputError {
-    InputError::OtherRun { path: run_file.to_owned(), difference: difference.to_string() }
+    let path = run_file.display();
+    InputError::Refused(format!("{path} cannot be resumed: {difference}; undo that, or begin again without --resume"))
 }
 
 /// Goes on with the run file of the first of the states that it has what they say of; its writer and which state it is.
 ///
 /// The file is made anew, so the state gets the image of that one and is written once more before it takes the place of the old
 /// one; with the image of the old one, too, for nobody knows which of both a loss of power leaves.
-///
-/// # Errors
-/// [`InputError`] when it has it of none, [`RunError::Failed`] when the file cannot be written anew.
 pub fn writer(
     path: &Path,
     header: &Header,
@@ -199,11 +190,7 @@ pub fn writer(
 ) -> Result<(RunWriter, usize), RunError> {
     if !path.exists() {
         // Else every checkpoint would say so.
-        return Err(InputError::NotResumable {
-            path: path.to_owned(),
-            what: "is gone, though its checkpoint is there".into(),
-        }
-        .into());
+        return Err(InputError::not_resumable(path, "is gone, though its checkpoint is there").into());
     }
     let mut refusals = Vec::new();
     for (place, state) in states.iter_mut().enumerate() {
@@ -230,5 +217,5 @@ pub fn writer(
             Err(error) => return Err(error.into()),
         }
     }
-    Err(InputError::NoneFits(refusals).into())
+    Err(InputError::Refused(format!("{}; begin again without --resume", refusals.join("; "))).into())
 }

@@ -18,10 +18,9 @@ use crate::error::{InputError, Progress, RunError, RunFailure, Stopped};
 use crate::execution::decide;
 use crate::job::{Agreement, Job};
 use crate::options::{Observer, RunOptions};
-use crate::recorder::{Interruption, Recorder, header};
+use crate::recorder::{Interruption, Recorder, header, idle_warning, is_stiff, stiffness_warning};
 use crate::start::{Request, Start};
 use crate::summary::RunSummary;
-use crate::warnings::{idle_warning, is_stiff, stiffness_warning};
 
 /// Runs a scene, together with the other processes of the job if there are any: makes its surfaces, takes its steps and writes
 /// its run file, with checkpoints beside it from which a run that was stopped or killed goes on.
@@ -185,9 +184,6 @@ fn close(
 }
 
 /// The refusal of a run file that is there, with what is known of it: it may be one to go on with.
-///
-/// # Errors
-/// [`RunError`] where another process writes it.
 fn if_unfinished(error: RunFileError, path: &Path) -> Result<InputError, RunError> {
     if !matches!(error, RunFileError::Exists { .. }) {
         return Ok(InputError::RunFile(error));
@@ -196,10 +192,14 @@ fn if_unfinished(error: RunFileError, path: &Path) -> Result<InputError, RunErro
     // Of a run that was killed the file says that it is running, and nobody has the claim.
     let is_stopped = RunFile::open(path).is_ok_and(|run| run.state() != State::Finished);
     let has_checkpoint = checkpoint::paths(path).iter().any(|checkpoint| checkpoint.exists());
-    match is_stopped && has_checkpoint {
-        true => Ok(InputError::Unfinished { path: path.to_owned() }),
-        false => Ok(InputError::RunFile(error)),
+    if !is_stopped || !has_checkpoint {
+        return Ok(InputError::RunFile(error));
     }
+    Ok(InputError::Refused(format!(
+        "{} exists, and its run was stopped before its end; --resume goes on with it if the scene is the same, --force begins \
+         again, -o FILE writes elsewhere",
+        path.display()
+    )))
 }
 
 /// Failure of a process that has no file to close.
@@ -231,7 +231,10 @@ fn refuse_to_replace_inputs(output: &Path, scene: &Scene, loaded: &Loaded) -> Re
     let [last, before] = checkpoint::paths(output);
     for (what, path) in [("output file", output), ("checkpoint", &last), ("checkpoint", &before)] {
         if path.canonicalize().is_ok_and(|path| inputs.contains(&path)) {
-            return Err(InputError::ReplacesInput { what, path: path.to_owned() });
+            let path = path.display();
+            return Err(InputError::Refused(format!(
+                "the {what} {path} is an input of this run and is not replaced; write elsewhere with -o FILE"
+            )));
         }
     }
     Ok(())

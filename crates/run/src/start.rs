@@ -43,9 +43,6 @@ pub struct Start {
 impl Request<'_> {
     /// Claims the run file, then makes it, or finds out what to go on from and goes on with it; nothing where all is done
     /// already, which is said. All processes of a job do this together.
-    ///
-    /// # Errors
-    /// [`RunError`] when the file cannot be made, or what is there is of another run.
     pub fn start(&self, job: &mut Job, observer: &mut dyn Observer) -> Result<Option<Start>, RunError> {
         let Self { path, header, identity, options, .. } = *self;
         let claim = if job.leads() { Some(Claim::of(path)?) } else { None };
@@ -91,7 +88,10 @@ impl Request<'_> {
     fn clear_away(&self) -> Result<(), InputError> {
         let path = self.path;
         if let Writer::Process(process) = writer_of(path) {
-            return Err(InputError::Written { path: path.to_owned(), process });
+            let path = path.display();
+            return Err(InputError::Refused(format!(
+                "{path} is being written by process {process}; stop that first, or write elsewhere with -o FILE"
+            )));
         }
         checkpoint::refuse_foreign(path, self.options.replace)?;
         for target in [path].into_iter().chain(checkpoint::paths(path).iter().map(AsRef::as_ref)) {
@@ -128,7 +128,9 @@ impl Request<'_> {
         // The last step may go beyond the time that is asked for.
         let step = time / state.simulation.run.steps().max(1) as f64;
         if time > self.end + 1.5 * step {
-            return Err(InputError::Passed { path: self.path.to_owned(), time });
+            let (path, time) = (self.path.display(), number::short(time));
+            let message = format!("--extend-to: {path} has come to {time} s already; give a later time");
+            return Err(InputError::Refused(message));
         }
         Ok(time > self.end - 0.5 * step)
     }
@@ -148,13 +150,19 @@ impl Request<'_> {
             return resume::writer(path, header, states, observer).map(|(writer, place)| (Some(writer), place));
         }
         // What is there is of another run, and stays if the new one cannot begin.
-        let others =
-            checkpoint::set_aside(path).map_err(|error| InputError::SetAside { path: path.to_owned(), error })?;
+        let shown = path.display();
+        let others = checkpoint::set_aside(path).map_err(|error| {
+            let message = format!("cannot replace the checkpoints of {shown}: {error}; write elsewhere with -o FILE");
+            InputError::Aside(message, error)
+        })?;
         let kept = match samples {
             0 => None,
-            samples => {
-                Some(Kept::of(path, samples).map_err(|error| InputError::KeptAside { path: path.to_owned(), error })?)
-            }
+            samples => Some(Kept::of(path, samples).map_err(|error| {
+                let message = format!(
+                    "cannot keep the samples of {shown} beside it: {error}; move that file away, or write elsewhere with -o FILE"
+                );
+                InputError::Aside(message, error)
+            })?),
         };
         let writer = RunWriter::create(path, options.replace || options.mode.resumes(), header)?;
         others.discard();
@@ -196,7 +204,9 @@ impl Request<'_> {
                 }
                 return Ok(None);
             }
-            Err(error) => return Err(InputError::Unreadable(error)),
+            Err(error) => {
+                return Err(InputError::Refused(format!("{error}; without --resume, --force begins again")));
+            }
         };
         let scene = there.attribute("scene").unwrap_or_default();
         match resume::compare_scenes(path, &scene, identity, self.extends()) {
@@ -214,7 +224,7 @@ impl Request<'_> {
     }
 
     fn refused(&self, what: &str) -> InputError {
-        InputError::NotResumable { path: self.path.to_owned(), what: what.to_owned() }
+        InputError::not_resumable(self.path, what)
     }
 }
 

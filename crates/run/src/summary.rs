@@ -11,8 +11,7 @@ use plateau_core::observe::window_mean::WindowMean;
 use plateau_core::simulation::Course;
 use plateau_io::memory;
 use plateau_io::run_file::{ContactArea, NoDrift, WriterReport};
-use plateau_io::scene::Scene;
-use plateau_io::scene::Warning;
+use plateau_io::scene::{Scene, Warning};
 use serde::Serialize;
 
 /// Results of a finished run. Quantities of the contact are those of the last step unless said otherwise.

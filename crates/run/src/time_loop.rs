@@ -33,17 +33,11 @@ pub trait Sink {
     }
 
     /// Called every few steps. `steps` is the number proposed until the next call; returns the number that it shall be.
-    ///
-    /// # Errors
-    /// When the run is to end here.
     fn look(&mut self, _simulation: &Simulation, steps: u64) -> Result<u64, Self::Error> {
         Ok(steps)
     }
 
     /// Called between two steps when all that was due is done: here the run may be stopped and gone on with later.
-    ///
-    /// # Errors
-    /// When the run is to end here.
     fn rest(&mut self, _assembly: &mut Assembly) -> Result<(), Self::Error> {
         Ok(())
     }
@@ -52,9 +46,6 @@ pub trait Sink {
 impl Assembly {
     /// Takes all steps that are left; the samples and maps that the scene asks for go to `sink`. A run with a scout chooses its
     /// acceleration.
-    ///
-    /// # Errors
-    /// When a step fails or the sink does.
     pub fn run_to_end<S: Sink>(&mut self, sink: &mut S) -> Result<(), S::Error> {
         let has_maps = !self.output.maps.is_empty();
         let mut steps_per_look = 1;

@@ -7,7 +7,7 @@ use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use plateau_io::units::Dimension;
 use plateau_run::accuracy::{COMPARED, Ladder};
 
-use super::quantity::quantity;
+use super::quantity;
 use super::run::{ExecutionArguments, SceneArguments};
 
 /// Arguments of `plateau accuracy`.

@@ -5,9 +5,8 @@ use std::path::PathBuf;
 use clap::{Args, Subcommand};
 use plateau_core::surface::Level;
 
-use super::HandedArguments;
-use super::quantity::run_time;
 use super::reading::ReadArguments;
+use super::{HandedArguments, run_time};
 
 /// What else to do with surfaces.
 #[derive(Debug, Subcommand)]

@@ -15,7 +15,7 @@ use plateau_run::{input_files, signal_in_words};
 use crate::accuracy::{Making, csv, json, text};
 use crate::arguments::AccuracyArguments;
 use crate::failure::Failure;
-use crate::figure;
+use crate::hand_over;
 use crate::message;
 use crate::output;
 use crate::scene::{load_scene, sets};
@@ -90,7 +90,7 @@ fn measure_into(
     output::write_in_folder(csv_file, csv(&report).as_bytes(), force)?;
     output::write_in_folder(json_file, document.as_bytes(), force)?;
     // Tables of hours of runs are worth something without figures.
-    match figure::draw("accuracy", json_file, &figure::FORMATS, &[]) {
+    match hand_over::draw("accuracy", json_file, &hand_over::FORMATS, &[]) {
         Ok(drawn) => {
             for (path, (_, content)) in drawings.iter().zip(&drawn) {
                 output::write_in_folder(path, content, force)?;

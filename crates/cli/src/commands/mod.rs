@@ -9,7 +9,6 @@ mod reference;
 mod repair;
 mod run;
 mod runs;
-mod summary;
 mod surface;
 mod sweep;
 mod verify;
@@ -38,7 +37,7 @@ pub fn perform(arguments: Arguments) -> Result<(), Failure> {
         Command::Surface(arguments) => surface::surface(&arguments),
         Command::Verify(arguments) => verify::verify(&arguments),
         Command::Repair(arguments) => repair::repair(&arguments),
-        Command::Summary(arguments) => summary::summary(&arguments),
+        Command::Summary(arguments) => runs::summary(&arguments),
         Command::Schema => reference::schema(),
         Command::Completions(arguments) => reference::completions(&arguments),
         Command::Man(arguments) => reference::man(&arguments),

@@ -1,7 +1,6 @@
 //! `plateau new`: write a commented scene to begin with, also for a measured disc.
 
-mod converted;
-
+use std::ffi::OsStr;
 use std::fmt;
 use std::path::{Path, PathBuf};
 
@@ -13,11 +12,10 @@ use plateau_io::surface::{self, FileError, Lay, Measured, TextError};
 use plateau_io::units::{self, Dimension};
 use plateau_io::{number, plausibility, text};
 
-use self::converted::{can_convert, converted};
 use crate::arguments::{NewArguments, ReadArguments, as_options};
 use crate::failure::Failure;
 use crate::table::print;
-use crate::{invocation, message, output};
+use crate::{hand_over, invocation, message, output};
 
 /// The scene with places for what is the user's.
 const SCENE: &str = include_str!("new/scene.toml");
@@ -449,29 +447,28 @@ fn options(arguments: &NewArguments) -> [(&'static str, &'static str, &str); 6] 
     ]
 }
 
-#[cfg(test)]
-mod tests {
-    use std::path::Path;
+/// The word of the package that converts.
+const WORD: &str = "surface";
 
-    use clap::Parser as _;
-    use plateau_io::scene;
-
-    use super::*;
-    use crate::arguments::{Arguments, Command};
-
-    #[test]
-    fn a_pin_that_does_not_fit_is_told_by_its_option() {
-        for (options, expected) in [
-            (&["--diameter", "60 mm"][..], "--diameter \"60 mm\": a pin of 60 mm does not fit"),
-            (&["--diameter", "43.9 mm"], "--diameter \"43.9 mm\": a round pin of 43.9 mm"),
-            (&["--pin-length", "200 mm"], "a larger --radius"),
-        ] {
-            let line = [&["plateau", "new", "nothing/mine.toml"][..], options].concat();
-            let Command::New(arguments) = Arguments::try_parse_from(line).unwrap().command else { panic!("new") };
-            let text = super::scene_text(&arguments).unwrap().text;
-            let error = scene::of_text(Path::new("nothing/mine.toml"), &text).unwrap_err();
-            let Failure::Input(message) = refusal(&arguments, &error) else { panic!("input") };
-            assert!(message.contains(expected) && message.contains("nothing is written"), "{message}");
-        }
-    }
+/// Whether there is a package to convert with.
+pub fn can_convert() -> bool {
+    hand_over::answering(WORD).is_some()
 }
+
+/// Converts a file beside the scene: the file that is written.
+pub fn converted(scene: &Path, disc: &Path, force: bool) -> Result<PathBuf, Failure> {
+    let name = Path::new(disc.file_name().unwrap_or_default()).with_extension("h5");
+    let output = scene.with_file_name(name);
+    let to = [OsStr::new("convert"), OsStr::new("--output"), output.as_os_str()];
+    let from = [OsStr::new("--"), disc.as_os_str()];
+    let done = hand_over::asked(WORD, to.into_iter().chain(force.then_some(OsStr::new("--force"))).chain(from))?;
+    if done.status.success() {
+        return Ok(output);
+    }
+    let reason = hand_over::reason(&done, "it was not converted");
+    Err(if done.status.code() == Some(2) { Failure::input(reason) } else { Failure::run(reason) })
+}
+
+#[cfg(test)]
+#[path = "../../tests/unit/commands/new.rs"]
+mod tests;

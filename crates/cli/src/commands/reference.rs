@@ -5,7 +5,6 @@ use std::path::Path;
 
 use clap::{Command, CommandFactory};
 use clap_mangen::Man;
-use plateau_io::scene::schema;
 
 use crate::arguments::{Arguments, CompletionsArguments, ManArguments};
 use crate::failure::Failure;
@@ -74,7 +73,7 @@ pub fn completions(arguments: &CompletionsArguments) -> Result<(), Failure> {
     table::print(&String::from_utf8_lossy(&script))
 }
 
-/// Prints the schema.
+/// Prints the schema, which a test makes of the table of keys.
 pub fn schema() -> Result<(), Failure> {
-    table::print(&format!("{:#}\n", schema::json_schema()))
+    table::print(include_str!("../../../../data/scene.schema.json"))
 }

@@ -1,17 +1,20 @@
-//! Run files that a command line names, and what deserves to be said of them.
+//! Run files that a command line names, what deserves to be said of them, and `plateau summary`: what the Python package asks of one that this
+//! program computes.
 
 use std::path::Path;
 
+use plateau_core::observe::window_mean::WindowMean;
 use plateau_io::number;
 use plateau_io::run_file::{RunFile, State};
+use serde::Serialize;
 
+use crate::arguments::SummaryArguments;
 use crate::failure::Failure;
 use crate::message;
+use crate::summary::{acceleration, running_in, running_in_time};
+use crate::table::print_json;
 
 /// Opens a run file; warns when it is not finished.
-///
-/// # Errors
-/// [`Failure::Input`] when it cannot be read.
 pub fn open_run(path: &Path) -> Result<RunFile, Failure> {
     let run = RunFile::open(path).map_err(Failure::input)?;
     warn_of_unfinished(&run);
@@ -70,4 +73,31 @@ pub fn moment(run: &RunFile, index: usize) -> String {
         long if long >= 2e4 => format!("{} h", number::rounded(long / 3600.0, 4)),
         seconds => format!("{} s", number::rounded(seconds, 4)),
     }
+}
+
+/// The contact area at the end of a run, and what the run says of itself, in words.
+#[derive(Debug, Serialize)]
+struct Document {
+    state: &'static str,
+    contact_area_last_tenth: Option<WindowMean>,
+    running_in: String,
+    running_in_time: String,
+    time_acceleration: Option<String>,
+}
+
+/// Prints it as JSON.
+pub fn summary(arguments: &SummaryArguments) -> Result<(), Failure> {
+    let run = open_run(&arguments.run)?;
+    let found = run.contact_area().map_err(Failure::input)?;
+    let document = Document {
+        state: run.state().name(),
+        contact_area_last_tenth: found.last_tenth,
+        running_in: running_in(&found.drift),
+        running_in_time: running_in_time(&found.running_in),
+        time_acceleration: run
+            .chosen_acceleration()
+            .map(|chosen| acceleration(&chosen))
+            .or(run.given_acceleration().map(|given| format!("m = {}", number::short(given)))),
+    };
+    print_json(&document)
 }

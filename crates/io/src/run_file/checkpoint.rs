@@ -144,9 +144,6 @@ pub fn refuse_foreign(run_file: &Path, replace: bool) -> Result<(), CheckpointEr
 }
 
 /// The same for the file of a single state.
-///
-/// # Errors
-/// As [`refuse_foreign`].
 pub fn refuse_one_foreign(path: &Path, replace: bool) -> Result<(), CheckpointError> {
     let foreign = || CheckpointError::Foreign { path: path.to_owned() };
     let Ok(there) = fs::symlink_metadata(path) else { return Ok(()) };
@@ -200,9 +197,6 @@ fn fill(path: &Path, state: &impl Serialize) -> io::Result<Temporary> {
 
 /// Reads a state, such as a checkpoint; none if there is no such file. One that is larger than `most` bytes is refused before it
 /// is read, and one that is larger than the memory of the machine always.
-///
-/// # Errors
-/// [`CheckpointError`].
 pub fn read<T: DeserializeOwned>(path: &Path, most: Option<u64>) -> Result<Option<T>, CheckpointError> {
     let Some((mut file, length)) = open_whole(path, most)? else { return Ok(None) };
     // A file with holes takes no room on the disk. Memory for all of it is taken only now, as it is known to be what was written.

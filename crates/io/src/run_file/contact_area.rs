@@ -38,9 +38,6 @@ pub enum NoDrift {
 
 impl RunFile {
     /// The contact area at the end of the run, as far as it is recorded.
-    ///
-    /// # Errors
-    /// [`ReadError::Damaged`] when a series cannot be read.
     pub fn contact_area(&self) -> Result<ContactArea, ReadError> {
         let integral = self.values("contact_area_integral")?.unwrap_or_default();
         // Without the integral there are no samples of it.

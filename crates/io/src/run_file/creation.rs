@@ -305,11 +305,11 @@ impl Seal<'_> {
         if anew.is_ok() {
             return Ok(());
         }
-        self.check_room(path).map_err(|error| RunFileError::Write { path: path.into(), reason: error.to_string() })?;
+        self.check_room(path).map_err(|error| RunFileError::Write(path.into(), error.to_string()))?;
         // A file that readers follow takes no new attributes, so it is opened once more without them.
         open_for_writing(path).and_then(|file| self.write(file)).map_err(failed(path))?;
         let synced = fs::File::open(path).and_then(|file| file.sync_all());
-        synced.map_err(|error| RunFileError::Write { path: path.into(), reason: error.to_string() })
+        synced.map_err(|error| RunFileError::Write(path.into(), error.to_string()))
     }
 
     /// Makes the file of a run that has ended, at `place`, of the one that was written while it went on.

@@ -85,7 +85,7 @@ impl Header {
     /// Tells whether the fields fit the mesh.
     pub(super) fn check(&self) -> Result<(), RunFileError> {
         let (found, expected) = (self.pin_base.len(), self.mesh.pin_cells());
-        if found == expected { Ok(()) } else { Err(RunFileError::Size { name: "pin base", found, expected }) }
+        if found == expected { Ok(()) } else { Err(RunFileError::size("pin base", found, expected)) }
     }
 }
 
@@ -100,9 +100,6 @@ pub struct InputFile {
 
 impl InputFile {
     /// Reads a file and notes its digest.
-    ///
-    /// # Errors
-    /// What the system says when the file cannot be read.
     pub fn read(path: &Path) -> io::Result<Self> {
         Ok(Self { path: path.to_string_lossy().into_owned(), sha256: sha256(path)? })
     }

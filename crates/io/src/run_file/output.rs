@@ -27,7 +27,7 @@ impl Output {
         let temporary = started.map_err(|error| match error.kind() {
             // That is not the user's mistake, and nothing that writing elsewhere in the folder would mend.
             ErrorKind::StorageFull | ErrorKind::QuotaExceeded | ErrorKind::FileTooLarge => {
-                RunFileError::not_made(path.clone(), error.to_string())
+                RunFileError::not_made(&path, &error.to_string())
             }
             _ => refused_in(&path)(error),
         })?;
@@ -55,27 +55,26 @@ impl Output {
     pub(super) fn publish(self) -> Result<PathBuf, RunFileError> {
         let Self { path, temporary, overwrite } = self;
         match temporary.publish(overwrite) {
-            Err(error) if !overwrite && error.kind() == ErrorKind::AlreadyExists => Err(RunFileError::Exists { path }),
+            Err(error) if !overwrite && error.kind() == ErrorKind::AlreadyExists => Err(RunFileError::Exists(path)),
             published => published.map_err(refused_in(&path)).map(|()| path),
         }
     }
 }
 
 /// Says whether a run file may be written at `path`, before any work is done for it; touches nothing.
-///
-/// # Errors
-/// As [`RunWriter::create`](super::RunWriter::create) for a path that cannot be written.
 pub fn check_output(path: &Path, overwrite: bool) -> Result<(), RunFileError> {
     resolve(path, overwrite).map(|_| ())
 }
 
 /// The file that is meant by an output path: absolute, so that a change of the working directory does no harm, and
 /// where a symbolic link is to be replaced, the file that it points to.
-///
-/// # Errors
-/// As [`RunWriter::create`](super::RunWriter::create) for a path that cannot be written.
 pub fn resolve(path: &Path, overwrite: bool) -> Result<PathBuf, RunFileError> {
-    let not_a_file = || RunFileError::NotAFile { path: path.into() };
+    let shown = path.display();
+    let not_a_file = || {
+        RunFileError::Refused(format!(
+            "the output {shown} is a folder or another thing that is not a regular file, and is not replaced; name a file with -o FILE"
+        ))
+    };
     let (Some(parent), Some(name)) = (path.parent(), path.file_name()) else { return Err(not_a_file()) };
     let names_a_folder = path.as_os_str().as_encoded_bytes().ends_with(b"/");
     if names_a_folder || fs::metadata(path).is_ok_and(|there| !there.is_file()) {
@@ -83,21 +82,28 @@ pub fn resolve(path: &Path, overwrite: bool) -> Result<PathBuf, RunFileError> {
     }
     let parent = if parent.as_os_str().is_empty() { Path::new(".") } else { parent };
     if !parent.is_dir() {
-        return Err(RunFileError::NoDirectory { path: path.into(), directory: parent.into() });
+        let directory = parent.display();
+        return Err(RunFileError::Refused(format!(
+            "cannot write {shown}: {directory} is not a directory; make it, or write elsewhere with -o FILE"
+        )));
     }
-    let refused = |error: io::Error| RunFileError::Directory { directory: parent.into(), reason: error.to_string() };
-    let mut resolved = fs::canonicalize(parent).map_err(refused)?.join(name);
+    let mut resolved = fs::canonicalize(parent).map_err(|error| no_file_in(parent, &error))?.join(name);
     if fs::symlink_metadata(&resolved).is_ok() {
-        resolved = fs::canonicalize(&resolved).map_err(|_| RunFileError::LinkToNothing {
-            path: path.into(),
-            to: fs::read_link(path).unwrap_or_default(),
+        resolved = fs::canonicalize(&resolved).map_err(|_| {
+            let to = fs::read_link(path).unwrap_or_default();
+            let to = to.display();
+            RunFileError::Refused(format!(
+                "the output {shown} is a link to {to}, which is not there; remove it, or write elsewhere with -o FILE"
+            ))
         })?;
         if !overwrite {
-            return Err(RunFileError::Exists { path: path.into() });
+            return Err(RunFileError::Exists(path.into()));
         }
     }
     if resolved.to_str().is_none() {
-        return Err(RunFileError::NotUtf8 { path: path.into() });
+        // The HDF5 library takes no other names.
+        let message = format!("the output path {shown} is not valid UTF-8; choose another name with -o FILE");
+        return Err(RunFileError::Refused(message));
     }
     Ok(resolved)
 }
@@ -110,9 +116,17 @@ const EMFILE: i32 = 24;
 fn refused_in(path: &Path) -> impl Fn(io::Error) -> RunFileError + '_ {
     move |error| match error.raw_os_error() {
         // Of the system, and of this process.
-        Some(ENFILE | EMFILE) => RunFileError::NoHandle { path: path.into(), reason: error.to_string() },
-        _ => RunFileError::Directory { directory: path.parent().unwrap_or(path).into(), reason: error.to_string() },
+        Some(ENFILE | EMFILE) => RunFileError::NoHandle(path.into(), error.to_string()),
+        _ => no_file_in(path.parent().unwrap_or(path), &error),
     }
+}
+
+/// No file can be made in this directory.
+fn no_file_in(directory: &Path, error: &io::Error) -> RunFileError {
+    let directory = directory.display();
+    RunFileError::Refused(format!(
+        "cannot make a file in {directory}: {error}; make the directory writable, or write elsewhere with -o FILE"
+    ))
 }
 
 /// Reason why a file is not made anew.
@@ -129,9 +143,6 @@ pub struct KeepError {
 }
 
 /// Gives a file a second name, or where there are no links, copies it.
-///
-/// # Errors
-/// [`KeepError`].
 pub fn keep(path: &Path) -> Result<PathBuf, KeepError> {
     let name = path.file_name().unwrap_or_default().to_string_lossy();
     let names = (1..).map(|number| match number {

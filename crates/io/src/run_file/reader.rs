@@ -18,9 +18,9 @@ use super::layout::{
     ACCELERATION, FORMAT_VERSION, MAP_TIME, PIN_BASE, Statuses, TIME, TIME_OF_SERIES, map_path, series_path,
 };
 use crate::hdf5_file::{self, OpenError};
+use crate::scene::is_study;
 use crate::scene::mesh::{Geometry, Refused};
 use crate::scene::schema::choices::{SHAPE, Shape};
-use crate::syntax::is_study;
 use crate::text::{short, shown_title};
 use crate::timestamp::from_iso_8601;
 use crate::units::{self, Dimension};
@@ -53,7 +53,7 @@ impl Opening<'_> {
             return Ok(());
         }
         if found.is_finite() && found.fract() == 0.0 && found > f64::from(FORMAT_VERSION) {
-            return Err(ReadError::Newer { path: self.path.into(), found: found as i64, expected: FORMAT_VERSION });
+            return Err(ReadError::Newer(self.path.into(), found as i64));
         }
         Err(self.damaged(format!(
             "its format_version is {}, expected a whole number from 1 to {FORMAT_VERSION}",
@@ -94,10 +94,8 @@ impl Opening<'_> {
 
     /// The series, in the order in which they are reported.
     pub(super) fn series(&self) -> Result<Vec<Series>, ReadError> {
-        let group = self
-            .file
-            .group("series")
-            .map_err(|_| ReadError::Foreign { path: self.path.into(), missing: "group /series".into() })?;
+        let group =
+            self.file.group("series").map_err(|_| ReadError::Foreign(self.path.into(), "group /series".into()))?;
         let names = group.member_names().map_err(|error| self.damaged(reason(&error)))?;
         // Their time is no series.
         let series = names.into_iter().filter(|name| series_path(name) != TIME_OF_SERIES).map(|name| {
@@ -118,7 +116,7 @@ impl Opening<'_> {
     /// A dataset that is there and has data.
     pub(super) fn dataset(&self, path: &str) -> Result<Dataset, ReadError> {
         if !self.file.link_exists(path) {
-            return Err(ReadError::Foreign { path: self.path.into(), missing: format!("dataset /{path}") });
+            return Err(ReadError::Foreign(self.path.into(), format!("dataset /{path}")));
         }
         let dataset = self.file.dataset(path).and_then(|dataset| {
             hdf5_file::refuse_hollow(&dataset)?;
@@ -174,7 +172,7 @@ impl Opening<'_> {
         } else {
             ""
         };
-        ReadError::Foreign { path: self.path.into(), missing: format!("{missing}{advice}") }
+        ReadError::Foreign(self.path.into(), format!("{missing}{advice}"))
     }
 
     /// Of a run file that is not as it was written.
@@ -203,21 +201,18 @@ pub struct RunFile {
 
 impl RunFile {
     /// Opens a run file and reads all of it but series and maps.
-    ///
-    /// # Errors
-    /// [`ReadError`] when there is no file, it is no run file, or it is damaged.
     pub fn open(path: &Path) -> Result<Self, ReadError> {
         let system = |error: std::io::Error| ReadError::of_system(path, &error);
         let is_hdf5 = hdf5_file::is_hdf5(path).map_err(system)?;
         if !is_hdf5 {
-            return Err(ReadError::NotHdf5 { path: path.into(), expected: expected_of(path) });
+            return Err(ReadError::NotHdf5(path.into(), expected_of(path)));
         }
         let damaged = |error: hdf5::Error| ReadError::of_library(path, reason(&error));
         hdf5_file::guarded(0, || {
             let file = hdf5_file::open(path).map_err(|error| match error {
                 OpenError::System(error) => system(error),
                 OpenError::Hdf5(error) => damaged(error),
-                elsewhere => ReadError::Elsewhere { path: path.into(), reason: elsewhere.to_string() },
+                elsewhere => ReadError::Elsewhere(path.into(), elsewhere.to_string()),
             })?;
             Self::read(&Opening { path, file: &file })
         })
@@ -333,9 +328,6 @@ impl RunFile {
     }
 
     /// Values of a series, one for each time; nothing if it has no such series.
-    ///
-    /// # Errors
-    /// [`ReadError::Damaged`] when they cannot be read or are fewer than the times.
     pub fn values(&self, name: &str) -> Result<Option<Vec<f64>>, ReadError> {
         self.first_values(name, self.time.len())
     }
@@ -368,9 +360,6 @@ impl RunFile {
     }
 
     /// The values of a map, column by column, at the time of that index; nothing if it was not recorded.
-    ///
-    /// # Errors
-    /// [`ReadError::Damaged`] when they cannot be read or do not fit the mesh.
     pub fn map(&self, map: Map, index: usize) -> Result<Option<MapValues>, ReadError> {
         if !self.has_map(map) {
             return Ok(None);
@@ -392,9 +381,6 @@ impl RunFile {
 
     /// Base of every pin cell, column by column: 0 where it is resin, 1 where it is fibre,
     /// [`ABSENT`](plateau_core::observe::ABSENT) beyond the pin's outline; nothing if it was not recorded.
-    ///
-    /// # Errors
-    /// [`ReadError::Damaged`] when it cannot be read or does not fit the mesh.
     pub fn pin_base(&self) -> Result<Option<Vec<u8>>, ReadError> {
         if !self.file.link_exists(PIN_BASE) {
             return Ok(None);
@@ -428,9 +414,6 @@ fn expected_of(path: &Path) -> String {
 
 impl Header {
     /// The header of a file that is there.
-    ///
-    /// # Errors
-    /// [`ReadError::Damaged`] when something is missing or is no longer what was written.
     pub(super) fn of(run: &RunFile) -> Result<Self, ReadError> {
         let damaged = |reason: String| ReadError::of_library(run.path(), reason);
         let text = |name: &str| run.attribute(name).ok_or_else(|| damaged(format!("it has no {name}")));
@@ -466,9 +449,6 @@ impl Header {
 
 impl RunFile {
     /// Base of every pin cell, column by column, resin beyond the pin's outline; nothing if it was not recorded.
-    ///
-    /// # Errors
-    /// As for [`pin_base`](Self::pin_base).
     pub(super) fn bases(&self) -> Result<Option<Vec<Base>>, ReadError> {
         let of = |base: u8| if base == Status::Primary as u8 { Base::Primary } else { Base::Resin };
         Ok(self.pin_base()?.map(|found| found.into_iter().map(of).collect()))

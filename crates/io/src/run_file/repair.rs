@@ -79,9 +79,6 @@ pub enum RepairError {
 }
 
 /// Tells whether a run file was closed in good order.
-///
-/// # Errors
-/// [`ReadError`].
 pub fn is_healthy(path: &Path) -> Result<bool, ReadError> {
     let run = RunFile::open(path)?;
     let marked = hdf5_file::is_marked(path);

@@ -85,8 +85,8 @@ impl Datasets {
     /// Appends the first samples and maps of another run file, of which it is known that it has them.
     pub(super) fn copy(&mut self, file: &File, other: &RunFile, earlier: Earlier) -> Result<(), RunFileError> {
         let path = other.path();
-        let unreadable = |error: ReadError| RunFileError::Earlier { path: path.into(), reason: error.to_string() };
-        let missing = |name: &str| RunFileError::Earlier { path: path.into(), reason: format!("it has no {name}") };
+        let unreadable = |error: ReadError| RunFileError::Earlier(path.into(), error.to_string());
+        let missing = |name: &str| RunFileError::Earlier(path.into(), format!("it has no {name}"));
         let columns = self.series.iter().map(|(quantity, _)| {
             let values = other.first_values(quantity.name, earlier.samples).map_err(unreadable)?;
             values.ok_or_else(|| missing(quantity.name))
@@ -183,12 +183,10 @@ impl Restored {
     /// Opens a file as it was when an image of it was taken.
     ///
     /// # Errors
-    /// [`RunFileError::Anew`] when there is no room for its copy, [`RunFileError::Earlier`] when that is no run file.
+    /// [`RunFileError::Failed`] when there is no room for its copy, [`RunFileError::Earlier`] when that is no run file.
     pub(super) fn as_it_was(path: &Path, image: &Image) -> Result<Self, RunFileError> {
-        let copy =
-            image.restore(path).map_err(|error| RunFileError::Anew { path: path.into(), reason: error.to_string() })?;
-        let run = RunFile::open(copy.path())
-            .map_err(|error| RunFileError::Earlier { path: path.into(), reason: error.to_string() })?;
+        let copy = image.restore(path).map_err(|error| RunFileError::not_anew(path, error))?;
+        let run = RunFile::open(copy.path()).map_err(|error| RunFileError::Earlier(path.into(), error.to_string()))?;
         Ok(Self { run: run.known_as(path), _copy: Some(copy) })
     }
 
@@ -198,9 +196,7 @@ impl Restored {
         match (Self::as_it_is(path), images.iter().find(|image| image.is_of(path))) {
             (Ok(there), _) if there.run.state() != State::Running => Ok(there),
             (_, Some(image)) => Self::as_it_was(path, image),
-            (there, None) => {
-                there.map_err(|error| RunFileError::Earlier { path: path.into(), reason: error.to_string() })
-            }
+            (there, None) => there.map_err(|error| RunFileError::Earlier(path.into(), error.to_string())),
         }
     }
 }
@@ -236,7 +232,7 @@ impl Store {
         let place = Output::prepare(path, overwrite, EMPTY_FILE)?;
         let mark = temporary::unique_word();
         let set_up = set_up(&place, header, start_time, &mark);
-        let (file, datasets) = set_up.map_err(|error| RunFileError::not_made(path.to_owned(), hdf5_reason(&error)))?;
+        let (file, datasets) = set_up.map_err(|error| RunFileError::not_made(path, &hdf5_reason(&error)))?;
         let identity = identity(place.temporary());
         let path = place.publish()?;
         let values = Values::default();
@@ -263,7 +259,7 @@ impl Store {
                 "it holds {} samples and {} maps, expected {} and {}",
                 there[0], there[1], earlier.samples, earlier.snapshots
             );
-            return Err(RunFileError::Earlier { path: path.into(), reason });
+            return Err(RunFileError::Earlier(path.into(), reason));
         }
         let start_time = old.start_time().unwrap_or_else(SystemTime::now);
         let (mark, mut values) = (temporary::unique_word(), Values::default());
@@ -274,7 +270,7 @@ impl Store {
         file.flush().map_err(not_anew(path))?;
         values.add_new_of(datasets.all());
         let image = Image::of(place.temporary(), &values, &mark);
-        let image = image.map_err(|error| RunFileError::Anew { path: path.into(), reason: error.to_string() })?;
+        let image = image.map_err(|error| RunFileError::not_anew(path, error))?;
         if let Some(image) = image {
             keep(image);
         }
@@ -296,7 +292,7 @@ impl Store {
         synced.map_err(|error| match self.check_identity() {
             // It may have gone just now.
             Err(moved) => moved,
-            Ok(()) => RunFileError::Write { path: self.path.clone(), reason: error.to_string() },
+            Ok(()) => RunFileError::Write(self.path.clone(), error.to_string()),
         })
     }
 
@@ -305,7 +301,10 @@ impl Store {
         if identity(&self.path) == self.identity {
             Ok(())
         } else {
-            Err(RunFileError::Moved { path: self.path.clone() })
+            let path = self.path.display();
+            Err(RunFileError::Refused(format!(
+                "{path} was moved, removed or replaced while the run went on, which ends it; what is there now is not touched"
+            )))
         }
     }
 

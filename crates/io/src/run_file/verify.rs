@@ -206,7 +206,7 @@ impl Check<'_> {
 /// Problem with a part of a file, without what is said of the file.
 fn in_short(error: ReadError) -> String {
     match error {
-        ReadError::Damaged { reason, .. } => reason,
+        ReadError::Damaged(_, reason) => reason,
         error => error.to_string(),
     }
 }

@@ -72,11 +72,17 @@ impl RunWriter {
         let work = move || {
             let _life: Sender<()> = life;
             // Nobody gives a file that could not be made.
-            append_until_closed(given.recv().map_err(|_| RunFileError::Stopped)?, &samples, &snapshots, &syncs)
+            append_until_closed(given.recv().map_err(|_| RunFileError::stopped())?, &samples, &snapshots, &syncs)
         };
         let thread = thread::Builder::new().name("run file".into()).spawn(work);
-        let thread = thread.map_err(|error| RunFileError::NoThread { path: path.into(), reason: error.to_string() })?;
-        give.send(make()?).map_err(|_| RunFileError::Stopped)?;
+        let thread = thread.map_err(|error| {
+            let path = path.display();
+            RunFileError::Failed(format!(
+                "cannot write {path}: the system gives no more threads ({error}); allow more of them, as with ulimit -u 64, or in the \
+                 container"
+            ))
+        })?;
+        give.send(make()?).map_err(|_| RunFileError::stopped())?;
         Ok(Self {
             mesh: header.mesh.clone(),
             maps: header.maps.clone(),
@@ -105,9 +111,6 @@ impl RunWriter {
     }
 
     /// Tells whether the writer still takes what is sent.
-    ///
-    /// # Errors
-    /// The error with which it has ended.
     pub fn check(&mut self) -> Result<(), RunFileError> {
         if self.thread.as_ref().is_some_and(|thread| !thread.is_finished()) { Ok(()) } else { Err(self.stop()) }
     }
@@ -135,8 +138,7 @@ impl RunWriter {
     /// Sends maps. Waits only when the queue is full.
     ///
     /// # Errors
-    /// [`RunFileError::Map`] or [`RunFileError::Size`] when they are not the maps of the header on its mesh; otherwise
-    /// as [`sample`](Self::sample).
+    /// [`RunFileError::Refused`] when they are not the maps of the header on its mesh; otherwise as [`sample`](Self::sample).
     pub fn snapshot(&mut self, snapshot: Snapshot) -> Result<(), RunFileError> {
         self.check_maps(&snapshot)?;
         let sent = self.queues.as_ref().is_some_and(|queues| send(&queues.snapshots, snapshot, &mut self.waited));
@@ -173,11 +175,15 @@ impl RunWriter {
             let found = match values {
                 Some(MapValues::Float(values)) if !map.is_status() => values.len(),
                 Some(MapValues::Status(values)) if map.is_status() => values.len(),
-                _ => return Err(RunFileError::Map { name }),
+                _ => {
+                    return Err(RunFileError::Refused(format!(
+                        "a snapshot lacks the map {name}, or has it as another type, though the run file was made for it"
+                    )));
+                }
             };
             let expected = if map.on_disc() { self.mesh.disc_cells() } else { self.mesh.pin_cells() };
             if found != expected {
-                return Err(RunFileError::Size { name, found, expected });
+                return Err(RunFileError::size(name, found, expected));
             }
         }
         Ok(())
@@ -188,8 +194,8 @@ impl RunWriter {
         self.queues = None;
         let result = match self.thread.take().map(JoinHandle::join) {
             Some(Ok(result)) => result,
-            Some(Err(_)) => Err(RunFileError::Stopped),
-            None => Err(self.failure.clone().unwrap_or(RunFileError::Stopped)),
+            Some(Err(_)) => Err(RunFileError::stopped()),
+            None => Err(self.failure.clone().unwrap_or_else(RunFileError::stopped)),
         };
         if let Err(error) = &result {
             self.failure = Some(error.clone());
@@ -199,7 +205,7 @@ impl RunWriter {
 
     /// The error with which the writer stopped taking anything.
     fn stop(&mut self) -> RunFileError {
-        self.join().err().unwrap_or(RunFileError::Stopped)
+        self.join().err().unwrap_or_else(RunFileError::stopped)
     }
 }
 
@@ -347,17 +353,5 @@ fn append_all(
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_question_that_nobody_takes_is_answered_with_no() {
-        let (questions, taken) = channel::bounded(1);
-        let (life, alive) = channel::bounded(0);
-        let (answer, answers) = channel::bounded(1);
-        questions.send(answer).unwrap();
-        drop((taken, life));
-        assert_eq!(Synced::new(answers, alive).wait(), None);
-        assert_eq!(Synced::already().wait(), Some(Vec::new()));
-    }
-}
+#[path = "../../tests/unit/run_file/writer.rs"]
+mod tests;

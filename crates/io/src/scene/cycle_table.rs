@@ -81,9 +81,6 @@ struct Column {
 type Wrong = (Option<String>, Fault);
 
 /// Reads a table.
-///
-/// # Errors
-/// What is wrong, with line and column.
 pub fn read(path: &Path) -> Result<CycleTable, Problem> {
     read_rows(path, limits::ROWS)
 }
@@ -193,90 +190,5 @@ fn table(columns: Vec<Column>, places: Vec<Origin>) -> CycleTable {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn read_text(text: &str) -> Result<CycleTable, String> {
-        let directory = tempfile::tempdir().unwrap();
-        let path = directory.path().join("stops.csv");
-        std::fs::write(&path, text).unwrap();
-        read(&path).map_err(|error| error.to_string().replace(&format!("{}/", directory.path().display()), ""))
-    }
-
-    fn lines(table: &CycleTable) -> Vec<usize> {
-        let line = |place: &Origin| if let Origin::Place { line, .. } = place { *line } else { 0 };
-        table.places.iter().map(line).collect()
-    }
-
-    #[test]
-    fn columns_have_units_of_their_own() {
-        let table =
-            read_text("# a stop\nTime [min], Nominal pressure [MPa], sliding_speed [km/h]\n0,1.5,36\n1,0,0\n").unwrap();
-        assert_eq!(table.times, [0.0, 60.0]);
-        assert_eq!(table.loads, Some(Loads::NominalPressure(vec![1.5e6, 0.0])));
-        assert_eq!(table.speeds, Some(Speeds::Sliding(vec![10.0, 0.0])));
-        assert_eq!((table.road_speeds.as_ref(), lines(&table)), (None, vec![3, 4]));
-    }
-
-    #[test]
-    fn a_spreadsheet_may_write_decimal_commas() {
-        let table = read_text("\u{feff}\"time [s]\";\"normal_force [N]\"\r\n\r\n0;47,5\r\n0,25;1e1\r\n").unwrap();
-        assert_eq!((&table.times, lines(&table)), (&vec![0.0, 0.25], vec![3, 4]));
-        assert_eq!(table.loads, Some(Loads::Force(vec![47.5, 10.0])));
-        assert_eq!(table.speeds, None);
-    }
-
-    #[test]
-    fn the_table_is_the_same_in_every_encoding() {
-        let directory = tempfile::tempdir().unwrap();
-        let path = directory.path().join("stops.csv");
-        let text = "sep=\t\r\n# 20 °C\r\ntime [s]\tnormal_force [N]\r\n0\t47,5\r\n0,25\t1e1\r\n";
-        let utf16: Vec<u8> = std::iter::once(0xfeff).chain(text.encode_utf16()).flat_map(u16::to_le_bytes).collect();
-        let windows: Vec<u8> = text.chars().map(|letter| letter as u8).collect();
-        for content in [text.as_bytes(), &utf16, &windows, text.replace("\r\n", "\r").as_bytes()] {
-            std::fs::write(&path, content).unwrap();
-            let table = read(&path).unwrap();
-            assert_eq!((&table.times, lines(&table)), (&vec![0.0, 0.25], vec![4, 5]));
-            assert_eq!(table.loads, Some(Loads::Force(vec![47.5, 10.0])));
-        }
-    }
-
-    #[test]
-    fn more_rows_than_are_read_are_refused() {
-        let directory = tempfile::tempdir().unwrap();
-        let path = directory.path().join("stops.csv");
-        std::fs::write(&path, "time [s]\n\n0\n1\n2\n3\n").unwrap();
-        assert_eq!(read_rows(&path, 4).unwrap().times, [0.0, 1.0, 2.0, 3.0]);
-        let error = read_rows(&path, 3).unwrap_err().to_string();
-        assert!(error.ends_with("stops.csv:6:1: more rows, expected at most 3"), "{error}");
-    }
-
-    #[test]
-    fn what_is_wrong_is_said_with_its_place() {
-        let error = |text: &str| read_text(text).unwrap_err();
-        assert!(error("").starts_with("stops.csv: it is empty, expected a header such as: time [s],"));
-        assert!(
-            error("time,normal_force [N]\n").starts_with("stops.csv:1:1: time: \"1\" has no unit"),
-            "{}",
-            error("time,normal_force [N]\n")
-        );
-        assert_eq!(
-            error("time [s],force [N]\n0,1\n"),
-            "stops.csv:1:10: force [N]: no such column, expected some of time, normal_force, nominal_pressure, \
-             braking_torque, rotational_speed, sliding_speed, road_speed"
-        );
-        assert_eq!(
-            error("time [s],normal_force [N],nominal_pressure [Pa]\n"),
-            "stops.csv:1:27: nominal_pressure [Pa]: stands beside normal_force [N], expected one of the two"
-        );
-        assert_eq!(error("normal_force [N]\n1\n"), "stops.csv:1:1: no column of times, expected time [s]");
-        let header = "time [s], normal_force [N]\n";
-        let row = |row: &str| error(&format!("{header}0,1\n{row}\n"));
-        assert_eq!(row("1, -3"), "stops.csv:3:4: normal_force [N]: found -3, expected a number of 0 or more");
-        assert_eq!(row("1,nan"), "stops.csv:3:3: normal_force [N]: found nan, expected a number of 0 or more");
-        assert_eq!(row("1,4 N"), "stops.csv:3:3: normal_force [N]: found \"4 N\", expected a number");
-        assert_eq!(row("1,"), "stops.csv:3:3: normal_force [N]: no value, expected a number in every row");
-        assert_eq!(row("1"), "stops.csv:3:2: normal_force [N]: no value, expected a number in every row");
-        assert_eq!(row("1,2,3"), "stops.csv:3:5: 3 fields, expected 2, one for each column");
-    }
-}
+#[path = "../../tests/unit/scene/cycle_table.rs"]
+mod tests;

@@ -9,9 +9,8 @@ use std::sync::Arc;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use super::error::{Locator, Origin, Problem};
+use super::error::{Locator, Origin, Problem, is_study, not_toml};
 use super::schema;
-use crate::syntax;
 use crate::text::{MOST_PROBLEMS, short};
 
 /// A value as it stands in the text.
@@ -100,10 +99,10 @@ pub(super) fn read(file: &Arc<Path>, text: &str, problems: &mut Vec<Problem>) ->
     let locator = Locator::new(file.clone(), text);
     let document = DeTable::parse(text).map_err(|error| {
         let origin = error.span().map_or(Origin::File(file.clone()), |span| locator.origin(span));
-        let message = syntax::problem(text, &error);
+        let message = not_toml(text, &error);
         Problem::without_key(&origin, message)
     })?;
-    if syntax::is_study(|key| document.get_ref().contains_key(key)) {
+    if is_study(|key| document.get_ref().contains_key(key)) {
         let message = "this is a study, expected a scene; `plateau sweep plan` and `plateau sweep run` take studies";
         return Err(Problem::without_key(&Origin::File(file.clone()), message));
     }

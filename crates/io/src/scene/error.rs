@@ -1,4 +1,4 @@
-//! Problems and warnings of a scene, and their places in a text.
+//! Problems and warnings of a scene, and their places in a text; of a scene or a study that is not TOML, the problem in words.
 
 use std::cell::Cell;
 use std::fmt;
@@ -9,8 +9,7 @@ use std::sync::Arc;
 use serde::{Serialize, Serializer};
 use thiserror::Error;
 
-use crate::text;
-use crate::text::{short, shown_on_one_line, shown_problem, shown_title};
+use crate::text::{self, short, shown_on_one_line, shown_problem, shown_title};
 
 /// Origin of a value: the place where it was given.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
@@ -156,3 +155,41 @@ impl fmt::Display for Warning {
 fn as_text<S: Serializer>(place: &Origin, serializer: S) -> Result<S::Ok, S::Error> {
     serializer.collect_str(place)
 }
+
+/// Tells whether a document with these keys is a study: every one has both.
+pub(crate) fn is_study(has: impl Fn(&str) -> bool) -> bool {
+    has("design") && has("factor")
+}
+
+/// Message of the parser on a text, and more of what is often wrong.
+pub(crate) fn not_toml(text: &str, error: &toml::de::Error) -> String {
+    let message = error.message();
+    // The parser points at the second of two equal keys, and does not name it.
+    let twice = error.span().filter(|_| message == "duplicate key").and_then(|span| text.get(span));
+    match twice {
+        // Of these a study has several.
+        Some(key) if ["factor", "response"].contains(&key) => {
+            format!("[{key}] is there already: write [[{key}]], with two brackets, for each")
+        }
+        Some(key) => format!("{} is there already in this table, further up: keep one of them", short(key)),
+        None => match error.span().and_then(|span| with_comma(text, span.start)) {
+            Some(found) => format!("{} has a comma, write {}", short(found), short(&found.replacen(',', ".", 1))),
+            None => format!("this is not TOML: {}", shown_title(message)),
+        },
+    }
+}
+
+/// The number with a decimal comma that the parser stopped in, at its comma or behind it.
+fn with_comma(text: &str, at: usize) -> Option<&str> {
+    let is_part = |byte: &u8| byte.is_ascii_digit() || matches!(byte, b',' | b'-' | b'+');
+    let bytes = text.as_bytes();
+    let before = bytes.get(..at)?.iter().rev().take_while(|byte| is_part(byte)).count();
+    let behind = bytes[at..].iter().take_while(|byte| is_part(byte)).count();
+    let found = text.get(at - before..at + behind)?;
+    let number = found.replacen(',', ".", 1);
+    (found.matches(',').count() == 1 && !found.ends_with(',') && number.parse::<f64>().is_ok()).then_some(found)
+}
+
+#[cfg(test)]
+#[path = "../../tests/unit/syntax.rs"]
+mod tests;

@@ -10,8 +10,8 @@ use super::document::{Entry, Value};
 use super::error::{Origin, Problem};
 use super::schema::{Kind, Range};
 use crate::text::{nearest, odd_character, short, too_long};
+use crate::units;
 use crate::units::Dimension::{self, Force, Pressure, RotationalSpeed, Speed, Time, Torque};
-use crate::units::{self, UnitError};
 
 /// Puts the place of an entry beside a message.
 pub(super) fn at(entry: &Entry) -> impl Fn(String) -> (Origin, String) {
@@ -21,9 +21,9 @@ pub(super) fn at(entry: &Entry) -> impl Fn(String) -> (Origin, String) {
 /// A quantity with its unit, in SI units.
 pub(super) fn quantity(value: &Value, dimension: Dimension, range: Range) -> Result<f64, String> {
     let number = match value {
-        Value::Text(text) => units::parse(text, dimension).map_err(|error| error.to_string())?,
+        Value::Text(text) => units::parse(text, dimension)?,
         Value::Integer(_) | Value::Float(_) => {
-            return Err(UnitError::NoUnit { text: value.text(), expected: dimension }.to_string());
+            return Err(units::no_unit(value.text(), dimension));
         }
         _ => return Err(format!("{value}, expected {dimension}")),
     };

@@ -29,25 +29,17 @@ pub use contents::{
     BaseSource, HeightSettings, HeightSource, Lay, OperationCycle, OutputSettings, ReadOptions, Scene, Workers,
     memory_estimate,
 };
-pub(crate) use error::Locator;
+pub(crate) use error::{Locator, is_study, not_toml};
 pub use error::{Origin, Problem, SceneError, Warning};
 pub use resolved::{Difference, differences, values};
 
 /// Reads the scene at `path`, lays it over the scenes it extends, applies the arguments of `--set` (`key.path=value`)
 /// and checks everything that can be checked without reading surfaces.
-///
-/// # Errors
-/// [`SceneError`] with everything that is wrong, each with its place in the text: files that cannot be read, text that
-/// is not TOML, unknown or missing keys, values of a wrong type, unit or range, keys that contradict each other, a mesh
-/// that does not fit into memory.
 pub fn load(path: &Path, sets: &[String]) -> Result<Scene, SceneError> {
     checked(layers::read(path, sets)?, path)
 }
 
 /// As [`load`], of the text that a scene which extends no other will have at `path`: it can be looked at before it is written.
-///
-/// # Errors
-/// [`SceneError`] as for [`load`].
 pub fn of_text(path: &Path, text: &str) -> Result<Scene, SceneError> {
     checked(layers::of_text(path, text)?, path)
 }

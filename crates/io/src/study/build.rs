@@ -6,13 +6,12 @@ use std::path::Path;
 use plateau_study::design::{Alpha, Fraction, Kind};
 use toml::Spanned;
 
-use super::contents::{DesignSource, Order, Replicates, Study};
 use super::document::{self, Document};
 use super::factor::Factor;
 use super::factor_keys::{factors, stated_unit};
 use super::response::Response;
 use super::response_keys::{responses, series_name};
-use super::value_table;
+use super::{DesignSource, Order, Replicates, Study, value_table};
 use crate::scene::{Locator, Origin, Problem, schema};
 use crate::text::{self, MOST_PROBLEMS, short};
 
@@ -249,16 +248,5 @@ pub(super) fn source(
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn seeds_of_synthetic_and_of_extended_surfaces_are_seeds() {
-        assert!(
-            ["disc.surface.synthetic.seed", "disc.prepare.extend_seed", "pin.prepare.extend_seed"]
-                .iter()
-                .all(|key| is_seed(key))
-        );
-        assert!(!["mesh.rows", "disc.seed", "disc.prepare.extend"].iter().any(|key| is_seed(key)));
-    }
-}
+#[path = "../../tests/unit/study/build.rs"]
+mod tests;

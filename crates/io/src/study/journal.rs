@@ -20,6 +20,7 @@ use super::record::{EVENT, Identity, Outcome, Record};
 use crate::{input, limits};
 
 #[cfg(test)]
+#[path = "../../tests/unit/study/journal.rs"]
 mod tests;
 
 /// The line of a record, with its end.
@@ -79,9 +80,6 @@ pub struct Shard {
 
 impl Shard {
     /// A new shard in the folder, which is made if it is not there. `host` is the name of this machine.
-    ///
-    /// # Errors
-    /// What the system says.
     pub fn create(folder: &Path, host: &str) -> io::Result<Self> {
         fs::create_dir_all(folder)?;
         let (file, path) = create_file(folder, host)?;
@@ -213,9 +211,6 @@ pub struct Entry {
 
 impl Journal {
     /// Looks through all shards of a folder; there need not be any.
-    ///
-    /// # Errors
-    /// What the system says.
     pub fn read(folder: &Path) -> io::Result<Self> {
         let mut journal = Self::default();
         journal.read_on(folder)?;
@@ -223,9 +218,6 @@ impl Journal {
     }
 
     /// Looks for what was added since.
-    ///
-    /// # Errors
-    /// What the system says.
     pub fn read_on(&mut self, folder: &Path) -> io::Result<()> {
         // While shards are merged, a list of them grows old; the merged one is there before they go.
         let mut lists = 0..100;

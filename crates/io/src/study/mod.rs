@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! study file     document       the text, with places
-//!                factor_keys, response_keys, build  from its keys to a Study (contents)
+//!                factor_keys, response_keys, build  from its keys to a Study
 //!                factor, response   values of the factors, questions to the series of a run
 //!                response_series    series that no run would record, bounds of responses
 //!                value_table    points of a design in a table
@@ -14,7 +14,6 @@
 //! ```
 
 mod build;
-mod contents;
 mod document;
 pub mod factor;
 mod factor_keys;
@@ -28,20 +27,111 @@ pub mod results;
 pub mod results_file;
 mod value_table;
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use crate::scene::{Locator, Origin, Problem};
-use crate::{hdf5_file, input, limits, syntax};
 use document::Document;
+use factor::Factor;
+use plateau_study::design::Kind;
+use response::Response;
+use thiserror::Error;
+use value_table::Points;
 
-pub use contents::{DesignSource, Order, Replicates, Study, StudyError};
+use crate::scene::{Locator, Origin, Problem, not_toml};
+use crate::{hdf5_file, input, limits, text};
+
+/// The table, among the results of a study, of responses that come from elsewhere.
+const IMPORTED: &str = "imported.csv";
+
+/// A study, read and checked.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Study {
+    /// Title; the file's stem if the study gives none.
+    pub title: String,
+    /// The study file.
+    pub path: PathBuf,
+    /// The study file and the tables that it names; scenes and what they read are not among them.
+    pub files: Vec<PathBuf>,
+    /// The scene that is varied; none of a study whose responses are all imported.
+    pub base: Option<PathBuf>,
+    /// Place in the study that names it.
+    pub base_place: Origin,
+    /// Folder of the results.
+    pub directory: PathBuf,
+    /// Name of the design.
+    pub design: String,
+    /// Arguments of `--set` for every run.
+    pub sets: Vec<String>,
+    /// Seed of the order and of designs that are drawn by lot.
+    pub seed: u64,
+    /// Source of the points.
+    pub source: DesignSource,
+    /// Factors that are varied.
+    pub factors: Vec<Factor>,
+    /// Seeds with which every point is run, if there are several.
+    pub replicates: Option<Replicates>,
+    /// In which order runs are made.
+    pub order: Order,
+    /// Responses that are asked of the runs.
+    pub responses: Vec<Response>,
+    /// The series that are kept; all unless given.
+    pub series: Option<Vec<String>>,
+}
+
+/// Source of the points of a study.
+#[derive(Debug, Clone, PartialEq)]
+pub enum DesignSource {
+    /// A design that the program makes, with so many centre points besides those of its kind.
+    Kind(Kind, usize),
+    /// A table of one's own.
+    File(Points),
+}
+
+/// Seeds with which every point is run.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Replicates {
+    /// Keys that are set to the seed.
+    pub keys: Vec<String>,
+    /// The seeds.
+    pub seeds: Vec<i64>,
+}
+
+/// In which order runs are made.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Order {
+    /// By lot, so that what drifts meanwhile is not taken for an effect.
+    Random,
+    /// As the design has them.
+    Standard,
+}
+
+/// Reason why a study cannot be used: everything that is wrong with it.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[error("{}", text::problems(.0))]
+pub struct StudyError(pub Vec<Problem>);
+
+impl Study {
+    /// Tells whether all responses come from elsewhere, so that runs need not be made.
+    pub fn is_imported(&self) -> bool {
+        !self.responses.is_empty() && self.responses.iter().all(Response::is_imported)
+    }
+
+    /// All that is read of a study but its scenes and what those read: the study file, the tables that it names, its base scene, and
+    /// what is kept of its results.
+    pub fn inputs(&self) -> Vec<PathBuf> {
+        let kept = ["journal", "under-way"].map(|name| self.directory.join(name));
+        let files =
+            |folder: PathBuf| std::fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path());
+        let mut inputs = self.files.clone();
+        inputs.extend(self.base.clone());
+        inputs.push(self.directory.join(IMPORTED));
+        inputs.extend(kept.into_iter().flat_map(files));
+        inputs
+    }
+}
 
 impl Study {
     /// Reads the study at `path`. Whether the scenes of its runs can be built is seen when they are planned.
-    ///
-    /// # Errors
-    /// [`StudyError`] with everything that is wrong, each with its place in the text.
     pub fn load(path: &Path) -> Result<Self, StudyError> {
         let file: Arc<Path> = path.into();
         let at = |origin: Origin, message: String| StudyError(vec![Problem::without_key(&origin, message)]);
@@ -57,7 +147,7 @@ impl Study {
         let located = |error: &toml::de::Error, message: String| {
             at(error.span().map_or(Origin::File(file.clone()), |span| locator.origin(span)), message)
         };
-        let table: toml::Table = text.parse().map_err(|error| located(&error, syntax::problem(&text, &error)))?;
+        let table: toml::Table = text.parse().map_err(|error| located(&error, not_toml(&text, &error)))?;
         if is_scene(&table) {
             let message = "this is a scene, expected a study; `plateau run` and `plateau check` take scenes";
             return Err(at(Origin::File(file.clone()), message.to_owned()));
@@ -76,21 +166,5 @@ fn is_scene(table: &toml::Table) -> bool {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_scene_is_told_from_a_study() {
-        let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("scene.toml");
-        let said = |text: &str| {
-            std::fs::write(&path, text).unwrap();
-            Study::load(&path).unwrap_err().to_string()
-        };
-        let scene = format!("{}: this is a scene, expected a study; `plateau run` and", path.display());
-        for text in ["version = 1\n[mesh]\nrows = 8\n", "extends = \"quick.toml\"\n"] {
-            assert!(said(text).starts_with(&scene), "{}", said(text));
-        }
-        assert!(!said("version = 1\ndesign = \"sobol\"\n[mesh]\n").contains("this is a scene"));
-    }
-}
+#[path = "../../tests/unit/study.rs"]
+mod tests;

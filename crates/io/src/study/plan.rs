@@ -3,10 +3,10 @@
 use std::path::Path;
 
 use plateau_study::design::{self, Aliases, Design, Setting};
-use plateau_study::shuffle::shuffle;
+use plateau_study::shuffle;
 
-use super::contents::{DesignSource, Order, Study, StudyError};
 use super::factor::Level;
+use super::{DesignSource, Order, Study, StudyError};
 use crate::scene::{self, Origin, Problem, Scene, SceneError};
 
 /// The runs of a study.
@@ -42,9 +42,6 @@ pub struct Run {
 
 impl Plan {
     /// Makes the design of a study.
-    ///
-    /// # Errors
-    /// [`StudyError`] when there is no such design for its factors, or a factor has no value where the design has a point.
     pub fn new(study: Study) -> Result<Self, StudyError> {
         let refuse = |message: String| {
             StudyError(vec![Problem::new(&Origin::File(study.path.as_path().into()), "design", message)])
@@ -138,9 +135,6 @@ impl Plan {
     }
 
     /// The scene of a run.
-    ///
-    /// # Errors
-    /// [`SceneError`] as [`scene::load`].
     pub fn scene(&self, run: &Run) -> Result<Scene, SceneError> {
         // Without a base there is no scene; the message of the empty path says so.
         let base = self.study.base.as_deref().unwrap_or(Path::new(""));

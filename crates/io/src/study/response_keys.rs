@@ -62,8 +62,7 @@ pub(super) fn responses(tables: &[Table], locator: &Locator<'_>, problems: &mut 
 
 fn question(table: &Table, series: &str, locator: &Locator<'_>) -> Result<Question, Problem> {
     let time = |text: &Spanned<String>, key: &str| {
-        let time =
-            parse(text.get_ref(), Dimension::Time).map_err(|error| locator.problem(text, key, error.to_string()))?;
+        let time = parse(text.get_ref(), Dimension::Time).map_err(|error| locator.problem(text, key, error))?;
         if time >= 0.0 {
             Ok(time)
         } else {

@@ -54,7 +54,7 @@ const PLAIN: &[(&str, Scale)] = &[
 ];
 
 /// Decimal prefixes; micro also as either of the two Unicode letters.
-pub(super) const PREFIXES: &[(char, i32)] = &[
+pub const PREFIXES: &[(char, i32)] = &[
     ('p', -12),
     ('n', -9),
     ('u', -6),

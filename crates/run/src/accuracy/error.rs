@@ -1,7 +1,6 @@
 //! Why errors cannot be measured, and whose fault that is.
 
 use std::io;
-use std::path::PathBuf;
 
 use plateau_core::simulation::SimulationError;
 use plateau_io::number;
@@ -9,9 +8,7 @@ use plateau_io::run_file::ReadError;
 use plateau_io::scene::SceneError;
 use thiserror::Error;
 
-use crate::error::signal_in_words;
-
-use crate::error::RunError;
+use crate::error::{RunError, signal_in_words};
 
 /// Why errors cannot be measured.
 #[derive(Debug, Error)]
@@ -127,58 +124,12 @@ pub enum ReferenceError {
     /// It cannot be read.
     #[error("{0}")]
     Read(#[from] ReadError),
-    /// It cannot be digested.
-    #[error("{}: {error}", path.display())]
-    File {
-        /// The run file.
-        path: PathBuf,
-        /// What the system says.
-        #[source]
-        error: io::Error,
-    },
-    /// The run did not come to its end.
-    #[error("the reference {} is {state}, expected a run that is finished", path.display())]
-    NotFinished {
-        /// The run file.
-        path: PathBuf,
-        /// The state of the run.
-        state: &'static str,
-    },
-    /// Its scene does not say how it was accelerated.
-    #[error("the scene of the reference {} has no numerics.time_acceleration", path.display())]
-    NoTimeAcceleration {
-        /// The run file.
-        path: PathBuf,
-    },
-    /// It is shorter or longer than the scene.
-    #[error("the reference {} ends at {end} s, expected {expected} s as the scene says", path.display())]
-    OtherEnd {
-        /// The run file.
-        path: PathBuf,
-        /// Where it ends, s.
-        end: f64,
-        /// Where the scene does, s.
-        expected: f64,
-    },
-    /// A series that is compared is not there.
-    #[error("the reference {} has no series {name}", path.display())]
-    NoSeries {
-        /// The run file.
-        path: PathBuf,
-        /// The series.
-        name: &'static str,
-    },
-    /// It is a run of another scene.
-    #[error(
-        "the reference {} is a run of another scene; only numerics and output may differ:{differences}",
-        path.display()
-    )]
-    OtherScene {
-        /// The run file.
-        path: PathBuf,
-        /// What differs, a line each.
-        differences: String,
-    },
+    /// This file cannot be digested.
+    #[error("{0}: {1}")]
+    File(String, #[source] io::Error),
+    /// It is of another scene, or lacks what is compared.
+    #[error("{0}")]
+    Refused(String),
 }
 
 /// A budget that suffices, as it is given on the command line: with room, for what is needed (s) is an estimate.

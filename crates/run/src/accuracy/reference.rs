@@ -67,26 +67,29 @@ const MOST_KEYS: usize = 5;
 /// [`ReferenceError`] when it is no finished run with samples of this scene.
 pub fn read(path: &Path, scene: &Scene, inputs: &[(PathBuf, String)]) -> Result<ReadReference, ReferenceError> {
     let run = RunFile::open(path)?;
+    let shown = path.display();
+    let refused = |message| Err(ReferenceError::Refused(message));
     if run.state() != State::Finished {
-        return Err(ReferenceError::NotFinished { path: path.to_owned(), state: run.state().name() });
+        return refused(format!("the reference {shown} is {}, expected a run that is finished", run.state().name()));
     }
     refuse_another_scene(&run, scene, inputs)?;
     let numerics = |key: &str| run.scene().get("numerics").and_then(|numerics| numerics.get(key));
     let time_acceleration =
         numerics("time_acceleration").and_then(|value| value.as_float().or(value.as_integer().map(|m| m as f64)));
     let Some(time_acceleration) = time_acceleration else {
-        return Err(ReferenceError::NoTimeAcceleration { path: path.to_owned() });
+        return refused(format!("the scene of the reference {shown} has no numerics.time_acceleration"));
     };
     let mut parameters = scene.parameters.clone();
     parameters.time_acceleration = time_acceleration;
     let end = run.time().last().copied().unwrap_or(0.0);
     // A run ends at its duration or up to a step later.
     if (end - scene.duration).abs() > 1.01 * parameters.step_time() {
-        return Err(ReferenceError::OtherEnd { path: path.to_owned(), end, expected: scene.duration });
+        let expected = scene.duration;
+        return refused(format!("the reference {shown} ends at {end} s, expected {expected} s as the scene says"));
     }
     let outcome = outcome(&run, parameters.steps_of(scene.duration))?;
     let sample_every = [0.0].iter().chain(run.time()).zip(run.time()).map(|(one, next)| next - one).fold(0.0, f64::max);
-    let file = InputFile::read(path).map_err(|error| ReferenceError::File { path: path.to_owned(), error })?;
+    let file = InputFile::read(path).map_err(|error| ReferenceError::File(shown.to_string(), error))?;
     let text = |name: &str| run.attribute(name).unwrap_or_default();
     let provenance = Provenance {
         file: Some(file),
@@ -107,7 +110,8 @@ fn outcome(run: &RunFile, steps: u64) -> Result<Outcome, ReferenceError> {
         let mut sum = vec![0.0; run.time().len()];
         for name in compared.series {
             let Some(values) = run.values(name)? else {
-                return Err(ReferenceError::NoSeries { path: run.path().to_owned(), name });
+                let message = format!("the reference {} has no series {name}", run.path().display());
+                return Err(ReferenceError::Refused(message));
             };
             sum.iter_mut().zip(&values).for_each(|(sum, value)| *sum += value);
         }
@@ -137,7 +141,11 @@ fn refuse_another_scene(run: &RunFile, scene: &Scene, inputs: &[(PathBuf, String
         // How long runs are is compared by their ends.
         schema::role(key) == Role::Physics && !same_content
     });
-    let mut message = String::new();
+    let mut message = format!(
+        "the reference {} is a run of another scene; only numerics and output may differ:",
+        run.path().display()
+    );
+    let bare = message.len();
     for Difference { key, first, second } in different.iter().take(MOST_KEYS) {
         let shown = |value: &Option<String>| value.clone().unwrap_or_else(|| "not given".to_owned());
         // Writing to a String cannot fail.
@@ -152,8 +160,5 @@ fn refuse_another_scene(run: &RunFile, scene: &Scene, inputs: &[(PathBuf, String
             let _ = write!(message, "\n  the content of {} has changed since", path.display());
         }
     }
-    if message.is_empty() {
-        return Ok(());
-    }
-    Err(ReferenceError::OtherScene { path: run.path().to_owned(), differences: message })
+    if message.len() == bare { Ok(()) } else { Err(ReferenceError::Refused(message)) }
 }

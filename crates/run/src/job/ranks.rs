@@ -25,9 +25,6 @@ pub struct Job {
 
 impl Job {
     /// Joins the other ranks.
-    ///
-    /// # Errors
-    /// [`RunFailure::Comm`] when MPI cannot be started.
     pub fn start() -> Result<Self, RunFailure> {
         let session = Session::start()?;
         let meeting = session.communicator();
@@ -59,9 +56,6 @@ impl Job {
 
     /// Agrees with all ranks: they stop and save if any was asked to, and take as many steps as the first, for clocks
     /// differ.
-    ///
-    /// # Errors
-    /// When the others cannot be reached.
     pub fn agree(&mut self, own: Agreement) -> Result<Agreement, CommError> {
         let (mut largest, mut save, mut first) = (0, false, own.steps);
         let words = [own.signal.unwrap_or(0).into(), own.steps, own.save.into()];
@@ -88,15 +82,18 @@ impl Job {
                 other = other.or(Some(rank));
             }
         })?;
-        other.map_or(Ok(()), |rank| Err(InputError::RanksDiffer { rank }.into()))
+        let refused = |rank| {
+            InputError::Refused(format!(
+                "rank {rank} was given another scene, other surfaces or another build of this program than rank 0: give all ranks the \
+                 same, where the machines share no files by copying them"
+            ))
+        };
+        other.map_or(Ok(()), |rank| Err(refused(rank).into()))
     }
 
     /// Does all pieces of independent work, each on one rank, until so many have failed. A single rank has as many threads
     /// as there are `jobs`, several have one each; rank 0 hands the pieces out while a thread of its own works. Only its
     /// `pieces` count: another rank may see what is to be done a moment later, when some of it is done.
-    ///
-    /// # Errors
-    /// [`RunFailure::Threads`].
     pub fn share(
         &mut self,
         pieces: &[usize],
@@ -147,9 +144,6 @@ impl Job {
     }
 
     /// The sums of two counts over all ranks.
-    ///
-    /// # Errors
-    /// When the others cannot be reached.
     pub fn sum(&mut self, one: usize, other: usize) -> Result<(usize, usize), CommError> {
         let mut sums = (0, 0);
         self.meeting.all_gather(&[one as u64, other as u64], &mut |_, words| {

@@ -12,9 +12,8 @@ use plateau_io::study::record::{Identity, dataset_of};
 use plateau_io::temporary::Temporary;
 use plateau_io::{number, text};
 
-use super::error::SweepError;
-use super::observer::SweepObserver;
 use super::resolved::Resolved;
+use super::{SweepError, SweepObserver};
 use crate::execution;
 
 /// Folder of the study's journal.
@@ -23,9 +22,6 @@ pub fn journal_folder(study: &Study) -> PathBuf {
 }
 
 /// Refuses a study whose results could not be kept, before a run is made. Makes the folder of the journal.
-///
-/// # Errors
-/// [`SweepError::Input`].
 pub(super) fn refuse_unwritable(study: &Study) -> Result<(), SweepError> {
     let folder = journal_folder(study);
     let probed = fs::create_dir_all(&folder).and_then(|()| Temporary::create(&folder.join("probe")));
@@ -37,9 +33,6 @@ pub(super) fn refuse_unwritable(study: &Study) -> Result<(), SweepError> {
 }
 
 /// The journal of a study, after many small files of it were made few.
-///
-/// # Errors
-/// [`SweepError::Failed`].
 pub fn journal(study: &Study) -> Result<Journal, SweepError> {
     let folder = journal_folder(study);
     let failed = |error| SweepError::Failed(format!("{}: {error}", folder.display()));

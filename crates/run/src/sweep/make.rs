@@ -66,9 +66,6 @@ pub struct MadeRun {
 }
 
 /// Makes a run.
-///
-/// # Errors
-/// [`Stopped`] when it was not to be ended; what fails is an outcome.
 pub fn make(request: &Request<'_>, watcher: &dyn Watcher, under_way: &mut UnderWay<'_>) -> Result<MadeRun, Stopped> {
     let mut of = None;
     // A panic is a mistake of this program; it ends the run, not the study.
@@ -222,9 +219,6 @@ const SIGNAL_LOOK: Duration = Duration::from_millis(50);
 
 /// Reads or makes the surfaces of a scene. Nothing is written meanwhile, so after a signal nobody waits for them: the thread that makes
 /// them ends with the program. Other runs that are made at the same time keep what they have.
-///
-/// # Errors
-/// [`Ended`], after a signal or with what is wrong.
 fn surfaces(scene: &Scene, watcher: &dyn Watcher, under_way: &mut UnderWay<'_>) -> Result<Loaded, Ended> {
     let (give, take) = channel();
     let its_own = scene.clone();

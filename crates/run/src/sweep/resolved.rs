@@ -12,10 +12,9 @@ use plateau_io::study::response_series::lacking;
 use plateau_io::{input, text};
 use rayon::prelude::*;
 
-use super::error::SweepError;
-use super::observer::SweepObserver;
-use super::run_length::{RunLength, seconds};
+use super::estimate::{RunLength, seconds};
 use super::warnings::{Found, SceneWarnings, of_scene};
+use super::{SweepError, SweepObserver};
 
 /// Problems that are shown.
 const SHOWN: usize = 10;
@@ -102,9 +101,6 @@ impl Resolved {
     }
 
     /// Refuses responses to series that no run records, before any is made, and warns of those that some do not.
-    ///
-    /// # Errors
-    /// [`SweepError::Input`] with what the scenes lack.
     pub fn refuse_unrecorded(&self, study: &Study, observer: &dyn SweepObserver) -> Result<(), SweepError> {
         let file = study.path.display();
         let mut refused = Vec::new();
@@ -123,17 +119,11 @@ impl Resolved {
     }
 
     /// Builds the scene of every run.
-    ///
-    /// # Errors
-    /// Those of [`of_runs`](Self::of_runs).
     pub fn of(plan: &Plan) -> Result<Self, SweepError> {
         Self::of_runs(plan, (1..=plan.runs()).collect())
     }
 
     /// Builds the scenes of some runs, by their numbers.
-    ///
-    /// # Errors
-    /// [`SweepError::Input`] with the runs whose scenes cannot be built, before any is made.
     pub fn of_runs(plan: &Plan, numbers: Vec<usize>) -> Result<Self, SweepError> {
         refuse_without_scene(plan)?;
         let digests = Digests::default();
@@ -217,9 +207,6 @@ pub fn run_in_words(plan: &Plan, number: usize) -> String {
 }
 
 /// Refuses a study that has no scene to run.
-///
-/// # Errors
-/// [`SweepError::Input`].
 pub(super) fn refuse_without_scene(plan: &Plan) -> Result<(), SweepError> {
     let path = plan.study().path.display();
     match &plan.study().base {

@@ -18,12 +18,11 @@ use plateau_io::surface::Loaded;
 use plateau_io::{number, text};
 
 use super::earlier::{is_whole, journal_folder};
-use super::error::SweepError;
 use super::make::{MadeRun, Request, Watcher, make};
-use super::observer::SweepObserver;
 use super::resolved::{Resolved, needed};
 use super::under_way::{self, Others, UnderWay};
 use super::warnings::{SceneWarnings, of_questions, of_surfaces};
+use super::{SweepError, SweepObserver};
 use crate::execution;
 use crate::job::PieceEnd;
 
@@ -141,9 +140,6 @@ impl<'a> Runner<'a> {
     }
 
     /// Completes the journal and counts what was made.
-    ///
-    /// # Errors
-    /// How the runs were shared, if that failed; [`SweepError::Failed`] when results could not be kept, or files changed meanwhile.
     pub fn end(&self, shared: Result<(), SweepError>) -> Result<Made, SweepError> {
         self.observer.ends();
         let shard = lock(&self.shard).take();

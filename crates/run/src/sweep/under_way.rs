@@ -14,7 +14,7 @@ use plateau_io::run_file::checkpoint::{self, SimulationState};
 use plateau_io::temporary::Temporary;
 use serde::{Deserialize, Serialize};
 
-use super::observer::SweepObserver;
+use super::SweepObserver;
 use crate::assembly::Assembly;
 
 /// Folder of locks and states, in that of the results.
@@ -75,9 +75,6 @@ impl Others {
 
 impl<'a> UnderWay<'a> {
     /// Takes the run of that identity, whose state is never due until [`keep_every`](Self::keep_every) says when.
-    ///
-    /// # Errors
-    /// [`Taken`] when another process has it and lives, as far as one can tell.
     pub fn take(
         results: &Path,
         identity: &str,
@@ -134,9 +131,6 @@ impl<'a> UnderWay<'a> {
     }
 
     /// Keeps the state; what cannot be kept is done again if need be.
-    ///
-    /// # Errors
-    /// [`SimulationError`] when a worker failed.
     pub fn keep(
         &mut self,
         assembly: &mut Assembly,
@@ -165,9 +159,6 @@ impl<'a> UnderWay<'a> {
 }
 
 /// Claims the place of a state; none where that cannot be, which is said.
-///
-/// # Errors
-/// [`ClaimError`] when another process has it.
 fn claim(path: &Path, observer: &dyn SweepObserver) -> Result<Option<Claim>, ClaimError> {
     let folder = path.parent().unwrap_or(Path::new(""));
     let mut tries = 0..10;
@@ -177,7 +168,7 @@ fn claim(path: &Path, observer: &dyn SweepObserver) -> Result<Option<Claim>, Cla
         }
         match Claim::of(path) {
             // Another process has ended, and with it went the folder.
-            Err(ClaimError::System { error, .. }) if error.kind() == ErrorKind::NotFound && tries.next().is_some() => {}
+            Err(ClaimError::System(_, error)) if error.kind() == ErrorKind::NotFound && tries.next().is_some() => {}
             Err(error @ (ClaimError::Here { .. } | ClaimError::Elsewhere { .. })) => return Err(error),
             Err(error) => break error.into(),
             Ok(claim) => match checkpoint::refuse_one_foreign(path, false) {
@@ -225,48 +216,5 @@ fn not_kept(error: &dyn std::fmt::Display, observer: &dyn SweepObserver) {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_run_that_another_process_makes_is_not_taken() {
-        let folder = tempfile::tempdir().unwrap();
-        let take = || UnderWay::take(folder.path(), "a", &Mutex::default(), &());
-        let under_way = take().unwrap();
-        assert!(take().is_err());
-        drop(under_way);
-        let under_way = take().unwrap();
-        end(folder.path());
-        assert!(folder.path().join(FOLDER).exists());
-        drop(under_way);
-        end(folder.path());
-        assert!(!folder.path().join(FOLDER).exists());
-    }
-
-    #[test]
-    fn what_a_killed_process_left_while_it_asked_for_a_run_goes() {
-        let folder = tempfile::tempdir().unwrap();
-        fs::create_dir(folder.path().join(FOLDER)).unwrap();
-        let left = folder.path().join(FOLDER).join(format!(".a.lock.plateau-{}-0.tmp", u32::MAX));
-        fs::write(&left, "").unwrap();
-        assert_eq!(tidy(folder.path(), |_| true, |_| false), 0);
-        assert!(!left.exists() && !folder.path().join(FOLDER).exists());
-    }
-
-    #[test]
-    fn who_touches_a_lock_is_not_silent() {
-        let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("a");
-        let claim = Claim::of(&path).unwrap();
-        let (mut others, short) = (Others::default(), Duration::from_millis(20));
-        assert_eq!(others.silent(&path, short), None);
-        std::thread::sleep(2 * short);
-        claim.touch();
-        assert_eq!(others.silent(&path, short), None, "touched");
-        assert_eq!(others.silent(&path, Duration::MAX), None);
-        std::thread::sleep(2 * short);
-        assert_eq!(others.silent(&path, short), Claim::seen(&path));
-        drop(claim);
-        assert_eq!(others.silent(&path, Duration::ZERO), None, "gone");
-    }
-}
+#[path = "../../tests/unit/sweep/under_way.rs"]
+mod tests;

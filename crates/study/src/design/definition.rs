@@ -178,10 +178,6 @@ impl Factor {
 
 impl Design {
     /// A design of these settings, point by point and factor by factor.
-    ///
-    /// # Errors
-    ///
-    /// The settings are not a whole number of points.
     pub fn from_settings(
         factors: usize,
         settings: Vec<Setting>,

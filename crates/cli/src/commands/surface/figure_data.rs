@@ -38,9 +38,6 @@ impl FigureData {
     }
 
     /// Adds heights, levelled and with peaks positive; those of one body have a common scale.
-    ///
-    /// # Errors
-    /// [`Failure::Run`] where they cannot be written.
     pub fn add(&mut self, title: &str, body: Option<Body>, grid: &Grid, of: &Description) -> Result<(), Failure> {
         let name = format!("heights-{}.npy", self.surfaces.len());
         let Grid { columns, rows, heights, .. } = *grid;
@@ -61,9 +58,6 @@ impl FigureData {
     }
 
     /// Writes the document of the surfaces; the folder, which is complete.
-    ///
-    /// # Errors
-    /// [`Failure::Run`] where it cannot be written.
     pub fn finish(&self) -> Result<&Path, Failure> {
         self.document("surfaces.json", &self.surfaces)?;
         Ok(&self.folder)
@@ -71,9 +65,6 @@ impl FigureData {
 
     /// Writes the picture of the pin's base, with the micrograph that it comes from and the width of its pixels, m: x along the
     /// sliding direction, y outward from the mean radius, lines from the top.
-    ///
-    /// # Errors
-    /// [`Failure::Run`] where it cannot be written.
     pub fn fibre_map(&self, mesh: &Mesh, base: &[Base], micrograph: Option<(&FibreMap, f64)>) -> Result<(), Failure> {
         let plane = PinPlane::new(mesh);
         let (half_x, half_y) = plane.half_extent();

@@ -2,7 +2,6 @@
 
 mod comparison;
 mod describe;
-mod document;
 mod figure_data;
 mod recorded;
 mod subject;
@@ -16,8 +15,7 @@ use plateau_io::surface::{self, Loaded, Measured, WriteError, WriteOptions};
 
 use crate::arguments::{SurfaceArguments, SurfaceWord, as_options};
 use crate::failure::Failure;
-use crate::figure;
-use crate::hand_over::hand_over;
+use crate::hand_over::{self, hand_over};
 use crate::message;
 use crate::output;
 use crate::table::print;
@@ -35,7 +33,7 @@ pub fn surface(arguments: &SurfaceArguments) -> Result<(), Failure> {
     }
     refuse_impossible(arguments)?;
     // What is drawn is written down while it is there, so that not all heights are held.
-    let temporary = draws(arguments).then(figure::temporary_folder).transpose()?;
+    let temporary = draws(arguments).then(hand_over::temporary_folder).transpose()?;
     let folder = temporary.as_ref().map(|folder| folder.path()).or(arguments.figure_data.as_deref());
     let mut figures = folder.map(FigureData::new);
     let mut subjects = Vec::new();
@@ -102,7 +100,7 @@ fn refuse_impossible(arguments: &SurfaceArguments) -> Result<(), Failure> {
     }
     for (option, picture) in [("--plot", plot), ("--preview", preview)] {
         let Some(picture) = picture else { continue };
-        if figure::format_of(picture).is_none() {
+        if hand_over::format_of(picture).is_none() {
             let endings = "expected the ending .png, .svg or .pdf";
             return Err(Failure::input(format!("{option} {}: {endings}", picture.display())));
         }
@@ -211,7 +209,7 @@ fn tell(
         for (kind, place) in [("surfaces", &arguments.plot), ("fibre-map", &arguments.preview)] {
             let Some(place) = place else { continue };
             let options = if arguments.relief && kind == "surfaces" { &["--relief"][..] } else { &[] };
-            let pages = figure::draw(kind, folder, figure::format_of(place).as_slice(), options)?;
+            let pages = hand_over::draw(kind, folder, hand_over::format_of(place).as_slice(), options)?;
             drawings.extend(pages.into_iter().map(|(name, content)| (of_page(place, kind, &name), content)));
         }
     }
@@ -230,7 +228,7 @@ fn tell(
         return Ok(());
     }
     if arguments.json {
-        return print(&document::document(subjects)?);
+        return print(&describe::document(subjects)?);
     }
     let written: String = taken.iter().map(|path| format!("\nwrote {}\n", path.display())).collect();
     print(&(text::text(subjects) + &written))

@@ -32,9 +32,6 @@ pub struct NamedHeights {
 
 /// The heights of a run file at the times that are asked for, else at the first and the last time of its maps; none where the file is no run
 /// file.
-///
-/// # Errors
-/// [`Failure::Input`] when it is damaged, an option has no use for it, or it has no such map.
 pub fn of(path: &Path, arguments: &SurfaceArguments) -> Result<Option<Vec<NamedHeights>>, Failure> {
     let run = match RunFile::open(path) {
         Ok(run) => run,
