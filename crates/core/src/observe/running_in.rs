@@ -20,28 +20,22 @@ const SHORT_AGAIN: f64 = 0.1;
 
 /// Why the time is not defined.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
+#[allow(missing_docs)] // The messages say what they mean.
 pub enum NotDefined {
-    /// Too few samples or simulated revolutions.
     #[error(
         "not defined: too few samples or simulated revolutions; {LEAST_WINDOWS} in the run and {LEAST_PARTS} in each quarter of its second half are needed"
     )]
     TooShort,
-    /// A sample has no value, or the last value is 0.
     #[error("not defined: it has samples without a value, or ends at 0")]
     NoValue,
-    /// It is not steady in the second half.
     #[error("not defined: still {} at the end, by {:.1} % in the last quarter of the run", if *.0 > 0.0 { "rises" } else { "falls" }, 100.0 * .0.abs())]
     NotSteady(f64),
-    /// Chance may hide a change.
     #[error("not defined: cannot be told from a run of this length whether it still changes, by {:+.1} ± {:.1} % in the last quarter", 100.0 * .0, 100.0 * .1)]
     Unknown(f64, f64),
-    /// There are so many pulses in a quarter of the run, at most.
     #[error("not defined: a quarter of the run has at most {:.1} pulses of the contact area, {LEAST_PULSES} are needed", .0)]
     FewPulses(f64),
-    /// This part of the later windows is short of the fraction again.
     #[error("not defined: {:.0} % of the windows after the first that reaches it are short of it again, {:.0} % at most are noise", 100.0 * .0, 100.0 * SHORT_AGAIN)]
     ShortAgain(f64),
-    /// It goes back by more than its noise.
     #[error("not defined: neither rises nor falls all along, it goes back by {:.1} % of its last value", 100.0 * .0)]
     NotMonotone(f64),
 }

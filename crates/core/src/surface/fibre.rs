@@ -95,61 +95,26 @@ pub struct FibreSynthesis {
 
 /// Why a fibre map cannot be made.
 #[derive(Debug, Clone, PartialEq, Error)]
+#[allow(missing_docs)] // The messages say what they mean.
 pub enum FibreError {
-    /// The area fraction is none.
     #[error("fibre_fraction is {found}, expected 0 to 1")]
-    Fraction {
-        /// What was asked for.
-        found: f64,
-    },
-    /// The width is no length.
+    Fraction { found: f64 },
     #[error("fibre_width is {found} m, expected more than 0 and finite")]
-    Width {
-        /// What was asked for.
-        found: f64,
-    },
-    /// The fibre is shorter than wide.
+    Width { found: f64 },
     #[error("fibre_length is {}, expected at least the fibre_width of {} and finite", Length(*length), Length(*width))]
-    ShorterThanWide {
-        /// Length from end to end, m.
-        length: f64,
-        /// Width, m.
-        width: f64,
-    },
-    /// Too many fibres would be needed.
+    ShorterThanWide { length: f64, width: f64 },
     #[error(
         "after {placed} fibres only {reached:.3e} of the pin is covered, expected {wanted}: fibres of {} by {} \
          are too small or too long for this pin",
         Length(*length), Length(*width)
     )]
-    TooMany {
-        /// Fibres placed.
-        placed: u32,
-        /// Area fraction reached.
-        reached: f64,
-        /// Area fraction asked for.
-        wanted: f64,
-        /// Length from end to end, m.
-        length: f64,
-        /// Width, m.
-        width: f64,
-    },
-    /// Far more fibres, or far larger ones, would be needed than are placed.
+    TooMany { placed: u32, reached: f64, wanted: f64, length: f64, width: f64 },
     #[error(
         "about {fibres:.0e} fibres of {} by {} would be needed, and {cells:.0e} cells looked at for them, expected at most \
          {MOST_FIBRES:.0e} and {MOST_CELLS:.0e}: they are too small or too long for this pin",
         Length(*length), Length(*width)
     )]
-    OutOfReach {
-        /// Fibres that are expected to be needed.
-        fibres: f64,
-        /// Cells that are expected to be looked at.
-        cells: f64,
-        /// Length from end to end, m.
-        length: f64,
-        /// Width, m.
-        width: f64,
-    },
+    OutOfReach { fibres: f64, cells: f64, length: f64, width: f64 },
 }
 
 /// Fibres after which the map is given up.

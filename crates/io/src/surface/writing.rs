@@ -27,43 +27,18 @@ pub struct WriteOptions {
 
 /// Why a surface cannot be written.
 #[derive(Debug, Error)]
+#[allow(missing_docs)] // The messages say what they mean.
 pub enum WriteError {
-    /// The ending names no format that is written.
     #[error("{}: {found}, expected the ending {ENDINGS}", path.display())]
-    UnknownEnding {
-        /// The output path.
-        path: PathBuf,
-        /// What its ending is.
-        found: String,
-    },
-    /// There is a file already.
+    UnknownEnding { path: PathBuf, found: String },
     #[error("{} exists; give --force to replace it, or write elsewhere", path.display())]
-    Exists {
-        /// The output path.
-        path: PathBuf,
-    },
-    /// A folder, a device or the like.
+    Exists { path: PathBuf },
     #[error("{} is not a regular file and is not replaced", path.display())]
-    NotAFile {
-        /// The output path.
-        path: PathBuf,
-    },
-    /// The surface is none, or the format has no room for it.
+    NotAFile { path: PathBuf },
     #[error("{}: {reason}", path.display())]
-    Unsuitable {
-        /// The output path.
-        path: PathBuf,
-        /// What does not fit.
-        reason: String,
-    },
-    /// The system refused; the file that was there before is as it was.
+    Unsuitable { path: PathBuf, reason: String },
     #[error("writing {} failed: {reason}", path.display())]
-    System {
-        /// The output path.
-        path: PathBuf,
-        /// What the system said.
-        reason: io::Error,
-    },
+    System { path: PathBuf, reason: io::Error },
 }
 
 /// Endings that are written.

@@ -14,10 +14,8 @@ const PER_LINE: usize = 8;
 /// Why heights cannot be an SDF file of some kind.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub(in crate::surface) enum Unwritable {
-    /// The binary header of ISO-1.0 and BCR-1.0 has 2 bytes for each count, that of ISO-2.0 has 4.
     #[error("SDF {kind} holds up to {most} points along each side, there are {columns} by {rows}")]
     TooMany { kind: SdfKind, most: u64, columns: usize, rows: usize },
-    /// A number that would be read as a missing point.
     #[error("SDF {kind} reads the height {height} m as a missing point")]
     Missing { kind: SdfKind, height: f64 },
 }
