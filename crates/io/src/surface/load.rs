@@ -10,11 +10,10 @@ use plateau_core::surface::{
     Body, Extension, HeightSynthesis, Length, Patch, Preparation, RawHeights, Texture, fibre_fraction, set_back_resin,
 };
 
-use super::detect::detect;
 use super::error::{FileError, SurfaceError};
 use super::format::Format;
 use super::options::{Lay, ProfileError, ReadOptions};
-use super::read::read;
+use super::read::{detect, read};
 use super::{hdf5, image};
 use crate::input::{self, digested};
 use crate::limits;

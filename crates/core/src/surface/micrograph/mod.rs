@@ -175,6 +175,3 @@ impl Micrograph {
         }
     }
 }
-
-#[cfg(test)]
-mod tests;

@@ -5,8 +5,6 @@ use std::{fmt, io};
 use plateau_core::surface::Patch;
 use thiserror::Error;
 
-use crate::surface::profiles::Profiles;
-
 /// Where in a file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Position {
@@ -338,9 +336,13 @@ impl Header {
     /// Room for the heights in the order of the file. In BCR-1.0 the first profile has the largest y (so MountainsMap
     /// shows such files, and so sdfio reads them; the document itself does not say), in ISO 25178-71 y is 0 there.
     pub(super) fn room(&self) -> Profiles {
-        match self.dialect {
-            Dialect::Bcr1 => Profiles::downward(self.points, self.profiles),
-            Dialect::Iso1 | Dialect::Iso2 => Profiles::new(self.points, self.profiles),
+        let (columns, rows) = (self.points, self.profiles);
+        Profiles {
+            columns,
+            rows,
+            downward: self.dialect == Dialect::Bcr1,
+            heights: vec![f64::NAN; columns * rows],
+            done: 0,
         }
     }
 
@@ -350,7 +352,7 @@ impl Header {
             rows: self.profiles,
             column_pitch: self.x_scale,
             row_pitch: self.y_scale,
-            heights: heights.finish(),
+            heights: heights.heights,
         }
     }
 
@@ -377,4 +379,35 @@ fn scale(field: &'static str, (found, at): (f64, Position)) -> Result<f64, SdfEr
 
 fn zero(field: &'static str, (found, at): (i64, Position), expected: &'static str) -> Result<(), SdfError> {
     if found == 0 { Ok(()) } else { Err(SdfError::Field { at, field, found: found.to_string(), expected }) }
+}
+
+/// Takes heights in the order of a file, x growing fastest, and stores them column by column.
+pub(super) struct Profiles {
+    columns: usize,
+    rows: usize,
+    /// The first profile has the largest y.
+    downward: bool,
+    heights: Vec<f64>,
+    /// Heights taken so far.
+    done: usize,
+}
+
+impl Profiles {
+    /// Heights taken so far.
+    pub(super) fn len(&self) -> usize {
+        self.done
+    }
+
+    /// Heights that are not there yet.
+    pub(super) fn missing(&self) -> usize {
+        self.heights.len() - self.done
+    }
+
+    /// Takes the next height, for which there must be room.
+    pub(super) fn push(&mut self, height: f64) {
+        let (profile, column) = (self.done / self.columns, self.done % self.columns);
+        let row = if self.downward { self.rows - 1 - profile } else { profile };
+        self.heights[column * self.rows + row] = height;
+        self.done += 1;
+    }
 }

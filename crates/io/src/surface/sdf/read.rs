@@ -341,30 +341,3 @@ fn trailer_warning(trailer: &[u8], start: u128, length: u64) -> Option<String> {
         start + odd as u128
     ))
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn lines_end_in_three_ways_and_keep_their_numbers() {
-        let mut lexer = Lexer::new(b"a \r\n\r\n b b\rc\nd".as_slice());
-        for expected in [(1, "a"), (2, ""), (3, "b b"), (4, "c"), (5, "d")] {
-            assert_eq!(lexer.line().unwrap(), Some((expected.0, expected.1.as_bytes())));
-        }
-        assert_eq!(lexer.line().unwrap(), None);
-        let mut lexer = Lexer::new(b"\r\n 1 22\r\n\r3 ;4 5\n6".as_slice());
-        lexer.comment = Some(b';');
-        for expected in [(2, "1"), (2, "22"), (4, "3"), (5, "6")] {
-            assert_eq!(lexer.word().unwrap(), Some((expected.0, expected.1.as_bytes())));
-        }
-        assert_eq!(lexer.word().unwrap(), None);
-    }
-
-    #[test]
-    fn a_word_without_end_is_not_kept_as_a_whole() {
-        let text = vec![b'7'; 100_000];
-        assert_eq!(Lexer::new(text.as_slice()).word().unwrap().unwrap().1.len(), LONGEST);
-        assert_eq!(Lexer::new(text.as_slice()).line().unwrap().unwrap().1.len(), LONGEST);
-    }
-}

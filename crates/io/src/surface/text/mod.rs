@@ -83,6 +83,3 @@ fn table(numbers: &Numbers, xyz: bool, options: &ReadOptions) -> Result<Table, T
     }
     Ok(table)
 }
-
-#[cfg(test)]
-mod tests;
