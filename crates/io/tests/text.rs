@@ -281,7 +281,7 @@ fn the_scene_says_what_the_file_does_not() {
     assert_eq!(shape_of(text, None, Some(5)).unwrap_err(), "skip = 5 leaves no line of the file");
     assert_eq!(shape_of("1 2\n3 4", None, Some(0)).unwrap(), "1 2/3 4");
     // A header below the lines that are skipped still counts; numbers in it are written as those of the table.
-    let text = "first\n# unit: nm\n# pitch: 0,5 um\n1000,5;2000\n3000;4000";
+    let text = "first\n# unit: nm\n# pitch: 0,5 um\n1000,25;2000\n3000;4000";
     let table = read(text.as_bytes(), false, &ReadOptions { skip: Some(1), ..options(None, None) }).unwrap();
     assert_eq!((shape(&table).as_str(), table.pitch), ("1 2/3 4", Some([0.5e-6; 2])));
 }

@@ -12,6 +12,7 @@ use tiff::decoder::{Decoder, DecodingResult, Limits};
 use tiff::tags::Tag;
 
 use super::format::Format;
+use super::measured::Measured;
 use super::options::{MOST_POINTS, ReadOptions, inflated};
 use crate::memory::{NoRoom, refuse_beyond};
 
@@ -197,17 +198,6 @@ fn refuse_promise(width: u64, height: u64, needed: u64, most: usize, bytes: usiz
     })
 }
 
-/// Heights of an image, m, column by column.
-#[derive(Debug)]
-pub(super) struct HeightMap {
-    pub(super) columns: usize,
-    pub(super) rows: usize,
-    /// NaN where a decimal image has no number.
-    pub(super) heights: Vec<f64>,
-    pub(super) notes: Vec<String>,
-    pub(super) warnings: Vec<String>,
-}
-
 /// Decodes an image by its format.
 fn decode(content: &[u8], format: Format) -> Result<Raster, ImageError> {
     if format == Format::Png { Raster::png(content) } else { Raster::tiff(content) }
@@ -218,7 +208,7 @@ fn decode(content: &[u8], format: Format) -> Result<Raster, ImageError> {
 ///
 /// # Errors
 /// [`ImageError`] when the image is damaged, has colours or transparency, or its heights are not told.
-pub(super) fn heights(content: &[u8], format: Format, options: &ReadOptions) -> Result<HeightMap, ImageError> {
+pub(super) fn heights(content: &[u8], format: Format, options: &ReadOptions) -> Result<Measured, ImageError> {
     let Raster { width, height, colour, samples, warnings } = decode(content, format)?;
     let refuse = |found: &str| {
         let expected = "grey pixels without transparency: colours are not heights, save the image as grey levels";
@@ -239,7 +229,8 @@ pub(super) fn heights(content: &[u8], format: Format, options: &ReadOptions) -> 
     if count > 0 {
         return Err(ImageError::Infinite { count, points: heights.len() });
     }
-    Ok(HeightMap { columns: width, rows: height, heights, notes: vec![note.to_owned()], warnings })
+    let plain = Measured::new(format, [width, height], options.pitch, heights);
+    Ok(Measured { notes: vec![note.to_owned()], warnings, ..plain })
 }
 
 /// Heights of grey levels up to `white`.

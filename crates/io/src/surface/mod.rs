@@ -10,6 +10,7 @@ pub mod npy;
 mod options;
 mod read;
 pub mod sdf;
+mod stored;
 mod text;
 mod writing;
 

@@ -2,6 +2,7 @@
 
 use std::fs::File;
 use std::io::{BufReader, Read as _};
+use std::ops::RangeInclusive;
 use std::path::Path;
 
 use plateau_core::surface::Patch;
@@ -29,7 +30,7 @@ pub fn read(path: &Path, options: &ReadOptions) -> Result<Measured, FileError> {
     if let Some(lay) = options.profile_lay {
         measured.take_as_profile(lay)?;
     }
-    measured.check()?;
+    refuse_absurd(&measured)?;
     Ok(measured)
 }
 
@@ -45,11 +46,8 @@ fn read_format(path: &Path, options: &ReadOptions) -> Result<Measured, FileError
     }
     match format {
         Format::Hdf5 => {
-            let hdf5::Heights { columns, rows, pitch, heights, body, is_converted, notes, warnings } =
-                hdf5::heights(path, options.dataset.as_deref(), options.at)?;
-            let pitch = agreed_pitch(pitch, options.pitch)?;
-            let plain = Measured::new(format, [columns, rows], pitch, heights);
-            Ok(Measured { notes, warnings, body, instrument: is_converted, ..plain })
+            let measured = hdf5::heights(path, options.dataset.as_deref(), options.at)?;
+            Ok(Measured { pitch: agreed_pitch(measured.pitch, options.pitch)?, ..measured })
         }
         Format::Sdf(_) => {
             let file = input::open(path)?;
@@ -65,48 +63,41 @@ fn read_format(path: &Path, options: &ReadOptions) -> Result<Measured, FileError
             file.by_ref().take(npy::HEAD as u64).read_to_end(&mut content)?;
             npy::check_length(&content, file.metadata()?.len())?;
             file.take(limits::SURFACE).read_to_end(&mut content)?;
-            Ok(array(format, npy::read(&content, options.unit.unwrap_or(1.0))?, options))
+            Ok(npy::read(&content, options)?)
         }
-        Format::Npz => {
-            let (dataset, unit) = (options.dataset.as_deref(), options.unit.unwrap_or(1.0));
-            let (name, read) = npy::read_archive(&input::read(path, limits::SURFACE)?, dataset, unit)?;
-            let mut measured = array(format, read, options);
-            measured.notes.insert(0, format!("array {name}"));
-            Ok(measured)
-        }
+        Format::Npz => Ok(npy::read_archive(&input::read(path, limits::SURFACE)?, options)?),
         Format::Png | Format::Tiff => {
-            let image::HeightMap { columns, rows, heights, notes, warnings } = image::heights(
-                &input::read(path, limits::SURFACE)?,
-                format,
-                options,
-            )
-            .map_err(|reason| match reason {
+            image::heights(&input::read(path, limits::SURFACE)?, format, options).map_err(|reason| match reason {
                 ImageError::Tiff(_) | ImageError::Pixels { .. } if format == Format::Tiff => FileError::Tiff { reason },
                 other => other.into(),
-            })?;
-            let pitch = options.pitch;
-            Ok(Measured { notes, warnings, ..Measured::new(format, [columns, rows], pitch, heights) })
+            })
         }
         Format::Text => {
             let xyz = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("xyz"));
-            let text::Table { columns, rows, pitch, is_pitch_assumed, heights, notes, warnings } =
-                text::read(&input::read(path, limits::SURFACE_TEXT)?, xyz, options)?;
-            let plain = Measured::new(format, [columns, rows], pitch, heights);
-            Ok(Measured { is_pitch_assumed, notes, warnings, ..plain })
+            Ok(text::read(&input::read(path, limits::SURFACE_TEXT)?, xyz, options)?)
         }
         Format::Instrument(instrument) => Err(FileError::Instrument(instrument)),
     }
 }
 
-/// A NumPy array: heights of the model, as those of an HDF5 file.
-fn array(format: Format, array: npy::Array, options: &ReadOptions) -> Measured {
-    let npy::Array { columns, rows, heights, descr, integers } = array;
-    let mut warnings = Vec::new();
-    if integers && options.unit.is_none() {
-        warnings.push("integers taken as heights in m: unit = \"nm\" says what 1 stands for".to_owned());
+/// Pitches that are read, m; measured ones are between 1e-11 and 1e-3.
+const PITCHES: RangeInclusive<f64> = 1e-15..=1e3;
+/// Largest height or depth that is read, m; instruments with a far zero give up to 0.1.
+const HIGHEST: f64 = 1e3;
+
+/// Refuses what is far from any surface: a damaged file, or numbers of another unit.
+fn refuse_absurd(measured: &Measured) -> Result<(), FileError> {
+    if let Some(pitch) = measured.pitch.iter().flatten().find(|pitch| !PITCHES.contains(pitch)) {
+        let expected = format!("{:e} to {:e} m", PITCHES.start(), PITCHES.end());
+        return Err(FileError::Absurd { found: format!("a pitch of {pitch:e} m"), expected });
     }
-    let notes = vec![format!("type {descr}")];
-    Measured { notes, warnings, instrument: false, ..Measured::new(format, [columns, rows], options.pitch, heights) }
+    match measured.heights.iter().find(|height| height.abs() > HIGHEST) {
+        None => Ok(()),
+        Some(height) => Err(FileError::Absurd {
+            found: format!("a height of {height:e} m"),
+            expected: format!("{:e} to {HIGHEST:e} m", -HIGHEST),
+        }),
+    }
 }
 
 /// Refuses what would silently not be used.

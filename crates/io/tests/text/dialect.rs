@@ -98,7 +98,7 @@ fn what_can_be_read_in_one_way_is_told() {
 #[test]
 fn what_can_be_read_in_two_ways_is_refused_unless_told() {
     let group = "line 1, column 2: \"1,234\" may be 1.234 or 1234: ";
-    for text in ["7;1,234\n5;-12,345", "7\t1,234", "7 1,234\n5 1,234", "\"7\",\"1,234\""] {
+    for text in ["7;1,234\n5;-12,345", "7\t1,234", "\"7\",\"1,234\""] {
         assert!(error(text).starts_with(group), "{text:?}");
     }
     for (text, part) in [("-0,0469,0,0192\n1,5,2,25", "0469"), ("1,5,-0,5", "-0"), ("0,5,1,25\n0,75,1,05", "05")] {

@@ -14,6 +14,8 @@ use plateau_core::model::state::Base;
 use plateau_core::observe::{Map, MapValues};
 use plateau_core::surface::{Body, Patch};
 
+use super::format::Format;
+use super::measured::Measured;
 use super::options::{MOST_POINTS, agreed_pitch};
 use crate::hdf5_file::writing::write_text;
 use crate::hdf5_file::{self, in_words, text_attribute};
@@ -23,23 +25,6 @@ use crate::run_file::{ReadError, RunFile, State, map_path};
 use crate::text::short;
 
 pub use error::Hdf5Error;
-
-/// Heights of an HDF5 file, column by column.
-pub(super) struct Heights {
-    pub(super) columns: usize,
-    pub(super) rows: usize,
-    /// Distance of neighbouring points along x and y, m, if the dataset states it.
-    pub(super) pitch: Option<[f64; 2]>,
-    pub(super) heights: Vec<f64>,
-    /// They are those of an instrument, peaks positive, and were converted from its file.
-    pub(super) is_converted: bool,
-    /// The body of which a run recorded them.
-    pub(super) body: Option<Body>,
-    /// What they are, one fact a line.
-    pub(super) notes: Vec<String>,
-    /// What is to be warned of.
-    pub(super) warnings: Vec<String>,
-}
 
 /// Datasets named in a message.
 const NAMED: usize = 12;
@@ -92,7 +77,7 @@ impl Wanted {
 ///
 /// # Errors
 /// [`Hdf5Error`] when the file is damaged or the dataset missing, unsuitable or infinite.
-pub(super) fn heights(path: &Path, dataset: Option<&str>, at: Option<f64>) -> Result<Heights, Hdf5Error> {
+pub(super) fn heights(path: &Path, dataset: Option<&str>, at: Option<f64>) -> Result<Measured, Hdf5Error> {
     if let Some(recorded) = recorded(path, dataset, at)? {
         return Ok(recorded);
     }
@@ -120,7 +105,8 @@ pub(super) fn heights(path: &Path, dataset: Option<&str>, at: Option<f64>) -> Re
     let is_converted = converted.is_some();
     let notes = [Some(format!("dataset {name}")), converted, dimensions.note(), packing.note()];
     let notes = notes.into_iter().flatten().collect();
-    Ok(Heights { columns, rows, pitch, heights, is_converted, body: None, notes, warnings: Vec::new() })
+    // Those of an instrument have peaks positive.
+    Ok(Measured { notes, instrument: is_converted, ..Measured::new(Format::Hdf5, [columns, rows], pitch, heights) })
 }
 
 /// From which file the heights were converted, and by what, if they were.
@@ -298,7 +284,7 @@ const SAME_TIME: f64 = 0.01;
 
 /// The heights of a map of a run file, with the model's signs: the last, or that `at` a time in s. None where the file is no run
 /// file, or the dataset is none of its maps of heights.
-fn recorded(path: &Path, dataset: Option<&str>, at: Option<f64>) -> Result<Option<Heights>, Hdf5Error> {
+fn recorded(path: &Path, dataset: Option<&str>, at: Option<f64>) -> Result<Option<Measured>, Hdf5Error> {
     let not_recorded = |found: &str| match at {
         Some(_) => Err(Hdf5Error::NotRecorded { found: found.to_owned() }),
         None => Ok(None),
@@ -347,14 +333,8 @@ fn recorded(path: &Path, dataset: Option<&str>, at: Option<f64>) -> Result<Optio
     if run.state() != State::Finished {
         warnings.push(format!("its run is not finished, its state is {}", run.state().name()));
     }
-    Ok(Some(Heights {
-        columns,
-        rows,
-        pitch: Some([run.mesh().column_width(), run.mesh().row_height()]),
-        heights,
-        is_converted: false,
-        body: Some(body),
-        notes: vec![format!("dataset /{}", map_path(map)), format!("recorded by a run at {} s", number::plain(time))],
-        warnings,
-    }))
+    let pitch = Some([run.mesh().column_width(), run.mesh().row_height()]);
+    let notes = vec![format!("dataset /{}", map_path(map)), format!("recorded by a run at {} s", number::plain(time))];
+    let plain = Measured::new(Format::Hdf5, [columns, rows], pitch, heights);
+    Ok(Some(Measured { body: Some(body), instrument: false, notes, warnings, ..plain }))
 }

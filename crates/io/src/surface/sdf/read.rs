@@ -226,7 +226,7 @@ fn read_heights(text: &mut Lexer<impl BufRead>, header: &Header) -> Result<Patch
             return Err(SdfError::TooMany { at, points, profiles });
         }
         let wrong = |expected| SdfError::Height { at, found: short(word), expected };
-        let stored = header.data_type.parse(word, header.dialect).ok_or_else(|| wrong(header.data_type.name()))?;
+        let stored = header.data_type.parse(word, header.dialect).ok_or_else(|| wrong(header.data_type.name))?;
         let height = stored * header.z_scale;
         if height.is_infinite() {
             return Err(wrong("a finite number times Zscale, or BAD"));
@@ -259,7 +259,7 @@ pub(super) fn binary(mut source: impl BufRead, length: u64) -> Result<Surface, S
         return Err(truncated(header_size as u128, "the header".to_owned()));
     }
     let header = binary_header(&rest, count_size, dialect)?;
-    let size = header.data_type.size();
+    let size = header.data_type.number.size;
     // Compared before anything is allocated: a header can promise more than any file holds.
     let needed = header_size as u128 + header.heights() * size as u128;
     let what = || format!("{} x {} heights of {size} bytes", header.points, header.profiles);

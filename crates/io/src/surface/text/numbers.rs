@@ -7,20 +7,9 @@ use super::dialect::{Dialect, Fault, is_comment, number, shown, starts_numbers};
 use super::error::TextError;
 use super::header::{Header, Names};
 use crate::delimited::{Decimal, Kind, Separator, starts};
+use crate::surface::format::Format;
+use crate::surface::measured::Measured;
 use crate::surface::options::{ReadOptions, agreed, agreed_pitch};
-
-/// Heights of a text file, m, column by column. A profile has one row.
-#[derive(Debug, Default)]
-pub(in crate::surface) struct Table {
-    pub(in crate::surface) columns: usize,
-    pub(in crate::surface) rows: usize,
-    pub(in crate::surface) pitch: Option<[f64; 2]>,
-    /// The file does not say in which unit its distances are, and they were taken in that of its heights.
-    pub(in crate::surface) is_pitch_assumed: bool,
-    pub(in crate::surface) heights: Vec<f64>,
-    pub(in crate::surface) notes: Vec<String>,
-    pub(in crate::surface) warnings: Vec<String>,
-}
 
 /// Lines that are looked at: no header of an instrument is nearly as long.
 const MOST_LINES: usize = 1000;
@@ -262,16 +251,10 @@ impl Numbers {
 
     /// Turns numbers into heights, m.
     pub(super) fn scale(&self, heights: &mut [f64], unit: f64) -> Result<(), TextError> {
-        scale(heights, unit, self.first_line())
-    }
-}
-
-/// Turns numbers into heights, m; `line` is where they begin.
-pub(super) fn scale(heights: &mut [f64], unit: f64, line: usize) -> Result<(), TextError> {
-    heights.iter_mut().for_each(|height| *height *= unit);
-    match heights.iter().find(|height| height.is_infinite()) {
-        Some(height) => Err(TextError::Infinite { line, column: 1, found: format!("a height of {height} m") }),
-        None => Ok(()),
+        heights.iter_mut().for_each(|height| *height *= unit);
+        let Some(height) = heights.iter().find(|height| height.is_infinite()) else { return Ok(()) };
+        let found = format!("a height of {height} m");
+        Err(TextError::Infinite { line: self.first_line(), column: 1, found })
     }
 }
 
@@ -331,7 +314,7 @@ fn is_even(numbers: &[f64]) -> bool {
 }
 
 /// The heights of a matrix, m.
-pub(super) fn matrix(numbers: &Numbers, options: &ReadOptions) -> Result<Table, TextError> {
+pub(super) fn matrix(numbers: &Numbers, options: &ReadOptions) -> Result<Measured, TextError> {
     let (columns, rows) = (numbers.columns, numbers.lines.len());
     let header = &numbers.header;
     for (what, stated, found) in [("columns", header.counts[0], columns), ("rows", header.counts[1], rows)] {
@@ -348,5 +331,5 @@ pub(super) fn matrix(numbers: &Numbers, options: &ReadOptions) -> Result<Table, 
     numbers.scale(&mut heights, unit)?;
     let pitch = agreed_pitch(header.matrix_pitch(columns, rows), options.pitch)?;
     let notes = vec![format!("matrix, 1 stands for {unit:e} m")];
-    Ok(Table { columns, rows, pitch, heights, notes, warnings, ..Table::default() })
+    Ok(Measured { notes, warnings, ..Measured::new(Format::Text, [columns, rows], pitch, heights) })
 }

@@ -4,7 +4,9 @@ use plateau_core::surface::Length;
 
 use super::error::{TextError, short};
 use super::header::{Columns, Names};
-use super::numbers::{Numbers, Table};
+use super::numbers::Numbers;
+use crate::surface::format::Format;
+use crate::surface::measured::Measured;
 use crate::surface::options::{ReadOptions, agreed_pitch};
 
 /// Coordinates that are off by no more than this, in steps, are evenly spaced.
@@ -116,7 +118,7 @@ fn rounding(coordinates: &[f64], step: f64, off: f64, gaps: &[f64]) -> Option<f6
 }
 
 /// The heights of a profile, m: one row.
-pub(super) fn profile(numbers: &Numbers, options: &ReadOptions) -> Result<Table, TextError> {
+pub(super) fn profile(numbers: &Numbers, options: &ReadOptions) -> Result<Measured, TextError> {
     let (columns, lines) = (numbers.columns, numbers.lines.len());
     match &numbers.header.names {
         Some(names) => {
@@ -147,7 +149,7 @@ fn traced(numbers: &Numbers, coordinates: [usize; 2]) -> Result<usize, TextError
 }
 
 /// Heights alone, in a line or in a column.
-fn alone(numbers: &Numbers, options: &ReadOptions) -> Result<Table, TextError> {
+fn alone(numbers: &Numbers, options: &ReadOptions) -> Result<Measured, TextError> {
     let count = numbers.values.len();
     if count < 2 {
         return Err(TextError::ShortProfile { points: count });
@@ -159,7 +161,7 @@ fn alone(numbers: &Numbers, options: &ReadOptions) -> Result<Table, TextError> {
     let mut heights = numbers.values.clone();
     numbers.scale(&mut heights, unit)?;
     let notes = vec![format!("1 stands for {unit:e} m")];
-    Ok(Table { columns: count, rows: 1, pitch, heights, notes, ..Table::default() })
+    Ok(Measured { notes, ..Measured::new(Format::Text, [count, 1], pitch, heights) })
 }
 
 /// Heights beside the distance along the line.
@@ -168,7 +170,7 @@ fn beside_distances(
     names: &Names,
     [distance, height]: [usize; 2],
     options: &ReadOptions,
-) -> Result<Table, TextError> {
+) -> Result<Measured, TextError> {
     let spacing = Spacing::of(&numbers.coordinates(distance)?, &numbers.lines)?;
     let unit = numbers.unit(names.units[height].or(numbers.header.unit), options)?;
     // Distances are often in mm beside heights in um, so that their unit is not taken from the heights.
@@ -181,7 +183,7 @@ fn beside_distances(
     if let Some(place) = spacing.rounded_to {
         notes.push(format!("distances rounded to {place} are taken as evenly spaced, {} apart", short(spacing.step)));
     }
-    Ok(Table { columns: spacing.count, rows: 1, pitch: Some(pitch), heights, notes, ..Table::default() })
+    Ok(Measured { notes, ..Measured::new(Format::Text, [spacing.count, 1], Some(pitch), heights) })
 }
 
 /// A point is off the grid if it is farther from it than this, in steps of the grid; coordinates are printed with few
@@ -236,7 +238,7 @@ pub(super) fn list(
     names: &Names,
     columns: [usize; 3],
     options: &ReadOptions,
-) -> Result<Table, TextError> {
+) -> Result<Measured, TextError> {
     let gridded = Points::of(numbers, names, columns)?.grid()?;
     let header = &numbers.header;
     let [x_unit, y_unit, z_unit] = columns.map(|column| names.units[column]);
@@ -261,7 +263,8 @@ pub(super) fn list(
     warnings.extend(Numbers::stand_in(&heights));
     numbers.scale(&mut heights, unit)?;
     let notes = vec![format!("list of {} points, 1 stands for {unit:e} m", numbers.lines.len())];
-    Ok(Table { columns: gridded.columns, rows: gridded.rows, pitch, is_pitch_assumed, heights, notes, warnings })
+    let plain = Measured::new(Format::Text, [gridded.columns, gridded.rows], pitch, heights);
+    Ok(Measured { is_pitch_assumed, notes, warnings, ..plain })
 }
 
 /// Whether the first three columns look like a list of points without names.
