@@ -138,17 +138,3 @@ fn compare(quantity: &str, ours: &[f64], theirs: &[f64]) -> Outcome<f64> {
     }
     Ok(difference)
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_same_is_told_from_something_else() {
-        assert_eq!(compare("volume", &[1.0, -4.0], &[1.0, -4.0]).unwrap(), 0.0);
-        assert_eq!(compare("volume", &[0.0, 4.0], &[4e-10, 4.0]).unwrap(), 1e-10);
-        for theirs in [&[1.0, 4.0 + 1e-8][..], &[1.0, f64::NAN], &[1.0]] {
-            assert!(compare("volume", &[1.0, 4.0], theirs).is_err(), "{theirs:?}");
-        }
-    }
-}

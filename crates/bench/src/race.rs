@@ -164,11 +164,4 @@ mod tests {
         // Ratios 3, 1/3, 3 of a step with four times as many cells.
         assert_eq!(made[2].ratio_to(&made[0]), Spread { minimum: 0.25 / 3.0, median: 0.75, maximum: 0.75 });
     }
-
-    #[test]
-    fn the_median_is_in_the_middle() {
-        assert_eq!(Spread::of(&[3.0, 1.0, 8.0]), Spread { minimum: 1.0, median: 3.0, maximum: 8.0 });
-        assert_eq!(Spread::of(&[3.0, 1.0, 8.0, 4.0]), Spread { minimum: 1.0, median: 3.5, maximum: 8.0 });
-        assert!(Spread::of(&[]).median.is_nan());
-    }
 }

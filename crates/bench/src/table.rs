@@ -141,9 +141,4 @@ mod tests {
         );
         assert!(row(&alone, &alone, false).ends_with("| 1.25 | strong, 20 x 40 on 691, 1 | 1.000 | 1.000 – 1.000 |\n"));
     }
-
-    #[test]
-    fn numbers_have_three_digits() {
-        assert_eq!([1234.5, 123.4, 12.34, 1.234, 0.1234].map(number), ["1234", "123", "12.3", "1.23", "0.12"]);
-    }
 }

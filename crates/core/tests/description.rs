@@ -6,7 +6,7 @@ use std::f64::consts::{PI, SQRT_2, TAU};
 
 use plateau_core::surface::describe::{
     Autocorrelation, CoreHeight, Description, Direction, Gradient, Grid, HeightParameters, MaterialCurve, PARAMETERS,
-    ProfileParameters, Volumes,
+    ProfileParameters, Volumes, sampling_errors,
 };
 use plateau_core::surface::{Level, level};
 
@@ -280,4 +280,22 @@ fn the_numbers_do_not_depend_on_the_number_of_threads() {
     // As text, which tells every number and takes NaN for NaN.
     let [one, three] = [1, 3].map(|threads| format!("{:?}", describe(threads)));
     assert!(one == three);
+}
+
+/// The standard error of the rms of N independent normal heights is σ/√(2N), that of their skewness √(6/N) and of their
+/// kurtosis √(24/N). A jackknife of B blocks has the relative error 1/√(2(B − 1)) = 0.144; four of them.
+#[test]
+fn sampling_errors_of_independent_normal_heights_are_those_of_theory() {
+    let (columns, rows) = (150, 100);
+    let heights = gaussian_sample(5, columns * rows);
+    let errors = sampling_errors(&Grid { columns, rows, pitch: Some([1.0; 2]), heights: &heights });
+    let count = (columns * rows) as f64;
+    for (symbol, expected) in
+        [("Sq", (0.5 / count).sqrt()), ("Ssk", (6.0 / count).sqrt()), ("Sku", (24.0 / count).sqrt())]
+    {
+        let place = PARAMETERS.iter().position(|parameter| parameter.symbol == symbol).unwrap();
+        let found = errors[place];
+        assert!((found / expected - 1.0).abs() < 4.0 * 0.144, "{symbol}: {found}, expected {expected}");
+    }
+    assert!(errors[PARAMETERS.iter().position(|parameter| parameter.symbol == "Sz").unwrap()].is_nan());
 }

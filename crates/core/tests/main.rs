@@ -2,12 +2,16 @@
 
 mod build_up;
 mod closed_forms;
+mod condition;
 mod description;
 mod extension;
 mod extremes;
+mod fibres;
 mod heat;
 mod laws;
+mod micrograph;
 mod model;
+mod observe;
 mod preparation;
 mod round_pin;
 mod scenes;

@@ -2,7 +2,9 @@
 
 mod filling;
 mod filtering;
+mod implausible;
 mod levelling;
+mod reporting;
 mod resampling;
 mod slope_outliers;
 mod straightening;
@@ -12,7 +14,7 @@ mod unrolling;
 use std::f64::consts::TAU;
 
 use plateau_core::model::mesh::Mesh;
-use plateau_core::surface::{Body, Fill, Level, Patch, Preparation, PreparationError, RawHeights};
+use plateau_core::surface::{Body, Fill, Length, Level, Patch, Preparation, PreparationError, RawHeights};
 
 /// Cells of 1 mm by 1 mm at the mean radius.
 fn ring(columns: usize, rows: usize, pin_columns: usize) -> Mesh {
@@ -158,4 +160,22 @@ fn refuses_numbers_that_make_no_sense() {
     assert!(matches!(error(nothing, short), PreparationError::Grid { points: 3, .. }));
     let empty = Patch { columns: 0, rows: 0, column_pitch: 1.0, row_pitch: 1.0, heights: vec![] };
     assert!(matches!(error(nothing, RawHeights::Patch(empty)), PreparationError::Grid { .. }));
+}
+
+#[test]
+fn a_length_is_told_in_the_unit_that_suits_it() {
+    for (metres, text) in [
+        (0.0, "0 m"),
+        (1.953125e-9, "1.953 nm"),
+        (1e-300, "1.000e-291 nm"),
+        (-2e-13, "-2.000e-4 nm"),
+        (1e308, "1.000e308 m"),
+        (5e-5, "50 um"),
+        (-3e-6, "-3 um"),
+        (0.13823, "138.2 mm"),
+        (1e-3, "1 mm"),
+        (12.5, "12.5 m"),
+    ] {
+        assert_eq!(Length(metres).to_string(), text);
+    }
 }

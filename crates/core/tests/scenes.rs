@@ -70,6 +70,12 @@ impl Stream {
         word = (word ^ (word >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
         ((word ^ (word >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
     }
+
+    /// The next normal number, by Box and Muller.
+    pub fn normal(&mut self) -> f64 {
+        let (radius, angle) = ((-2.0 * (1.0 - self.uniform()).ln()).sqrt(), TAU * self.uniform());
+        radius * angle.cos()
+    }
 }
 
 /// A rough disc and a pin of fibres in resin, all drawn from one seed.

@@ -80,6 +80,45 @@ fn npy_headers_that_promise_or_hold_something_else() {
 }
 
 #[test]
+fn npy_numbers_of_every_type_in_both_orders() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.npy");
+    let one = |descr: &str, bytes: &[u8]| {
+        let dictionary = format!("{{'descr': '{descr}', 'fortran_order': False, 'shape': (1, 1)}}\n");
+        fs::write(&path, [array(&dictionary, 0), bytes.to_vec()].concat()).unwrap();
+        // So small a unit, a power of two, that every number is a height.
+        let options = ReadOptions { unit: Some(2.0_f64.powi(-60)), ..options() };
+        read(&path, &options).map(|read| read.heights[0] * 2.0_f64.powi(60)).map_err(|error| error.to_string())
+    };
+    for (descr, bytes, expected) in [
+        ("|u1", vec![0xfe], 254.0),
+        ("|i1", vec![0xfe], -2.0),
+        ("<i1", vec![0x7f], 127.0),
+        ("<u2", vec![0x34, 0x12], 4660.0),
+        (">u2", vec![0x12, 0x34], 4660.0),
+        ("<i2", vec![0xff, 0xff], -1.0),
+        (">i4", vec![0xff, 0xff, 0xff, 0x00], -256.0),
+        ("<u4", vec![0, 0, 0, 0x80], 2_147_483_648.0),
+        ("<i8", (-5_i64).to_le_bytes().to_vec(), -5.0),
+        (">u8", u64::MAX.to_be_bytes().to_vec(), 18_446_744_073_709_551_616.0),
+        ("<f4", 0.1_f32.to_le_bytes().to_vec(), f64::from(0.1_f32)),
+        (">f8", (-1.5e-6_f64).to_be_bytes().to_vec(), -1.5e-6),
+        // Examples of IEEE 754 binary16: 1/3, the largest number, the smallest subnormal one, -2.
+        ("<f2", vec![0x55, 0x35], 0.333_251_953_125),
+        (">f2", vec![0x7b, 0xff], 65504.0),
+        ("<f2", vec![0x01, 0x00], 5.960_464_477_539_063e-8),
+        ("<f2", vec![0x00, 0xc0], -2.0),
+    ] {
+        assert_eq!(one(descr, &bytes), Ok(expected), "{descr}");
+    }
+    assert!(one("<f2", &[0x01, 0x7c]).unwrap().is_nan());
+    assert!(one("<f2", &[0x00, 0xfc]).unwrap_err().starts_with("1 of 1 heights are infinite"));
+    for descr in ["|b1", "<c16", "|O", "<U3", "|S5", "<f16", "<M8[ns]", "f8", "|f8", "=f8", "<f1", "", "<", "é"] {
+        assert!(one(descr, &[0; 8]).unwrap_err().starts_with("the array has type "), "{descr}");
+    }
+}
+
+#[test]
 fn zip_bombs_and_lies_are_refused() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("a.npz");

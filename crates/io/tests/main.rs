@@ -21,6 +21,7 @@ mod sdf_dialects;
 mod small_patches;
 mod surfaces;
 mod tables;
+mod text;
 mod writing;
 
 /// How much of a test that repeats itself is done: `few` as it goes without saying, `all` with `PLATEAU_LONG=1`.

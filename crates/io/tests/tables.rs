@@ -412,10 +412,37 @@ fn units_and_labels_that_are_no_texts_are_refused() {
 #[test]
 fn a_file_of_an_instrument_is_to_be_converted_whatever_is_said_of_it() {
     let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("a.al3d");
-    fs::write(&path, b"AliconaImaging\0\r\n").unwrap();
-    let found = message(&path, &ReadOptions { dataset: Some("a".to_owned()), ..um() });
-    assert!(found.starts_with("this is an Alicona file (.al3d), which is not read as it is; convert it: "), "{found}");
+    let told = |name: &str, content: &[u8]| {
+        let path = folder.path().join(name);
+        fs::write(&path, content).unwrap();
+        message(&path, &ReadOptions { dataset: Some("a".to_owned()), ..um() })
+    };
+    let plu = [&b"Fri Mar 15 10:12:00 2013\0"[..], &[0; 200]].concat();
+    let wide: Vec<u8> = "\u{feff}fileformat = bcrstm_unicode\n".encode_utf16().flat_map(u16::to_le_bytes).collect();
+    for (content, expected) in [
+        (&b"AliconaImaging\0\r\n"[..], "an Alicona file (.al3d)"),
+        (b"\x01\0Directory\0", "a Wyko file (.opd)"),
+        (b"\0\0\0\x0ahdat_3.4.x", "a Heliotis file (.hdat)"),
+        (&plu, "a Sensofar file (.plu, .apx)"),
+        (&wide, "a BCR-STM file (.bcr, .bcrf)"),
+        (b"fileformat = bcrf\n", "a BCR-STM file (.bcr, .bcrf)"),
+        (b"CDF\x02\0\0", "a netCDF-3 file (.nc)"),
+        (b"fileType      Image\n", "an Agilent file (.mi)"),
+        (b"[DataSet]\r\nVersion=2\r\n", "a Nanosurf file (.nid, .ezd)"),
+        (b"SIMPLE  =                    T", "a FITS file"),
+        (
+            b"h=3 w=4\npixel size=1e-6 m\nheight conversion factor (-> m)=1e-9\n",
+            "a text export of a holographic microscope (.txt)",
+        ),
+        (b"\"Measured\",\"now\"\r\n\"XY Calibration\",\"1\",\"um\"\r\n", "a text export of Keyence (.csv)"),
+    ] {
+        let found = told("a", content);
+        assert!(found.starts_with(&format!("this is {expected}, which is not read as it is; convert it: ")), "{found}");
+    }
+    assert!(told("wave.IBW", b"\x05\0\0\x01").starts_with("this is an Igor binary wave (.ibw)"));
+    // A text may begin with a day, and other bytes as a format that has more of them.
+    assert!(told("a", b"Fri Mar 15 10:12:00 2013\n1 2\n3 4\n").starts_with("dataset = \"a\", expected the number"));
+    assert!(told("a", b"Alicona\0").starts_with("this is not a surface file that is known"));
 }
 
 #[test]

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use plateau_core::surface::Patch;
 use plateau_io::surface::sdf::{Dialect, Encoding, SdfKind};
-use plateau_io::surface::{Format, ReadOptions, WriteError, WriteOptions, read, write};
+use plateau_io::surface::{Format, ReadOptions, WriteError, read, write};
 
 /// Heights of every size and sign, missing points at the corners and in a row, pitches that decimals round.
 fn patch(columns: usize, rows: usize) -> Patch {
@@ -33,13 +33,6 @@ fn read_patch(path: &Path) -> Patch {
     measured.into_patch().unwrap()
 }
 
-fn kinds() -> impl Iterator<Item = SdfKind> {
-    let dialects = [Dialect::Bcr1, Dialect::Iso1, Dialect::Iso2];
-    dialects
-        .into_iter()
-        .flat_map(|dialect| [Encoding::Ascii, Encoding::Binary].map(|encoding| SdfKind { dialect, encoding }))
-}
-
 /// Names of the files of a folder.
 fn names(folder: &Path) -> Vec<String> {
     fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect()
@@ -50,18 +43,14 @@ fn what_was_written_is_read_bit_for_bit() {
     let folder = tempfile::tempdir().unwrap();
     for (columns, rows) in [(17, 40), (40, 17), (9, 1), (1, 9), (1, 1)] {
         let patch = patch(columns, rows);
-        for kind in kinds() {
-            let path = folder.path().join("out.sdf");
-            write(&path, &patch, &WriteOptions { replace: true, sdf: Some(kind) }).unwrap();
-            assert_eq!(read(&path, &ReadOptions::default()).unwrap().format, Format::Sdf(kind));
+        for name in ["out.sdf", "out.H5"] {
+            let path = folder.path().join(name);
+            write(&path, &patch, true).unwrap();
             check_equal(&read_patch(&path), &patch);
         }
-        let path = folder.path().join("out.H5");
-        write(&path, &patch, &WriteOptions { replace: true, sdf: None }).unwrap();
-        check_equal(&read_patch(&path), &patch);
         // An array has no pitch.
         let path = folder.path().join("out.npy");
-        write(&path, &patch, &WriteOptions { replace: true, sdf: None }).unwrap();
+        write(&path, &patch, true).unwrap();
         assert_eq!(read(&path, &ReadOptions::default()).unwrap().pitch, None);
         let options = ReadOptions { pitch: Some([patch.column_pitch, patch.row_pitch]), ..ReadOptions::default() };
         check_equal(&read(&path, &options).unwrap().into_patch().unwrap(), &patch);
@@ -72,7 +61,6 @@ fn what_was_written_is_read_bit_for_bit() {
 fn sdf_is_iso_1_and_binary_unless_there_are_too_many_points_or_some_are_missing() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("out.sdf");
-    let options = WriteOptions { replace: true, ..WriteOptions::default() };
     for (columns, missing, dialect, encoding) in [
         (65_535, false, Dialect::Iso1, Encoding::Binary),
         (65_536, true, Dialect::Iso1, Encoding::Ascii),
@@ -82,36 +70,11 @@ fn sdf_is_iso_1_and_binary_unless_there_are_too_many_points_or_some_are_missing(
         if !missing {
             patch.heights.iter_mut().filter(|height| height.is_nan()).for_each(|height| *height = 0.0);
         }
-        write(&path, &patch, &options).unwrap();
+        write(&path, &patch, true).unwrap();
         let kind = SdfKind { dialect, encoding };
         assert_eq!(read(&path, &ReadOptions::default()).unwrap().format, Format::Sdf(kind));
         check_equal(&read_patch(&path), &patch);
     }
-    let before = fs::read(&path).unwrap();
-    for dialect in [Dialect::Iso1, Dialect::Bcr1] {
-        let sdf = Some(SdfKind { dialect, encoding: Encoding::Binary });
-        let found = write(&path, &patch(65_536, 1), &WriteOptions { sdf, ..options }).unwrap_err().to_string();
-        let expected = format!("SDF {dialect} binary holds up to 65535 points along each side, there are 65536 by 1");
-        assert!(found.ends_with(&expected), "{found}");
-    }
-    assert_eq!(fs::read(&path).unwrap(), before);
-}
-
-#[test]
-fn heights_that_would_be_read_as_missing_are_refused() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("out.sdf");
-    for kind in kinds() {
-        let mark = match kind {
-            SdfKind { dialect: Dialect::Bcr1, .. } => 1.7e308,
-            SdfKind { encoding: Encoding::Binary, .. } => f64::MIN,
-            SdfKind { encoding: Encoding::Ascii, .. } => continue,
-        };
-        let patch = Patch { columns: 1, rows: 2, column_pitch: 1.0, row_pitch: 1.0, heights: vec![0.0, mark] };
-        let found = write(&path, &patch, &WriteOptions { replace: false, sdf: Some(kind) }).unwrap_err().to_string();
-        assert!(found.contains(&format!("SDF {kind} reads the height ")), "{found}");
-    }
-    assert_eq!(names(folder.path()), [""; 0]);
 }
 
 #[test]
@@ -119,15 +82,14 @@ fn an_existing_file_is_replaced_only_when_that_is_asked_for_and_never_damaged() 
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("out.h5");
     fs::write(&path, "precious").unwrap();
-    let error = write(&path, &patch(4, 5), &WriteOptions::default()).unwrap_err();
+    let error = write(&path, &patch(4, 5), false).unwrap_err();
     assert!(matches!(error, WriteError::Exists { .. }));
     let mut wrong = patch(4, 5);
     wrong.heights[7] = f64::INFINITY;
-    let replace = WriteOptions { replace: true, ..WriteOptions::default() };
-    let found = write(&path, &wrong, &replace).unwrap_err().to_string();
+    let found = write(&path, &wrong, true).unwrap_err().to_string();
     assert!(found.ends_with("out.h5: the height at (column 1, row 2) is infinite"), "{found}");
     assert_eq!(fs::read(&path).unwrap(), b"precious");
-    write(&path, &patch(4, 5), &replace).unwrap();
+    write(&path, &patch(4, 5), true).unwrap();
     check_equal(&read_patch(&path), &patch(4, 5));
     assert_eq!(names(folder.path()), ["out.h5"]);
 }
@@ -139,13 +101,12 @@ fn a_link_stays_a_link_and_a_folder_a_folder() {
     let (file, link) = (folder.path().join("file.sdf"), folder.path().join("link.sdf"));
     fs::write(&file, "old").unwrap();
     std::os::unix::fs::symlink("file.sdf", &link).unwrap();
-    let replace = WriteOptions { replace: true, ..WriteOptions::default() };
-    write(&link, &patch(3, 3), &replace).unwrap();
+    write(&link, &patch(3, 3), true).unwrap();
     assert!(fs::symlink_metadata(&link).unwrap().is_symlink());
     check_equal(&read_patch(&file), &patch(3, 3));
     let inner = folder.path().join("folder.sdf");
     fs::create_dir(&inner).unwrap();
-    assert!(matches!(write(&inner, &patch(3, 3), &replace), Err(WriteError::NotAFile { .. })));
+    assert!(matches!(write(&inner, &patch(3, 3), true), Err(WriteError::NotAFile { .. })));
 }
 
 #[test]
@@ -153,7 +114,7 @@ fn what_cannot_be_written_is_named() {
     let folder = tempfile::tempdir().unwrap();
     let message = |name: &str, patch: &Patch| {
         let path = folder.path().join(name);
-        let found = write(&path, patch, &WriteOptions::default()).unwrap_err().to_string();
+        let found = write(&path, patch, false).unwrap_err().to_string();
         found.replace(&folder.path().display().to_string(), "FOLDER")
     };
     let good = patch(3, 4);

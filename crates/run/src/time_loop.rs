@@ -3,9 +3,9 @@
 use std::time::{Duration, Instant};
 
 use plateau_core::acceleration::scout::Scout;
-use plateau_core::observe::operation::{CYCLE, ROAD};
 use plateau_core::observe::schedule::Moment;
 use plateau_core::observe::{ACCELERATION, Sample, Snapshot};
+use plateau_core::observe::{CYCLE, ROAD};
 use plateau_core::simulation::{Simulation, SimulationError};
 
 use crate::assembly::Assembly;

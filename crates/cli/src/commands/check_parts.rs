@@ -6,7 +6,7 @@ use plateau_core::model::mesh::Mesh;
 use plateau_core::model::outline::Outline;
 use plateau_core::model::parameters::Parameters;
 use plateau_core::model::state::Base;
-use plateau_core::observe::pulse::pulse_time;
+use plateau_core::observe::drift::pulse_time;
 use plateau_core::observe::window_mean::LEAST_REVOLUTIONS;
 use plateau_io::number;
 use plateau_io::scene::Scene;

@@ -1,8 +1,12 @@
-//! Whether a run is still running in: what its mean contact area changed by in its second half.
+//! Whether a run is still running in: what its mean contact area changed by in its second half, and how long that takes to rise and
+//! fall once.
 
 use serde::Serialize;
 
 use super::window_mean::{Cumulative, LEAST_PARTS, ROUNDING, WindowMean, error_of_mean};
+use crate::model::parameters::Parameters;
+use crate::model::state::Base;
+use crate::surface::fibre_fraction;
 
 /// The fraction of the value at the end with which a run counts as run in.
 pub const RUN_IN: f64 = 0.9;
@@ -102,84 +106,19 @@ pub(super) fn beside_a_line(values: &[f64]) -> Vec<f64> {
     places().zip(values).map(|(place, value)| value - mean - slope * place).collect()
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::surface::random::{Random, Stream};
-
-    /// The drift of a quantity that is the derivative of this integral, over 400 s.
-    fn drift(integral: impl Fn(f64) -> f64) -> Option<Drift> {
-        let time: Vec<f64> = (1..=400).map(f64::from).collect();
-        let integral: Vec<f64> = time.iter().map(|time| integral(*time)).collect();
-        Drift::of(&Cumulative { time: &time, integral: &integral, revolutions: &[] }, None)
+/// Time of one pulse of the contact area at constant load and speed, s, at least: T = h_m φ A/(κ F_N v). Resin that touches loses its
+/// wear height h_m at once (model 4.2), and touches again when the fibres, of area φ A and specific wear rate κ, have worn as far.
+/// Build-up beside the fibres has to wear as well, and makes it longer. `base` is that of the pin's cells.
+///
+/// None where load or speed change with time, where there is no resin, or nothing wears.
+pub fn pulse_time(parameters: &Parameters, base: &[Base]) -> Option<f64> {
+    if parameters.cycle.is_some() || !base.contains(&Base::Resin) {
+        return None;
     }
-
-    #[test]
-    fn a_line_drifts_by_its_slope() {
-        // The quantity is 2 t: 500 in the third quarter, 700 in the last.
-        let found = drift(|time| time * time).unwrap();
-        assert!((found.change - 0.4).abs() < 1e-12, "{found:?}");
-        assert_eq!((found.third_quarter.mean, found.last_quarter.mean), (500.0, 700.0));
-        assert_eq!((found.third_quarter.from, found.last_quarter.from, found.last_quarter.to), (200.0, 300.0, 400.0));
-        assert_eq!(found.trend(), Trend::Rises);
-        // A line has nothing that could be chance.
-        assert!(found.standard_error < 1e-12, "{found:?}");
-    }
-
-    #[test]
-    fn the_error_is_that_of_what_varies_about_the_line() {
-        // The quantity is 2 t and 1 more or less by lot: the change of means of 100 values errs by √(2/100).
-        let mut random = Random::new(3, Stream::DiscHeight);
-        let (mut sums, mut hits, runs) = (0.0, 0, 400);
-        for _ in 0..runs {
-            let mut noise = vec![0.0];
-            (0..400).for_each(|place| noise.push(noise[place] + if random.uniform() < 0.5 { -1.0 } else { 1.0 }));
-            let found = drift(|time| time * time + noise[time as usize]).unwrap();
-            let of_third = found.third_quarter.mean;
-            sums += (found.standard_error * of_third).powi(2);
-            hits += usize::from((found.change * of_third - 200.0).abs() < 2.0 * found.standard_error * of_third);
-        }
-        let ratio = sums / runs as f64 / 0.02;
-        // Chance moves the mean of 400 estimates by some hundredths; the truncation makes it a little too large.
-        assert!((0.9..1.25).contains(&ratio), "{ratio}");
-        // 95 %, give or take three standard deviations of the count and a little for the estimate.
-        assert!((0.90..0.99).contains(&(hits as f64 / runs as f64)), "{hits} of {runs}");
-    }
-
-    #[test]
-    fn a_quarter_of_few_pulses_tells_nothing() {
-        let time: Vec<f64> = (1..=400).map(f64::from).collect();
-        let integral: Vec<f64> = time.iter().map(|time| time * time).collect();
-        let samples = Cumulative { time: &time, integral: &integral, revolutions: &[] };
-        let trend = |pulse| Drift::of(&samples, Some(pulse)).unwrap().trend();
-        assert_eq!([trend(33.0), trend(34.0)], [Trend::Rises, Trend::TooShort]);
-    }
-
-    #[test]
-    fn what_swings_about_a_mean_does_not_drift() {
-        // 1 + sin(t), whole and broken periods.
-        let found = drift(|time| time + 1.0 - time.cos()).unwrap();
-        assert!(matches!(found.trend(), Trend::Steady | Trend::Unknown) && found.change.abs() < 0.05, "{found:?}");
-    }
-
-    #[test]
-    fn what_may_hide_a_change_of_interest_is_no_steady_mean() {
-        let of =
-            |change: f64, standard_error: f64| Drift { change, standard_error, ..drift(|time| time).unwrap() }.trend();
-        assert_eq!(
-            [of(0.01, 0.02), of(0.01, 0.021), of(-0.155, 0.084)],
-            [Trend::Steady, Trend::Unknown, Trend::Unknown]
-        );
-        assert_eq!([of(0.05, 0.02), of(-0.05, 0.02)], [Trend::Rises, Trend::Falls]);
-        // A hundredth is next to nothing, however well it is known.
-        assert_eq!([of(0.01, 0.001), of(-0.01, 0.001), of(0.011, 0.001)], [Trend::Steady, Trend::Steady, Trend::Rises]);
-    }
-
-    #[test]
-    fn what_is_nothing_or_too_short_tells_nothing() {
-        assert_eq!(drift(|_| 0.0), None);
-        let time = [1.0, 2.0, 3.0, 4.0];
-        assert_eq!(Drift::of(&Cumulative { time: &time, integral: &time, revolutions: &[] }, None), None);
-        assert_eq!(Drift::of(&Cumulative { time: &[], integral: &[], revolutions: &[] }, None), None);
-    }
+    let (materials, mesh) = (&parameters.materials, &parameters.mesh);
+    let fibre_area = fibre_fraction(base, mesh) * mesh.pin_area();
+    let sliding_speed = parameters.angular_velocity * mesh.mean_radius();
+    let worn_per_second = materials.pin_primary.specific_wear_rate * parameters.usual_load() * sliding_speed;
+    let time = materials.wear_height * fibre_area / worn_per_second;
+    (time > 0.0 && time.is_finite()).then_some(time)
 }

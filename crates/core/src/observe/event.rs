@@ -270,6 +270,3 @@ impl EventLog {
         }
     }
 }
-
-#[cfg(test)]
-mod tests;

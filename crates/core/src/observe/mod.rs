@@ -5,12 +5,10 @@
 //! | `sample.rs`, `quantity.rs` | what every run reports: the fields of a sample, and their names and units |
 //! | `extra.rs` | what it takes to be a series that not every run has |
 //! | `roughness.rs`, `pressure_spread.rs` | such series, on request |
-//! | `operation.rs` | such series of runs with a cycle |
 //! | `dissipation.rs` | such series of runs with friction, heat or emission |
 //! | `event.rs` | what is reported of each event of a cycle |
 //! | `map.rs` | fields that can be recorded as maps |
 //! | `schedule.rs` | when samples and maps are due |
-//! | `pulse.rs` | how long the contact area takes to rise and fall once |
 //! | `window_mean.rs`, `drift.rs`, `running_in.rs` | what is made of series and maps afterwards |
 
 pub mod dissipation;
@@ -18,9 +16,7 @@ pub mod drift;
 pub mod event;
 pub mod extra;
 pub mod map;
-pub mod operation;
 pub mod pressure_spread;
-pub mod pulse;
 pub mod quantity;
 pub mod roughness;
 pub mod running_in;
@@ -40,8 +36,8 @@ pub const EXTRAS: &[&Extra] = &[
     &pressure_spread::EXTRA,
     &dissipation::CONTACT_TEMPERATURE,
     &ACCELERATION,
-    &operation::CYCLE,
-    &operation::ROAD,
+    &CYCLE,
+    &ROAD,
     &dissipation::FRICTION,
     &dissipation::HEAT,
     &dissipation::EMISSION,
@@ -60,6 +56,27 @@ pub const ACCELERATION: Extra = Extra {
     ],
     request: None,
     needs: "a time acceleration that the run chooses, numerics.time_acceleration = { tolerance = 0.01, max = 1000 }",
+};
+
+/// Load, speed and the time in contact; [`Cycle::operation_at`](crate::model::cycle::Cycle::operation_at) and
+/// [`Cycle::contact_time_until`](crate::model::cycle::Cycle::contact_time_until) give their values.
+pub const CYCLE: Extra = Extra {
+    name: "cycle",
+    quantities: &[
+        Quantity::extra("normal_force", "N", "normal force on the simulated pin in the step, mean over its angle"),
+        Quantity::extra("rotational_speed", "rad s-1", "rotational speed of the disc at the end of the step"),
+        Quantity::extra("contact_time", "s", "time since the first step in which the pin was not lifted"),
+    ],
+    request: None,
+    needs: "a cycle, table [operation.cycle]",
+};
+
+/// How far the vehicle has come, where its speed is given.
+pub const ROAD: Extra = Extra {
+    name: "road",
+    quantities: &[Quantity::extra("road_distance", "m", "distance that the vehicle has travelled")],
+    request: None,
+    needs: "a cycle with the speed on the road, column road_speed",
 };
 
 /// The series on request: those whose switch, by its name, is on.

@@ -282,6 +282,3 @@ fn is_after(one: (u64, f64), other: (u64, f64)) -> bool {
 fn earlier(one: (u64, f64), other: (u64, f64)) -> (u64, f64) {
     if is_after(one, other) { other } else { one }
 }
-
-#[cfg(test)]
-mod tests;

@@ -207,7 +207,7 @@ impl Point for Lines {
 }
 
 #[cfg(test)]
-mod fft_tests {
+mod tests {
     use super::*;
 
     fn signal(length: usize) -> Vec<Complex> {
@@ -230,49 +230,6 @@ mod fft_tests {
                 }
                 let difference = *found - expected;
                 assert!(difference.re.hypot(difference.im) < 1e-13 * 8.0 * length as f64, "N = {length}, k = {k}");
-            }
-        }
-    }
-
-    #[test]
-    fn forward_and_backward_cancel() {
-        for length in [1, 4, 100, 691, 2764] {
-            let values = signal(length);
-            let mut transformed = values.clone();
-            let (fft, mut work) = (Fft::new(length), Vec::new());
-            fft.forward(&mut transformed, &mut work);
-            fft.backward(&mut transformed, &mut work);
-            for (found, expected) in transformed.iter().zip(&values) {
-                let difference = found.scale(1.0 / length as f64) - *expected;
-                assert!(difference.re.hypot(difference.im) < 1e-12, "N = {length}");
-            }
-        }
-    }
-}
-
-#[cfg(test)]
-mod fft_lines_tests {
-    use super::*;
-    use crate::surface::fft::Fft;
-
-    #[test]
-    fn each_line_gets_the_bits_that_it_gets_alone() {
-        for length in [1, 2, 12, 64, 161] {
-            let number = |line: usize, place: usize| {
-                let seed = (31 * line + 7 * place * place + 3) as f64;
-                Complex { re: (0.7 * seed).sin(), im: (1.3 * seed).cos() }
-            };
-            let fft = Fft::new(length);
-            let mut together = vec![Lines::default(); length];
-            for (place, lines) in together.iter_mut().enumerate() {
-                (0..LINES).for_each(|line| lines.put(line, number(line, place)));
-            }
-            fft.forward(&mut together, &mut Vec::new());
-            for line in 0..LINES {
-                let mut alone: Vec<Complex> = (0..length).map(|place| number(line, place)).collect();
-                fft.forward(&mut alone, &mut Vec::new());
-                let found: Vec<Complex> = together.iter().map(|lines| lines.get(line)).collect();
-                assert_eq!(found, alone, "{length} points, line {line}");
             }
         }
     }

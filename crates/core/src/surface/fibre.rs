@@ -95,61 +95,26 @@ pub struct FibreSynthesis {
 
 /// Why a fibre map cannot be made.
 #[derive(Debug, Clone, PartialEq, Error)]
+#[allow(missing_docs)] // The messages say what they mean.
 pub enum FibreError {
-    /// The area fraction is none.
     #[error("fibre_fraction is {found}, expected 0 to 1")]
-    Fraction {
-        /// What was asked for.
-        found: f64,
-    },
-    /// The width is no length.
+    Fraction { found: f64 },
     #[error("fibre_width is {found} m, expected more than 0 and finite")]
-    Width {
-        /// What was asked for.
-        found: f64,
-    },
-    /// The fibre is shorter than wide.
+    Width { found: f64 },
     #[error("fibre_length is {}, expected at least the fibre_width of {} and finite", Length(*length), Length(*width))]
-    ShorterThanWide {
-        /// Length from end to end, m.
-        length: f64,
-        /// Width, m.
-        width: f64,
-    },
-    /// Too many fibres would be needed.
+    ShorterThanWide { length: f64, width: f64 },
     #[error(
         "after {placed} fibres only {reached:.3e} of the pin is covered, expected {wanted}: fibres of {} by {} \
          are too small or too long for this pin",
         Length(*length), Length(*width)
     )]
-    TooMany {
-        /// Fibres placed.
-        placed: u32,
-        /// Area fraction reached.
-        reached: f64,
-        /// Area fraction asked for.
-        wanted: f64,
-        /// Length from end to end, m.
-        length: f64,
-        /// Width, m.
-        width: f64,
-    },
-    /// Far more fibres, or far larger ones, would be needed than are placed.
+    TooMany { placed: u32, reached: f64, wanted: f64, length: f64, width: f64 },
     #[error(
         "about {fibres:.0e} fibres of {} by {} would be needed, and {cells:.0e} cells looked at for them, expected at most \
          {MOST_FIBRES:.0e} and {MOST_CELLS:.0e}: they are too small or too long for this pin",
         Length(*length), Length(*width)
     )]
-    OutOfReach {
-        /// Fibres that are expected to be needed.
-        fibres: f64,
-        /// Cells that are expected to be looked at.
-        cells: f64,
-        /// Length from end to end, m.
-        length: f64,
-        /// Width, m.
-        width: f64,
-    },
+    OutOfReach { fibres: f64, cells: f64, length: f64, width: f64 },
 }
 
 /// Fibres after which the map is given up.
@@ -253,130 +218,5 @@ impl FibreSynthesis {
             return Err(FibreError::ShorterThanWide { length: self.fibre_length, width: self.fibre_width });
         }
         Ok(())
-    }
-}
-
-#[cfg(test)]
-mod capsule_tests {
-    use std::f64::consts::PI;
-
-    use super::*;
-
-    #[test]
-    fn a_capsule_has_the_area_of_a_rectangle_and_a_circle() {
-        // The count of centres in a convex shape misses its area by less than its perimeter times a cell's half
-        // diagonal.
-        // Square cells of 10 µm at the mean radius, pin of 4 mm by 2 mm.
-        let mean_radius = 1e-5 * 4000.0 / (2.0 * PI);
-        let mesh = Mesh::new(200, 4000, 400, mean_radius - 1e-3, mean_radius + 1e-3).unwrap();
-        let centre = (2e-3, 1e-3);
-        for (length, width) in [(400e-6, 100e-6), (300e-6, 300e-6), (900e-6, 40e-6)] {
-            for angle in [0.0, 0.3, 1.2, PI / 2.0, 2.5] {
-                let cells = Capsule::new(centre, angle, length, width).cells(&mesh).count() as f64;
-                let area = (length - width) * width + PI * width * width / 4.0;
-                let perimeter = 2.0 * (length - width) + PI * width;
-                let tolerance = perimeter * 1e-5 / 2.0_f64.sqrt();
-                assert!((cells * 1e-10 - area).abs() < tolerance, "{length} {width} {angle}: {cells}");
-            }
-        }
-    }
-}
-
-#[cfg(test)]
-mod fibre_tests {
-    use super::*;
-    use crate::surface::fibre_fraction;
-
-    /// Square cells of 10 µm at the mean radius, pin of 4 mm by 2 mm.
-    fn mesh() -> Mesh {
-        let mean_radius = 1e-5 * 4000.0 / (2.0 * PI);
-        Mesh::new(200, 4000, 400, mean_radius - 1e-3, mean_radius + 1e-3).unwrap()
-    }
-
-    fn fibres(seed: u64, fibre_fraction: f64) -> FibreSynthesis {
-        FibreSynthesis { seed, fibre_fraction, fibre_length: 400e-6, fibre_width: 100e-6 }
-    }
-
-    #[test]
-    fn angles_and_places_are_uniform() {
-        // Means of cos 2α and sin 2α over uniform α: 0 with variance 1/2; of the place in units of its range: ½ with
-        // variance 1/12. Five standard errors.
-        let mut random = Random::new(3, Stream::PinBase);
-        let count = 40_000;
-        let mut sums = [0.0; 4];
-        for _ in 0..count {
-            let capsule = fibres(3, 0.5).draw(&mut random, 4e-3, 2e-3);
-            let (x, y) = capsule.direction;
-            let place = |position: f64, size: f64| (position + 200e-6) / (size + 400e-6) - 0.5;
-            let terms = [x * x - y * y, 2.0 * x * y, place(capsule.centre.0, 4e-3), place(capsule.centre.1, 2e-3)];
-            sums.iter_mut().zip(terms).for_each(|(sum, term)| *sum += term / f64::from(count));
-        }
-        for (sum, variance) in sums.iter().zip([0.5, 0.5, 1.0 / 12.0, 1.0 / 12.0]) {
-            assert!(sum.abs() < 5.0 * (variance / f64::from(count)).sqrt(), "{sums:?}");
-        }
-    }
-
-    #[test]
-    fn the_area_fraction_is_met_to_half_a_fibre() {
-        // A fibre's area, and what counting cells may add to it: a cell along its perimeter of 0.92 mm.
-        let mesh = mesh();
-        let fibre = (300e-6 * 100e-6 + PI * 2.5e-9 + 9.2e-4 * 1e-5) / mesh.pin_area();
-        for target in [0.001, 0.1, 0.3, 0.7, 0.99] {
-            for seed in 0..5 {
-                let base = fibres(seed, target).base(&mesh).unwrap();
-                let found = fibre_fraction(&base, &mesh);
-                assert!((found - target).abs() <= 0.5 * fibre, "seed {seed}: {found}, expected {target}");
-                assert_eq!(base, fibres(seed, target).base(&mesh).unwrap());
-            }
-        }
-    }
-
-    #[test]
-    fn the_edges_are_as_dense_as_the_middle() {
-        // Fraction of the outermost columns over 200 maps. Fibres that meet a column cover about 0.15 mm of its 2 mm:
-        // some 13 independent parts a map with the variance f (1 − f), so the mean has the standard error
-        // √(0.21/(13 · 400)). Centres confined to the pin would halve the fraction.
-        let mesh = mesh();
-        let mut edge = 0.0;
-        for seed in 0..200 {
-            let base = fibres(seed, 0.3).base(&mesh).unwrap();
-            let (first, last) = (&base[..200], &base[399 * 200..]);
-            let fibre = first.iter().chain(last).filter(|base| **base == Base::Primary).count();
-            edge += fibre as f64 / (400.0 * 200.0);
-        }
-        assert!((edge - 0.3).abs() < 5.0 * (0.21_f64 / (13.0 * 400.0)).sqrt(), "{edge}");
-    }
-
-    #[test]
-    fn none_and_all_are_exact() {
-        let mesh = mesh();
-        assert!(fibres(1, 0.0).base(&mesh).unwrap().iter().all(|base| *base == Base::Resin));
-        assert!(fibres(1, 1.0).base(&mesh).unwrap().iter().all(|base| *base == Base::Primary));
-        assert!(fibres(1, 1.0 - 1e-16).base(&mesh).unwrap().iter().all(|base| *base == Base::Primary));
-    }
-
-    #[test]
-    fn refuses_what_is_no_fibre() {
-        let mesh = mesh();
-        for fraction in [-0.1, 1.1, f64::NAN] {
-            assert!(matches!(fibres(1, fraction).base(&mesh), Err(FibreError::Fraction { .. })));
-        }
-        for (fibre_length, fibre_width) in [(1e-4, 0.0), (1e-4, f64::NAN), (1e-4, -1e-5)] {
-            let settings = FibreSynthesis { fibre_length, fibre_width, ..fibres(1, 0.3) };
-            assert!(matches!(settings.base(&mesh), Err(FibreError::Width { .. })));
-        }
-        for fibre_length in [0.5e-4, f64::NAN, f64::INFINITY] {
-            let settings = FibreSynthesis { fibre_length, ..fibres(1, 0.3) };
-            assert!(matches!(settings.base(&mesh), Err(FibreError::ShorterThanWide { .. })));
-        }
-        let dust = FibreSynthesis { fibre_length: 1e-12, fibre_width: 1e-12, ..fibres(1, 0.3) };
-        assert!(matches!(dust.base(&mesh), Err(FibreError::OutOfReach { .. })));
-        // Hours of one loop, and squares that no double holds.
-        for (fibre_length, fibre_width) in
-            [(1e5, 1e-4), (1e308, 1e-4), (1e308, 1e-300), (1e-300, 1e-300), (1.0, 1e-300)]
-        {
-            let settings = FibreSynthesis { fibre_length, fibre_width, ..fibres(1, 0.3) };
-            assert!(matches!(settings.base(&mesh), Err(FibreError::OutOfReach { .. })), "{fibre_length} {fibre_width}");
-        }
     }
 }

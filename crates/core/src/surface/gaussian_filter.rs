@@ -127,14 +127,3 @@ fn filtered(heights: &[f64], length: usize, weights: &[f64], closed: bool) -> Ve
 fn transposed(heights: &[f64], length: usize) -> Vec<f64> {
     (0..length).flat_map(|at| heights.iter().skip(at).step_by(length)).copied().collect()
 }
-
-#[cfg(test)]
-mod tests {
-    use super::mirrored;
-
-    #[test]
-    fn mirrors_at_the_edges() {
-        let places: Vec<usize> = (0..13).map(|at| mirrored(at, 5, 3)).collect();
-        assert_eq!(places, [1, 2, 2, 1, 0, 0, 1, 2, 2, 1, 0, 0, 1]);
-    }
-}

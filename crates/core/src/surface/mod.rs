@@ -1,7 +1,6 @@
 //! Surfaces: measured patches and their preparation, synthetic heights, fibre maps, micrographs, and the parameters that
 //! describe them.
 
-mod body;
 mod condition;
 pub mod describe;
 mod extend;
@@ -23,13 +22,12 @@ mod straighten;
 mod synthesis;
 mod unroll;
 
-pub use body::Body;
 pub use condition::{Condition, Spikes};
 pub use extend::Extension;
 pub use fibre::{FibreError, FibreSynthesis, fibre_fraction, set_back_resin};
 pub use level::{Level, level};
 pub use missing::Fill;
-pub use patch::{Length, Patch};
+pub use patch::{Body, Length, Patch};
 pub use preparation_error::PreparationError;
 pub use prepare::{Preparation, Prepared, RawHeights};
 pub use straighten::{Crop, Flip};

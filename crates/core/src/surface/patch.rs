@@ -1,6 +1,8 @@
-//! Heights on a rectangular grid, as an instrument gives them, and lengths in messages.
+//! Heights on a rectangular grid, as an instrument gives them, the bodies that get them, and lengths in messages.
 
 use std::fmt;
+
+use crate::model::mesh::Mesh;
 
 /// A length in m, printed with four digits in the unit that suits it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -72,25 +74,50 @@ impl Patch {
     }
 }
 
-#[cfg(test)]
-mod tests {
-    use super::Length;
+/// Which surface of the pair.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Body {
+    /// The whole ring; x runs round it and closes.
+    Disc,
+    /// The part of the ring under the pin; x starts at pin column 0 and does not close.
+    Pin,
+}
 
-    #[test]
-    fn chooses_the_unit() {
-        for (metres, text) in [
-            (0.0, "0 m"),
-            (1.953125e-9, "1.953 nm"),
-            (1e-300, "1.000e-291 nm"),
-            (-2e-13, "-2.000e-4 nm"),
-            (1e308, "1.000e308 m"),
-            (5e-5, "50 um"),
-            (-3e-6, "-3 um"),
-            (0.13823, "138.2 mm"),
-            (1e-3, "1 mm"),
-            (12.5, "12.5 m"),
-        ] {
-            assert_eq!(Length(metres).to_string(), text);
+impl Body {
+    /// The body's name in messages.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Disc => "ring",
+            Self::Pin => "pin",
         }
+    }
+
+    /// Columns of the body's fields.
+    pub fn columns(self, mesh: &Mesh) -> usize {
+        match self {
+            Self::Disc => mesh.disc_columns(),
+            Self::Pin => mesh.pin_columns(),
+        }
+    }
+
+    /// The sign that makes peaks positive: heights are positive toward the other body wherever they are measured or shown, while
+    /// the pin's z grows away from the disc.
+    pub fn peak_sign(self) -> f64 {
+        match self {
+            Self::Disc => 1.0,
+            Self::Pin => -1.0,
+        }
+    }
+
+    /// Turns heights of the model into those with positive peaks, or back.
+    pub fn turn(self, heights: &mut [f64]) {
+        if self == Self::Pin {
+            heights.iter_mut().for_each(|height| *height = -*height);
+        }
+    }
+
+    /// Arc length of the body at the mean radius, m.
+    pub fn length(self, mesh: &Mesh) -> f64 {
+        self.columns(mesh) as f64 * mesh.column_width()
     }
 }

@@ -330,32 +330,6 @@ mod tests {
 
     use super::*;
 
-    /// Columns side by side, rows from top to bottom; a dot is a missing point.
-    fn grid(lines: &[&str]) -> (Vec<bool>, usize) {
-        let columns = lines[0].len();
-        let points = (0..columns).flat_map(|x| lines.iter().map(move |line| line.as_bytes()[x] != b'.'));
-        (points.collect(), lines.len())
-    }
-
-    #[test]
-    fn a_gap_within_is_no_edge() {
-        let (there, rows) = grid(&["..####", ".#.###", "###..#", "######", "####.#"]);
-        let heights = there.iter().map(|there| if *there { 1.0 } else { f64::NAN }).collect();
-        let patch = Patch { columns: 6, rows, column_pitch: 1.0, row_pitch: 1.0, heights };
-        // The gaps in the middle touch the edge at no side, only at corners.
-        let (expected, _) = grid(&["..####", ".#####", "######", "######", "####.#"]);
-        assert_eq!(within_measurement(&patch, None), expected);
-        let (expected, _) = grid(&["..####", ".#####", "###..#", "######", "####.#"]);
-        assert_eq!(within_measurement(&patch, Some(3 * rows + 2)), expected);
-    }
-
-    #[test]
-    fn the_longest_run_has_all_rows() {
-        let (within, rows) = grid(&["##.####", "#####.#"]);
-        assert_eq!(longest_run(&within, rows), Some(Rectangle { first: [0, 0], count: [2, 2] }));
-        assert_eq!(longest_run(&[false, true], 2), None);
-    }
-
     proptest! {
         #[test]
         fn no_rectangle_has_more_points(columns in 1_usize..8, rows in 1_usize..8, bits: u64, holes in 0_u32..4) {

@@ -62,7 +62,7 @@ fn edges_ridges_grooves_and_plateaus_stay() {
         raise(&mut pixels, [8 + step, 30 + step / 2], [1, 1], -2e-3);
         raise(&mut pixels, [45 + step / 3, 5 + step], [1, 1], -2e-3);
     }
-    assert_eq!(taken_out(&pixels, Body::Pin), []);
+    assert_eq!(taken_out(&pixels, Body::Pin), [0; 0]);
 }
 
 #[test]
@@ -85,7 +85,7 @@ fn the_ring_closes_and_missing_points_tell_nothing() {
     let mut pixels = patch(30, 8, 1e-3, rough);
     raise(&mut pixels, [0, 5], [2, 1], 1e-3);
     raise(&mut pixels, [27, 5], [3, 1], 1e-3);
-    assert_eq!(taken_out(&pixels, Body::Disc), []);
+    assert_eq!(taken_out(&pixels, Body::Disc), [0; 0]);
     assert_eq!(taken_out(&pixels, Body::Pin).len(), 5);
     // On the ring two of three in a row are at its end.
     let mut pixels = patch(30, 8, 1e-3, rough);

@@ -2,8 +2,8 @@
 
 use std::f64::consts::TAU;
 
+use plateau_core::observe::drift::pulse_time;
 use plateau_core::observe::drift::{Drift, RUN_IN};
-use plateau_core::observe::pulse::pulse_time;
 use plateau_core::observe::running_in::{NotDefined, time_to, time_to_in_contact};
 use plateau_core::observe::window_mean::{Cumulative, LEAST_PARTS, WindowMean, last_tenth};
 use thiserror::Error;

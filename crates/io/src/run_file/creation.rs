@@ -10,9 +10,9 @@ use hdf5::plist::file_create::LinkCreationOrder;
 use hdf5::{Dataset, Datatype, Extent, File, SimpleExtents};
 use plateau_core::acceleration::Chosen;
 use plateau_core::model::mesh::Mesh;
+use plateau_core::observe::CYCLE;
 use plateau_core::observe::event::{EventRecord, event_quantities};
 use plateau_core::observe::extra::Extra;
-use plateau_core::observe::operation::CYCLE;
 use plateau_core::observe::{Map, quantities};
 
 use super::digest::{self, DIGEST, Digests};

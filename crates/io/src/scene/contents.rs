@@ -9,9 +9,9 @@ use plateau_core::model::cycle::Cycle;
 use plateau_core::model::parameters::Parameters;
 use plateau_core::observe::dissipation::{EMISSION, FRICTION, HEAT};
 use plateau_core::observe::extra::Extra;
-use plateau_core::observe::operation::{CYCLE, ROAD};
 use plateau_core::observe::schedule::{End, SampleEvery, Schedule};
 use plateau_core::observe::{ACCELERATION, Map};
+use plateau_core::observe::{CYCLE, ROAD};
 use plateau_core::surface::micrograph::Micrograph;
 use plateau_core::surface::{Body, FibreSynthesis, HeightSynthesis, Preparation};
 

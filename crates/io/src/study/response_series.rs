@@ -1,8 +1,8 @@
 //! Series that responses ask: what a scene needs in order to record one, and the least and largest value of a response.
 
+use plateau_core::observe::CYCLE;
 use plateau_core::observe::event::event_quantity;
 use plateau_core::observe::extra::Extra;
-use plateau_core::observe::operation::CYCLE;
 use plateau_core::observe::{EXTRAS, quantities};
 
 use super::record::{EVENT, unit_of};

@@ -155,39 +155,3 @@ impl fmt::Display for Format {
         })
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn tells_instruments_by_their_first_bytes() {
-        let name = |head| recognise(head).map(|instrument| instrument.name);
-        let plu = [&b"Fri Mar 15 10:12:00 2013\0"[..], &[0; 200]].concat();
-        let wide: Vec<u8> = "\u{feff}fileformat = bcrstm_unicode\n".encode_utf16().flat_map(u16::to_le_bytes).collect();
-        let known = [
-            (&b"AliconaImaging\0\r\n"[..], "an Alicona file (.al3d)"),
-            (b"\x01\0Directory\0", "a Wyko file (.opd)"),
-            (b"\0\0\0\x0ahdat_3.4.x", "a Heliotis file (.hdat)"),
-            (&plu, "a Sensofar file (.plu, .apx)"),
-            (&wide, "a BCR-STM file (.bcr, .bcrf)"),
-            (b"fileformat = bcrf\n", "a BCR-STM file (.bcr, .bcrf)"),
-            (b"CDF\x02\0\0", "a netCDF-3 file (.nc)"),
-            (b"fileType      Image\n", "an Agilent file (.mi)"),
-            (b"[DataSet]\r\nVersion=2\r\n", "a Nanosurf file (.nid, .ezd)"),
-            (b"SIMPLE  =                    T", "a FITS file"),
-            (
-                b"h=3 w=4\npixel size=1e-6 m\nheight conversion factor (-> m)=1e-9\n",
-                "a text export of a holographic microscope (.txt)",
-            ),
-            (b"\"Measured\",\"now\"\r\n\"XY Calibration\",\"1\",\"um\"\r\n", "a text export of Keyence (.csv)"),
-        ];
-        known.iter().for_each(|(head, expected)| assert_eq!(name(head), Some(*expected)));
-        // A text may begin with a day, and a number with the name of a calibration.
-        assert_eq!(name(b"Fri Mar 15 10:12:00 2013\n1 2\n3 4\n"), None);
-        assert_eq!(recognise(b"Alicona"), None);
-        assert_eq!(recognise(b""), None);
-        let of_ending = |path: &str| by_ending(Path::new(path)).is_some();
-        assert!(of_ending("wave.IBW") && of_ending("confocal.nms") && !of_ending("heights.dat"));
-    }
-}

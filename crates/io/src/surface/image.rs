@@ -12,71 +12,36 @@ use tiff::decoder::{Decoder, DecodingResult, Limits};
 use tiff::tags::Tag;
 
 use super::format::Format;
+use super::measured::Measured;
 use super::options::{MOST_POINTS, ReadOptions, inflated};
 use crate::memory::{NoRoom, refuse_beyond};
 
 /// Why an image gives no surface.
 #[derive(Debug, Error)]
+#[allow(missing_docs)] // The messages say what they mean.
 pub enum ImageError {
-    /// A damaged PNG image.
     #[error("cannot be read as PNG: {0}")]
     Png(#[from] png::DecodingError),
-    /// A damaged or unusual TIFF image.
     #[error("cannot be read as TIFF: {0}")]
     Tiff(#[from] tiff::TiffError),
-    /// Pixels of a kind that is not read.
     #[error("the image has {found}, expected {expected}")]
-    Pixels {
-        /// What its pixels are.
-        found: String,
-        /// What they should be, and what to do.
-        expected: &'static str,
-    },
-    /// More pixels than are read, or than the file can hold.
+    Pixels { found: String, expected: &'static str },
     #[error(
         "the image has {width} x {height} pixels, which a file of {bytes} bytes does not hold or memory should not"
     )]
-    TooLarge {
-        /// Pixels of a line.
-        width: u64,
-        /// Lines.
-        height: u64,
-        /// Size of the file.
-        bytes: usize,
-    },
-    /// More than memory holds.
+    TooLarge { width: u64, height: u64, bytes: usize },
     #[error("{width} x {height} pixels need {no_room}")]
-    Memory {
-        /// Pixels of a line.
-        width: u64,
-        /// Lines.
-        height: u64,
-        /// How much is needed, and is there.
-        no_room: NoRoom,
-    },
-    /// The image is to be turned before it is shown.
+    Memory { width: u64, height: u64, no_room: NoRoom },
     #[error("the image is stored turned (TIFF orientation {found}), expected 1, its first line at the top: save it so")]
-    Orientation {
-        /// The tag's value.
-        found: u32,
-    },
-    /// The heights of black and white are unknown.
+    Orientation { found: u32 },
     #[error("an image does not say its heights: height_range = [\"0 um\", \"10 um\"] gives those of black and white")]
     NoHeightRange,
-    /// The unit of decimal pixels is unknown.
     #[error("the pixels are decimal heights of an unknown unit: unit = \"um\" gives it, in place of height_range")]
     NoUnit,
-    /// A unit for pixels that are levels.
     #[error("the pixels are grey levels, so unit has no meaning: leave it out and give height_range")]
     Unit,
-    /// Pixels that are infinite.
     #[error("{count} of {points} pixels are not finite heights, expected finite numbers, NaN for a missing point")]
-    Infinite {
-        /// Infinite pixels.
-        count: usize,
-        /// All pixels.
-        points: usize,
-    },
+    Infinite { count: usize, points: usize },
 }
 
 /// Pixels line by line, the first line at the top.
@@ -233,17 +198,6 @@ fn refuse_promise(width: u64, height: u64, needed: u64, most: usize, bytes: usiz
     })
 }
 
-/// Heights of an image, m, column by column.
-#[derive(Debug)]
-pub(super) struct HeightMap {
-    pub(super) columns: usize,
-    pub(super) rows: usize,
-    /// NaN where a decimal image has no number.
-    pub(super) heights: Vec<f64>,
-    pub(super) notes: Vec<String>,
-    pub(super) warnings: Vec<String>,
-}
-
 /// Decodes an image by its format.
 fn decode(content: &[u8], format: Format) -> Result<Raster, ImageError> {
     if format == Format::Png { Raster::png(content) } else { Raster::tiff(content) }
@@ -254,7 +208,7 @@ fn decode(content: &[u8], format: Format) -> Result<Raster, ImageError> {
 ///
 /// # Errors
 /// [`ImageError`] when the image is damaged, has colours or transparency, or its heights are not told.
-pub(super) fn heights(content: &[u8], format: Format, options: &ReadOptions) -> Result<HeightMap, ImageError> {
+pub(super) fn heights(content: &[u8], format: Format, options: &ReadOptions) -> Result<Measured, ImageError> {
     let Raster { width, height, colour, samples, warnings } = decode(content, format)?;
     let refuse = |found: &str| {
         let expected = "grey pixels without transparency: colours are not heights, save the image as grey levels";
@@ -275,7 +229,8 @@ pub(super) fn heights(content: &[u8], format: Format, options: &ReadOptions) -> 
     if count > 0 {
         return Err(ImageError::Infinite { count, points: heights.len() });
     }
-    Ok(HeightMap { columns: width, rows: height, heights, notes: vec![note.to_owned()], warnings })
+    let plain = Measured::new(format, [width, height], options.pitch, heights);
+    Ok(Measured { notes: vec![note.to_owned()], warnings, ..plain })
 }
 
 /// Heights of grey levels up to `white`.

@@ -10,11 +10,10 @@ use plateau_core::surface::{
     Body, Extension, HeightSynthesis, Length, Patch, Preparation, RawHeights, Texture, fibre_fraction, set_back_resin,
 };
 
-use super::detect::detect;
 use super::error::{FileError, SurfaceError};
 use super::format::Format;
 use super::options::{Lay, ProfileError, ReadOptions};
-use super::read::read;
+use super::read::{detect, read};
 use super::{hdf5, image};
 use crate::input::{self, digested};
 use crate::limits;
@@ -178,19 +177,11 @@ fn fibre_map(path: &Path, micrograph: &Micrograph, mesh: &Mesh) -> Result<(Fibre
 /// Points of the model's heights whose pitch is that of the cells but for rounding are the cells.
 const SAME_CELL: f64 = 1e-9;
 
-/// Table of the scene that says where a body's heights come from.
-fn surface_key(body: Body) -> &'static str {
+/// Tables of the scene that say where a body's heights come from, and how they are prepared.
+fn keys(body: Body) -> [&'static str; 2] {
     match body {
-        Body::Disc => "disc.surface",
-        Body::Pin => "pin.surface",
-    }
-}
-
-/// Table of the scene that says how they are prepared.
-fn prepare_key(body: Body) -> &'static str {
-    match body {
-        Body::Disc => "disc.prepare",
-        Body::Pin => "pin.prepare",
+        Body::Disc => ["disc.surface", "disc.prepare"],
+        Body::Pin => ["pin.surface", "pin.prepare"],
     }
 }
 
@@ -218,7 +209,7 @@ impl Loader<'_> {
         settings: &HeightSettings,
         body: Body,
     ) -> Result<(Vec<f64>, Option<f64>), SurfaceError> {
-        let (surface, prepare) = (surface_key(body), prepare_key(body));
+        let [surface, prepare] = keys(body);
         let (raw, has_peaks_positive) = match &settings.source {
             HeightSource::Flat => {
                 self.report.push(format!("{surface}: flat"));
@@ -288,7 +279,7 @@ impl Loader<'_> {
     ) -> Result<(RawHeights, bool), FileError> {
         let measured = self.inputs.read(path, || read(path, options))?;
         let notes = measured.notes.iter().map(|note| format!("{note}, ")).collect::<String>();
-        let surface = surface_key(body);
+        let [surface, _] = keys(body);
         self.report.push(format!("{surface}: {}, {notes}{}", path.display(), measured.describe()));
         self.report.extend(measured.warnings.iter().map(|warning| format!("{surface}: warning: {warning}")));
         let instrument = measured.instrument;

@@ -1,17 +1,9 @@
 //! Heights as a surface file has them.
 
-use std::ops::RangeInclusive;
-
 use plateau_core::surface::{Body, Length, Patch};
 
-use super::error::FileError;
 use super::format::Format;
 use super::options::{Lay, ProfileError, StylusProfile};
-
-/// Pitches that are read, m; measured ones are between 1e-11 and 1e-3.
-const PITCHES: RangeInclusive<f64> = 1e-15..=1e3;
-/// Largest height or depth that is read, m; instruments with a far zero give up to 0.1.
-const HIGHEST: f64 = 1e3;
 
 /// Heights as a file has them.
 #[derive(Debug, Clone, PartialEq)]
@@ -87,21 +79,6 @@ impl Measured {
         (self.columns, self.rows) = (self.heights.len(), 1);
         self.profile_lay = Some(lay);
         Ok(())
-    }
-
-    /// Refuses what is far from any surface: a damaged file, or numbers of another unit.
-    pub(super) fn check(&self) -> Result<(), FileError> {
-        if let Some(pitch) = self.pitch.iter().flatten().find(|pitch| !PITCHES.contains(pitch)) {
-            let expected = format!("{:e} to {:e} m", PITCHES.start(), PITCHES.end());
-            return Err(FileError::Absurd { found: format!("a pitch of {pitch:e} m"), expected });
-        }
-        match self.heights.iter().find(|height| height.abs() > HIGHEST) {
-            None => Ok(()),
-            Some(height) => Err(FileError::Absurd {
-                found: format!("a height of {height:e} m"),
-                expected: format!("{:e} to {HIGHEST:e} m", -HIGHEST),
-            }),
-        }
     }
 
     /// Size and pitch in words.

@@ -1,6 +1,5 @@
 //! Initial surfaces: from what a scene asks for to heights and bases of every cell.
 
-mod detect;
 mod error;
 mod format;
 pub mod hdf5;
@@ -9,9 +8,9 @@ mod load;
 mod measured;
 pub mod npy;
 mod options;
-mod profiles;
 mod read;
 pub mod sdf;
+mod stored;
 mod text;
 mod writing;
 
@@ -26,4 +25,4 @@ pub use npy::NpyError;
 pub use options::{Disagreement, Lay, ProfileError, ReadOptions, StylusProfile};
 pub use read::read;
 pub use text::TextError;
-pub use writing::{WriteError, WriteOptions, write};
+pub use writing::{WriteError, write};

@@ -8,84 +8,39 @@ use plateau_core::surface::Patch;
 use thiserror::Error;
 use zip::ZipArchive;
 
-use super::options::{MOST_POINTS, inflated};
+use super::format::Format;
+use super::measured::Measured;
+use super::options::{MOST_POINTS, ReadOptions, inflated};
+use super::stored::{Kind, Number};
 use crate::memory::{NoRoom, refuse_beyond};
 use crate::text::short;
 
 /// Why a NumPy file gives no surface.
 #[derive(Debug, Error)]
+#[allow(missing_docs)] // The messages say what they mean.
 pub enum NpyError {
-    /// The header is damaged.
     #[error("the header is damaged: found {found}, expected {expected}")]
-    Header {
-        /// What stands there.
-        found: String,
-        /// What should.
-        expected: &'static str,
-    },
-    /// The array holds something else.
+    Header { found: String, expected: &'static str },
     #[error("the array has type {found}, expected floating-point numbers or integers")]
-    Type {
-        /// Its type as NumPy writes it.
-        found: String,
-    },
-    /// The array has other than two dimensions, or no points.
+    Type { found: String },
     #[error("the array has shape {found}, expected 2 dimensions (columns, rows), none of them 0")]
-    Shape {
-        /// Its shape.
-        found: String,
-    },
-    /// More points than are read, or than the file can hold.
+    Shape { found: String },
     #[error("the array has shape ({}, {}), which is more than the {most} points that are read of a file of this size", shape.0, shape.1)]
-    TooLarge {
-        /// Its shape.
-        shape: (u64, u64),
-        /// The most that are read.
-        most: usize,
-    },
-    /// More than memory holds.
+    TooLarge { shape: (u64, u64), most: usize },
     #[error("its heights need {0}")]
     Memory(NoRoom),
-    /// The data end too early, or too late.
     #[error("the data have {found} bytes, expected {expected} for shape ({}, {})", shape.0, shape.1)]
-    Length {
-        /// Bytes of data.
-        found: u64,
-        /// Bytes that the shape needs.
-        expected: usize,
-        /// The shape.
-        shape: (u64, u64),
-    },
-    /// Infinite heights.
+    Length { found: u64, expected: usize, shape: (u64, u64) },
     #[error("{count} of {points} heights are infinite, expected heights in m, NaN for a missing point")]
-    Infinite {
-        /// Infinite heights.
-        count: usize,
-        /// All heights.
-        points: usize,
-    },
-    /// The archive is damaged.
+    Infinite { count: usize, points: usize },
     #[error("cannot be read as a zip archive: {0}")]
     Zip(#[from] zip::result::ZipError),
-    /// A member of the archive cannot be decompressed.
     #[error("cannot be decompressed: {0}")]
     Inflate(std::io::Error),
-    /// The array asked for is not there, or there is not one with two dimensions.
     #[error("{problem}; {present}")]
-    Choice {
-        /// What is wrong.
-        problem: String,
-        /// The arrays of the archive.
-        present: String,
-    },
-    /// What is wrong with one array of an archive.
+    Choice { problem: String, present: String },
     #[error("array \"{}\": {reason}", short(name))]
-    Member {
-        /// Name of the array.
-        name: String,
-        /// What is wrong.
-        reason: Box<NpyError>,
-    },
+    Member { name: String, reason: Box<NpyError> },
 }
 
 impl NpyError {
@@ -111,93 +66,24 @@ impl NpyError {
     }
 }
 
-/// A type of number.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-struct Number {
-    kind: Kind,
-    /// Bytes: 1, 2, 4 or 8.
-    size: usize,
-    big_endian: bool,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Kind {
-    Float,
-    Signed,
-    Unsigned,
-}
-
-impl Number {
-    /// Reads a type such as `<f8`.
-    fn of(descr: &str) -> Result<Self, NpyError> {
-        let unknown = || NpyError::Type { found: format!("\"{}\"", short(descr).escape_debug()) };
-        let mut characters = descr.chars();
-        let (order, kind, size) = (characters.next(), characters.next(), characters.as_str());
-        let kind = match kind {
-            Some('f') => Kind::Float,
-            Some('i') => Kind::Signed,
-            Some('u') => Kind::Unsigned,
-            _ => return Err(unknown()),
-        };
-        let size = match (size, kind) {
-            ("1", Kind::Signed | Kind::Unsigned) => 1,
-            ("2", _) => 2,
-            ("4", _) => 4,
-            ("8", _) => 8,
-            _ => return Err(unknown()),
-        };
-        match (order, size) {
-            (Some('<'), _) | (Some('|'), 1) => Ok(Self { kind, size, big_endian: false }),
-            (Some('>'), _) => Ok(Self { kind, size, big_endian: true }),
-            _ => Err(unknown()),
-        }
-    }
-
-    /// Bytes of a number.
-    fn size(self) -> usize {
-        self.size
-    }
-
-    fn is_integer(self) -> bool {
-        self.kind != Kind::Float
-    }
-
-    /// Reads numbers as doubles; integers of more than 53 bits are rounded.
-    fn read(self, data: &[u8]) -> Vec<f64> {
-        data.chunks_exact(self.size).map(|bytes| self.one(bytes)).collect()
-    }
-
-    fn one(self, bytes: &[u8]) -> f64 {
-        // Sign-extended later: the number's bytes, the most significant first, at the end of eight.
-        let mut raw = [0; 8];
-        for (at, byte) in bytes.iter().enumerate() {
-            raw[if self.big_endian { 8 - self.size + at } else { 7 - at }] = *byte;
-        }
-        let bits = u64::from_be_bytes(raw);
-        match (self.kind, self.size) {
-            (Kind::Unsigned, _) => bits as f64,
-            (Kind::Signed, _) => {
-                let unused = 64 - 8 * self.size;
-                ((bits << unused) as i64 >> unused) as f64
-            }
-            (Kind::Float, 2) => half(bits as u16),
-            (Kind::Float, 4) => f64::from(f32::from_bits(bits as u32)),
-            (Kind::Float, _) => f64::from_bits(bits),
-        }
-    }
-}
-
-/// A number of IEEE 754 binary16.
-fn half(bits: u16) -> f64 {
-    let sign = if bits >> 15 == 1 { -1.0 } else { 1.0 };
-    let exponent = i32::from(bits >> 10 & 0x1f);
-    let fraction = f64::from(bits & 0x3ff) / 1024.0;
-    sign * match exponent {
-        0 => fraction * 2.0_f64.powi(-14),
-        31 if fraction == 0.0 => f64::INFINITY,
-        31 => f64::NAN,
-        _ => (1.0 + fraction) * 2.0_f64.powi(exponent - 15),
-    }
+/// The type that NumPy writes as `<f8`, for example.
+fn number(descr: &str) -> Result<Number, NpyError> {
+    let unknown = || NpyError::Type { found: format!("\"{}\"", short(descr).escape_debug()) };
+    let mut characters = descr.chars();
+    let (order, kind, size) = (characters.next(), characters.next(), characters.as_str());
+    let (kind, sizes) = match kind {
+        Some('f') => (Kind::Float, &["2", "4", "8"][..]),
+        Some('i') => (Kind::Signed, &["1", "2", "4", "8"][..]),
+        Some('u') => (Kind::Unsigned, &["1", "2", "4", "8"][..]),
+        _ => return Err(unknown()),
+    };
+    let size = sizes.iter().find(|known| **known == size).and_then(|size| size.parse().ok()).ok_or_else(unknown)?;
+    let is_big_endian = match (order, size) {
+        (Some('<'), _) | (Some('|'), 1) => false,
+        (Some('>'), _) => true,
+        _ => return Err(unknown()),
+    };
+    Ok(Number { kind, size, is_big_endian })
 }
 
 const MAGIC: &[u8] = b"\x93NUMPY";
@@ -379,43 +265,37 @@ fn preamble(descr: &str, shape: &[usize]) -> io::Result<Vec<u8>> {
     Ok([b"\x93NUMPY\x01\x00", &length.to_le_bytes()[..], dictionary.as_bytes()].concat())
 }
 
-/// An array as heights, column by column.
-#[derive(Debug)]
-pub(super) struct Array {
-    pub(super) columns: usize,
-    pub(super) rows: usize,
-    /// NaN where there is none.
-    pub(super) heights: Vec<f64>,
-    /// Type as NumPy writes it.
-    pub(super) descr: String,
-    /// Whether the array holds integers.
-    pub(super) integers: bool,
-}
-
-/// Reads the whole content of an .npy file; a number 1 stands for `unit` m.
+/// Reads the whole content of an .npy file: heights of the model, as those of an HDF5 file.
 ///
 /// # Errors
 /// [`NpyError`] when the header is damaged, the array holds no real numbers in two dimensions, or the data are longer or
 /// shorter than the header says.
-pub(super) fn read(content: &[u8], unit: f64) -> Result<Array, NpyError> {
+pub(super) fn read(content: &[u8], options: &ReadOptions) -> Result<Measured, NpyError> {
     let header = Header::read(content)?;
     let (number, columns, rows) = grid_of(&header, content.len() as u64)?;
     let points = columns * rows;
     // Heights, and once more where they are to be transposed.
     refuse_beyond((2 * points * size_of::<f64>()) as u64).map_err(NpyError::Memory)?;
-    let mut heights = number.read(&content[header.data..]);
+    let mut heights: Vec<f64> =
+        content[header.data..].chunks_exact(number.size).map(|bytes| number.read(bytes)).collect();
     if header.fortran_order {
         let transposed = (0..columns).flat_map(|column| heights.iter().skip(column).step_by(columns).copied());
         heights = transposed.collect();
     }
-    if unit != 1.0 {
+    if let Some(unit) = options.unit {
         heights.iter_mut().for_each(|height| *height *= unit);
     }
     let count = heights.iter().filter(|height| height.is_infinite()).count();
     if count > 0 {
         return Err(NpyError::Infinite { count, points });
     }
-    Ok(Array { columns, rows, heights, integers: number.is_integer(), descr: header.descr })
+    let mut warnings = Vec::new();
+    if number.kind != Kind::Float && options.unit.is_none() {
+        warnings.push("integers taken as heights in m: unit = \"nm\" says what 1 stands for".to_owned());
+    }
+    let notes = vec![format!("type {}", header.descr)];
+    let plain = Measured::new(Format::Npy, [columns, rows], options.pitch, heights);
+    Ok(Measured { notes, warnings, instrument: false, ..plain })
 }
 
 /// Refuses an .npy file that is not as long as its first [`HEAD`] bytes say, before the rest is read: it may have gigabytes of holes.
@@ -428,22 +308,23 @@ pub(super) fn check_length(head: &[u8], bytes: u64) -> Result<(), NpyError> {
 
 /// What an .npy file of so many bytes holds: type of its numbers, columns and rows.
 fn grid_of(header: &Header, bytes: u64) -> Result<(Number, usize, usize), NpyError> {
-    let number = Number::of(&header.descr)?;
+    let number = number(&header.descr)?;
     let (columns, rows, points) = header.grid()?;
     let found = bytes.saturating_sub(header.data as u64);
     // At most 2^28 points of 8 bytes: this does not overflow.
-    let expected = points * number.size();
+    let expected = points * number.size;
     if found != expected as u64 {
         return Err(NpyError::Length { found, expected, shape: (columns as u64, rows as u64) });
     }
     Ok((number, columns, rows))
 }
 
-/// Reads an array of an archive: the one that is named, or the only one with two dimensions. Gives its name too.
+/// Reads an array of an archive: the one that is named, or the only one with two dimensions.
 ///
 /// # Errors
 /// [`NpyError`] as for [`read`], and when the archive is damaged or leaves no one choice.
-pub(super) fn read_archive(content: &[u8], name: Option<&str>, unit: f64) -> Result<(String, Array), NpyError> {
+pub(super) fn read_archive(content: &[u8], options: &ReadOptions) -> Result<Measured, NpyError> {
+    let name = options.dataset.as_deref();
     let mut archive = ZipArchive::new(Cursor::new(content))?;
     let members = members(&mut archive)?;
     let wanted = |member: &Member| match name {
@@ -456,19 +337,20 @@ pub(super) fn read_archive(content: &[u8], name: Option<&str>, unit: f64) -> Res
         .map_err(|chosen| NpyError::choice(name, chosen.into_iter().chain(others).map(|member| member.describe())))?;
     let wrap = |reason| NpyError::Member { name: name.clone(), reason: Box::new(reason) };
     let header = header.map_err(wrap)?;
-    let number = Number::of(&header.descr).map_err(wrap)?;
+    let number = number(&header.descr).map_err(wrap)?;
     let (columns, rows, points) = header.grid().map_err(wrap)?;
-    let needed = header.data + points * number.size();
+    let needed = header.data + points * number.size;
     let most = inflated(content.len());
     if needed > most {
         let shape = (columns as u64, rows as u64);
-        return Err(wrap(NpyError::TooLarge { shape, most: most / number.size() }));
+        return Err(wrap(NpyError::TooLarge { shape, most: most / number.size }));
     }
     refuse_beyond(needed as u64).map_err(|no_room| wrap(NpyError::Memory(no_room)))?;
     // One byte more than needed, so that what is too long is found and the checksum at the end is verified.
     let bytes = inflate(&mut archive, index, needed as u64 + 1).map_err(wrap)?;
-    let array = read(&bytes, unit).map_err(wrap)?;
-    Ok((name, array))
+    let mut measured = read(&bytes, options).map_err(wrap)?;
+    measured.notes.insert(0, format!("array {name}"));
+    Ok(Measured { format: Format::Npz, ..measured })
 }
 
 /// An array of an archive.
@@ -532,60 +414,4 @@ pub fn write_array(path: &Path, descr: &str, shape: &[usize], bytes: impl Iterat
         file.write_all(&[byte])?;
     }
     file.into_inner()?.sync_all()
-}
-
-#[cfg(test)]
-mod number_tests {
-    use super::*;
-
-    #[test]
-    fn every_type_in_both_orders() {
-        for (descr, bytes, expected) in [
-            ("|u1", vec![0xfe], 254.0),
-            ("|i1", vec![0xfe], -2.0),
-            ("<i1", vec![0x7f], 127.0),
-            ("<u2", vec![0x34, 0x12], 4660.0),
-            (">u2", vec![0x12, 0x34], 4660.0),
-            ("<i2", vec![0xff, 0xff], -1.0),
-            (">i4", vec![0xff, 0xff, 0xff, 0x00], -256.0),
-            ("<u4", vec![0, 0, 0, 0x80], 2_147_483_648.0),
-            ("<i8", (-5_i64).to_le_bytes().to_vec(), -5.0),
-            (">u8", u64::MAX.to_be_bytes().to_vec(), 18_446_744_073_709_551_616.0),
-            ("<f4", 0.1_f32.to_le_bytes().to_vec(), f64::from(0.1_f32)),
-            (">f8", (-1.5e-6_f64).to_be_bytes().to_vec(), -1.5e-6),
-            // Examples of IEEE 754 binary16: 1/3, the largest number, the smallest subnormal one, -2.
-            ("<f2", vec![0x55, 0x35], 0.333_251_953_125),
-            (">f2", vec![0x7b, 0xff], 65504.0),
-            ("<f2", vec![0x01, 0x00], 5.960_464_477_539_063e-8),
-            ("<f2", vec![0x00, 0xc0], -2.0),
-            ("<f2", vec![0x00, 0xfc], f64::NEG_INFINITY),
-        ] {
-            let number = Number::of(descr).unwrap();
-            assert_eq!((number.size(), number.read(&bytes)), (bytes.len(), vec![expected]), "{descr}");
-        }
-        assert!(Number::of("<f2").unwrap().read(&[0x01, 0x7c])[0].is_nan());
-    }
-
-    #[test]
-    fn what_is_no_real_number_is_refused() {
-        for descr in ["|b1", "<c16", "|O", "<U3", "|S5", "<f16", "<M8[ns]", "f8", "|f8", "=f8", "<f1", "", "<", "é"] {
-            assert!(Number::of(descr).is_err(), "{descr}");
-        }
-    }
-}
-
-#[cfg(test)]
-mod header_tests {
-    use super::{Header, preamble};
-
-    #[test]
-    fn any_number_of_dimensions_is_read_back() {
-        for shape in [&[][..], &[7], &[3, 5], &[2, 3, 5]] {
-            let bytes = preamble("<f8", shape).unwrap();
-            let header = Header::read(&bytes).unwrap();
-            let expected: Vec<u64> = shape.iter().map(|size| *size as u64).collect();
-            assert_eq!((header.descr.as_str(), header.fortran_order, header.shape), ("<f8", false, expected));
-            assert_eq!((header.data, bytes.len() % 64), (bytes.len(), 0));
-        }
-    }
 }

@@ -65,22 +65,16 @@ pub struct StylusProfile {
 
 /// Why a file gives no profile, or a profile no surface.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
+#[allow(missing_docs)] // The messages say what they mean.
 pub enum ProfileError {
-    /// The file holds a surface.
     #[error("profile_lay takes the file as a profile, but it has {} x {} points: leave out profile_lay", size.0, size.1)]
-    NotALine {
-        /// Columns and rows.
-        size: (usize, usize),
-    },
-    /// Different pitches along x and y were given.
+    NotALine { size: (usize, usize) },
     #[error("a profile has one pitch, the scene gives two: pitch = \"0.5 um\", for example")]
     TwoPitches,
-    /// Nothing says the pitch.
     #[error(
         "the file does not say the distance of its points: pitch = \"0.5 um\" below file in the scene does, for example"
     )]
     NoPitch,
-    /// Nothing says how the surface is made of the profile.
     #[error(
         "profile_lay = \"isotropic\" asks for random heights with the statistics of the profile in every direction: \
          extend = \"statistics\" in the prepare table of the same body makes them"

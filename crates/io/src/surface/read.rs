@@ -1,17 +1,21 @@
-//! Reads a surface file of whatever format, and refuses what is said of it that its format has no use for.
+//! Reads a surface file of whatever format, told by how it starts, and refuses what is said of it that its format has no use for.
 
+use std::fs::File;
 use std::io::{BufReader, Read as _};
+use std::ops::RangeInclusive;
 use std::path::Path;
 
 use plateau_core::surface::Patch;
+use zip::ZipArchive;
 
-use super::detect::detect;
 use super::error::FileError;
-use super::format::Format;
+use super::format::{Format, PLUX, WORKBOOK, X3P, by_ending, recognise};
 use super::image::{self, ImageError};
 use super::measured::Measured;
 use super::options::{ProfileError, ReadOptions, agreed_pitch};
+use super::sdf::{SdfKind, without_margin};
 use super::{hdf5, npy, sdf, text};
+use crate::delimited::{is_utf16, workbook};
 use crate::{input, limits};
 
 /// Reads a surface file; what it is, is told by its content.
@@ -26,7 +30,7 @@ pub fn read(path: &Path, options: &ReadOptions) -> Result<Measured, FileError> {
     if let Some(lay) = options.profile_lay {
         measured.take_as_profile(lay)?;
     }
-    measured.check()?;
+    refuse_absurd(&measured)?;
     Ok(measured)
 }
 
@@ -42,11 +46,8 @@ fn read_format(path: &Path, options: &ReadOptions) -> Result<Measured, FileError
     }
     match format {
         Format::Hdf5 => {
-            let hdf5::Heights { columns, rows, pitch, heights, body, is_converted, notes, warnings } =
-                hdf5::heights(path, options.dataset.as_deref(), options.at)?;
-            let pitch = agreed_pitch(pitch, options.pitch)?;
-            let plain = Measured::new(format, [columns, rows], pitch, heights);
-            Ok(Measured { notes, warnings, body, instrument: is_converted, ..plain })
+            let measured = hdf5::heights(path, options.dataset.as_deref(), options.at)?;
+            Ok(Measured { pitch: agreed_pitch(measured.pitch, options.pitch)?, ..measured })
         }
         Format::Sdf(_) => {
             let file = input::open(path)?;
@@ -62,48 +63,41 @@ fn read_format(path: &Path, options: &ReadOptions) -> Result<Measured, FileError
             file.by_ref().take(npy::HEAD as u64).read_to_end(&mut content)?;
             npy::check_length(&content, file.metadata()?.len())?;
             file.take(limits::SURFACE).read_to_end(&mut content)?;
-            Ok(array(format, npy::read(&content, options.unit.unwrap_or(1.0))?, options))
+            Ok(npy::read(&content, options)?)
         }
-        Format::Npz => {
-            let (dataset, unit) = (options.dataset.as_deref(), options.unit.unwrap_or(1.0));
-            let (name, read) = npy::read_archive(&input::read(path, limits::SURFACE)?, dataset, unit)?;
-            let mut measured = array(format, read, options);
-            measured.notes.insert(0, format!("array {name}"));
-            Ok(measured)
-        }
+        Format::Npz => Ok(npy::read_archive(&input::read(path, limits::SURFACE)?, options)?),
         Format::Png | Format::Tiff => {
-            let image::HeightMap { columns, rows, heights, notes, warnings } = image::heights(
-                &input::read(path, limits::SURFACE)?,
-                format,
-                options,
-            )
-            .map_err(|reason| match reason {
+            image::heights(&input::read(path, limits::SURFACE)?, format, options).map_err(|reason| match reason {
                 ImageError::Tiff(_) | ImageError::Pixels { .. } if format == Format::Tiff => FileError::Tiff { reason },
                 other => other.into(),
-            })?;
-            let pitch = options.pitch;
-            Ok(Measured { notes, warnings, ..Measured::new(format, [columns, rows], pitch, heights) })
+            })
         }
         Format::Text => {
             let xyz = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("xyz"));
-            let text::Table { columns, rows, pitch, is_pitch_assumed, heights, notes, warnings } =
-                text::read(&input::read(path, limits::SURFACE_TEXT)?, xyz, options)?;
-            let plain = Measured::new(format, [columns, rows], pitch, heights);
-            Ok(Measured { is_pitch_assumed, notes, warnings, ..plain })
+            Ok(text::read(&input::read(path, limits::SURFACE_TEXT)?, xyz, options)?)
         }
         Format::Instrument(instrument) => Err(FileError::Instrument(instrument)),
     }
 }
 
-/// A NumPy array: heights of the model, as those of an HDF5 file.
-fn array(format: Format, array: npy::Array, options: &ReadOptions) -> Measured {
-    let npy::Array { columns, rows, heights, descr, integers } = array;
-    let mut warnings = Vec::new();
-    if integers && options.unit.is_none() {
-        warnings.push("integers taken as heights in m: unit = \"nm\" says what 1 stands for".to_owned());
+/// Pitches that are read, m; measured ones are between 1e-11 and 1e-3.
+const PITCHES: RangeInclusive<f64> = 1e-15..=1e3;
+/// Largest height or depth that is read, m; instruments with a far zero give up to 0.1.
+const HIGHEST: f64 = 1e3;
+
+/// Refuses what is far from any surface: a damaged file, or numbers of another unit.
+fn refuse_absurd(measured: &Measured) -> Result<(), FileError> {
+    if let Some(pitch) = measured.pitch.iter().flatten().find(|pitch| !PITCHES.contains(pitch)) {
+        let expected = format!("{:e} to {:e} m", PITCHES.start(), PITCHES.end());
+        return Err(FileError::Absurd { found: format!("a pitch of {pitch:e} m"), expected });
     }
-    let notes = vec![format!("type {descr}")];
-    Measured { notes, warnings, instrument: false, ..Measured::new(format, [columns, rows], options.pitch, heights) }
+    match measured.heights.iter().find(|height| height.abs() > HIGHEST) {
+        None => Ok(()),
+        Some(height) => Err(FileError::Absurd {
+            found: format!("a height of {height:e} m"),
+            expected: format!("{:e} to {HIGHEST:e} m", -HIGHEST),
+        }),
+    }
 }
 
 /// Refuses what would silently not be used.
@@ -125,4 +119,100 @@ fn refuse_meaningless(options: &ReadOptions, format: Format) -> Result<(), FileE
         }
     }
     Ok(())
+}
+
+/// How far into a file is looked.
+const HEAD: u64 = 4096;
+
+/// Tells what a file is.
+///
+/// # Errors
+/// [`FileError`] when it cannot be read, is not a regular file or is none of the known formats.
+pub(super) fn detect(path: &Path) -> Result<Format, FileError> {
+    // Asked before opening: opening a named pipe would wait for its writer.
+    let there = std::fs::metadata(path).map_err(|error| input::not_there(path, error))?;
+    if !there.is_file() {
+        return Err(if there.is_dir() { FileError::Folder } else { FileError::NotAFile });
+    }
+    let mut file = BufReader::new(File::open(path)?);
+    let mut head = Vec::new();
+    file.by_ref().take(HEAD).read_to_end(&mut head)?;
+    if head.starts_with(b"PK\x03\x04") {
+        return from_archive(file);
+    }
+    if is_utf16(&head) && recognise(&head).is_none() {
+        return Ok(Format::Text);
+    }
+    let format = from_head(&head).or_else(|| by_ending(path).filter(|_| !head.is_empty()).map(Format::Instrument));
+    format.ok_or_else(|| FileError::Unknown { found: describe(&head), is_binary: !head.iter().all(is_printable) })
+}
+
+/// What a zip archive is, told by its entries.
+fn from_archive(file: BufReader<File>) -> Result<Format, FileError> {
+    let archive = ZipArchive::new(file).map_err(|error| FileError::Zip(error.to_string()))?;
+    let has = |name: &[u8]| archive.file_names_raw().any(|entry| entry == name);
+    // Some archives have the folder itself in them.
+    if has(b"main.xml") || archive.file_names_raw().any(|entry| entry.ends_with(b"/main.xml")) {
+        return Ok(Format::Instrument(X3P));
+    }
+    if !archive.is_empty() && archive.file_names_raw().all(|entry| entry.ends_with(b".npy")) {
+        return Ok(Format::Npz);
+    }
+    if has(b"index.xml") && archive.file_names_raw().any(|entry| entry.ends_with(b"recipe.txt")) {
+        return Ok(Format::Instrument(PLUX));
+    }
+    if has(b"xl/workbook.xml") {
+        return Ok(Format::Instrument(WORKBOOK));
+    }
+    if let Some(book) = workbook(archive.file_names_raw()) {
+        return Err(FileError::Workbook(book));
+    }
+    let first = archive.file_names_raw().next().map(|name| name[..name.len().min(40)].escape_ascii());
+    let entries = match first {
+        None => "an empty zip archive".to_owned(),
+        Some(first) => format!("a zip archive of {} entries, the first is \"{first}\"", archive.len()),
+    };
+    Err(FileError::Unknown { found: entries, is_binary: !archive.is_empty() })
+}
+
+fn from_head(head: &[u8]) -> Option<Format> {
+    let at = |offset: usize, signature: &[u8]| head.get(offset..).is_some_and(|rest| rest.starts_with(signature));
+    // An HDF5 file may have a user block before its signature, of 512 bytes or a power of two times that.
+    if [0, 512, 1024, 2048].iter().any(|offset| at(*offset, b"\x89HDF\r\n\x1a\n")) {
+        return Some(Format::Hdf5);
+    }
+    for (signature, format) in [
+        (b"\x93NUMPY".as_slice(), Format::Npy),
+        (b"\x89PNG\r\n\x1a\n", Format::Png),
+        // The second number is that of files beyond 4 GiB.
+        (b"II\x2a\0", Format::Tiff),
+        (b"MM\0\x2a", Format::Tiff),
+        (b"II\x2b\0", Format::Tiff),
+        (b"MM\0\x2b", Format::Tiff),
+    ] {
+        if at(0, signature) {
+            return Some(format);
+        }
+    }
+    if let Some(instrument) = recognise(head) {
+        return Some(Format::Instrument(instrument));
+    }
+    let text = without_margin(head);
+    // Only text may have blanks in front.
+    if let Some(kind) = SdfKind::from_magic(if text.starts_with(b"a") || text.starts_with(b"A") { text } else { head })
+    {
+        return Some(Format::Sdf(kind));
+    }
+    (text.iter().any(u8::is_ascii_digit) && head.iter().all(is_printable)).then_some(Format::Text)
+}
+
+fn is_printable(byte: &u8) -> bool {
+    !byte.is_ascii_control() || byte.is_ascii_whitespace()
+}
+
+fn describe(head: &[u8]) -> String {
+    match head {
+        [] => "it is empty".to_owned(),
+        _ => format!("it starts with \"{}\"", head[..head.len().min(8)].escape_ascii()),
+    }
 }

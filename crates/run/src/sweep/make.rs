@@ -6,8 +6,8 @@ use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::thread;
 use std::time::Duration;
 
+use plateau_core::observe::drift::pulse_time;
 use plateau_core::observe::event::event_quantities;
-use plateau_core::observe::pulse::pulse_time;
 use plateau_core::observe::{Quantity, Sample, quantities};
 use plateau_core::simulation::{Execution, Simulation, SimulationError};
 use plateau_io::scene::Scene;

@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 
 use plateau_core::surface::{Level, Patch};
 use plateau_io::scene;
-use plateau_io::surface::{self, Loaded, Measured, WriteError, WriteOptions};
+use plateau_io::surface::{self, Loaded, Measured, WriteError};
 
 use crate::arguments::{SurfaceArguments, SurfaceWord, as_options};
 use crate::failure::Failure;
@@ -147,7 +147,7 @@ fn convert(path: &Path, from: &mut NamedHeights, to: &Path, force: bool) -> Resu
         }
     };
     turn(&mut patch);
-    let written = surface::write(to, &patch, &WriteOptions { replace: force, sdf: None });
+    let written = surface::write(to, &patch, force);
     turn(&mut patch);
     measured.heights = patch.heights;
     written.map_err(|error| match error {

@@ -7,13 +7,11 @@ mod autocorrelation;
 mod heights;
 mod material_curve;
 mod parameter;
-mod profile;
 
 pub use autocorrelation::Autocorrelation;
-pub use heights::{Gradient, Grid, HeightParameters};
+pub use heights::{Direction, Gradient, Grid, HeightParameters, ProfileParameters};
 pub use material_curve::{CoreHeight, MaterialCurve, Volumes};
 pub use parameter::{Group, PARAMETERS, Parameter, Unit, sampling_errors};
-pub use profile::{Direction, ProfileParameters};
 
 /// Classes of the Abbott-Firestone curve that a [`Description`] keeps: 0, 0.1, …, 100 %.
 const CURVE_CLASSES: usize = 1000;

@@ -171,36 +171,3 @@ fn blocks(grid: &Grid) -> [usize; 2] {
     let across = (BLOCKS / along).round().clamp(1.0, grid.rows as f64);
     [along as usize, across as usize]
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::surface::random::{Random, Stream};
-
-    /// The standard error of the rms of N independent normal heights is σ/√(2N), that of their skewness √(6/N) and of their
-    /// kurtosis √(24/N). A jackknife of B blocks has the relative error 1/√(2(B − 1)) = 0.144; four of them.
-    #[test]
-    fn of_independent_normal_heights_they_are_those_of_theory() {
-        let (columns, rows) = (150, 100);
-        let mut random = Random::new(5, Stream::DiscHeight);
-        let heights: Vec<f64> = (0..columns * rows).map(|_| random.normal()).collect();
-        let errors = sampling_errors(&Grid { columns, rows, pitch: Some([1.0; 2]), heights: &heights });
-        let count = (columns * rows) as f64;
-        for (symbol, expected) in
-            [("Sq", (0.5 / count).sqrt()), ("Ssk", (6.0 / count).sqrt()), ("Sku", (24.0 / count).sqrt())]
-        {
-            let place = PARAMETERS.iter().position(|parameter| parameter.symbol == symbol).unwrap();
-            let found = errors[place];
-            assert!((found / expected - 1.0).abs() < 4.0 * 0.144, "{symbol}: {found}, expected {expected}");
-        }
-        assert!(errors[PARAMETERS.iter().position(|parameter| parameter.symbol == "Sz").unwrap()].is_nan());
-    }
-
-    #[test]
-    fn blocks_are_as_square_as_may_be() {
-        for (columns, rows, expected) in [(100, 100, [5, 5]), (400, 100, [10, 3]), (1, 300, [1, 25]), (2, 1, [2, 1])] {
-            let heights = vec![0.0; columns * rows];
-            assert_eq!(blocks(&Grid { columns, rows, pitch: None, heights: &heights }), expected);
-        }
-    }
-}

@@ -239,22 +239,3 @@ fn gaussian_power(correlation: Vec<f64>, translation: &Translation, plane: &mut 
     plane.forward(&mut values);
     values.into_iter().map(|value| value.re.max(0.0)).collect()
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn few_cells_are_warned_of_for_their_distribution() {
-        let patch = |columns: usize, rows: usize| Patch {
-            columns,
-            rows,
-            column_pitch: 1e-4,
-            row_pitch: 1e-4,
-            heights: vec![0.0; columns * rows],
-        };
-        assert_eq!(few_heights(&patch(25, 20)), None);
-        let warning = few_heights(&patch(12, 9)).unwrap();
-        assert!(warning.starts_with("warning: ") && warning.contains("12 by 9 = 108 cells, expected 500"), "{warning}");
-    }
-}

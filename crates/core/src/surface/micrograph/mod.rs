@@ -63,61 +63,27 @@ pub struct FibreMap {
 
 /// Why a picture gives no fibre map.
 #[derive(Debug, Clone, PartialEq, Error)]
+#[allow(missing_docs)] // The messages say what they mean.
 pub enum MicrographError {
-    /// The picture is none.
     #[error(
         "a picture of {width} x {height} with {pixels} pixels, expected width times height grey levels from 0 to 1, at \
          least one"
     )]
-    Picture {
-        /// Pixels of a line.
-        width: usize,
-        /// Lines.
-        height: usize,
-        /// Pixels.
-        pixels: usize,
-    },
-    /// A parameter makes no sense.
+    Picture { width: usize, height: usize, pixels: usize },
     #[error("{key} is {found}, expected {expected}")]
-    Value {
-        /// Name of the parameter.
-        key: &'static str,
-        /// Its value, SI units.
-        found: f64,
-        /// What can be.
-        expected: &'static str,
-    },
-    /// The smoothing blurs everything.
+    Value { key: &'static str, found: f64, expected: &'static str },
     #[error(
         "smooth = {} is {sigma:.1} pixels, expected at most a quarter of the picture's shorter side of {side} pixels",
         Length(*smooth)
     )]
-    Smooth {
-        /// Standard deviation, m.
-        smooth: f64,
-        /// Standard deviation, pixels.
-        sigma: f64,
-        /// Pixels of the shorter side.
-        side: usize,
-    },
-    /// Nothing to part.
+    Smooth { smooth: f64, sigma: f64, side: usize },
     #[error("all pixels have the same grey level, so there is no threshold between fibre and resin; use uniform")]
     Uniform,
-    /// The picture does not cover the pin.
     #[error(
         "the picture is {} by {}, the pin {} by {}: a pixel of at least {} lets the picture cover it",
         Length(*width), Length(*height), Length(pin.0), Length(pin.1), Length(*pixel)
     )]
-    Small {
-        /// Width of the picture, m.
-        width: f64,
-        /// Height of the picture, m.
-        height: f64,
-        /// Width and height of the smallest picture that would do, m.
-        pin: (f64, f64),
-        /// Smallest pixel that would do, m.
-        pixel: f64,
-    },
+    Small { width: f64, height: f64, pin: (f64, f64), pixel: f64 },
 }
 
 impl Micrograph {
@@ -209,6 +175,3 @@ impl Micrograph {
         }
     }
 }
-
-#[cfg(test)]
-mod tests;

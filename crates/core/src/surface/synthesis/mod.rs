@@ -7,7 +7,6 @@
 mod error;
 mod johnson;
 pub(super) mod planar;
-mod separable;
 pub(super) mod spectrum;
 pub(super) mod translation;
 
@@ -113,7 +112,7 @@ impl HeightSynthesis {
         let translation = (distribution != Johnson::Normal).then(|| Translation::new(distribution));
         let mut field = match (self.texture, &translation) {
             (Texture::Correlation { along, across }, None) => {
-                separable::field(&grid, along / grid.column_width, across / grid.row_height, &mut random)
+                planar::separable_field(&grid, along / grid.column_width, across / grid.row_height, &mut random)
             }
             (texture, translation) => {
                 refuse_too_large(&grid)?;

@@ -3,7 +3,6 @@
 
 mod error;
 mod netcdf;
-mod recorded;
 
 use std::path::Path;
 
@@ -12,16 +11,20 @@ use hdf5::types::TypeDescriptor;
 use ndarray::ArrayView2;
 use netcdf::{Dimensions, Packing, is_metre, numbers, stated_unit};
 use plateau_core::model::state::Base;
-use plateau_core::surface::Patch;
+use plateau_core::observe::{Map, MapValues};
+use plateau_core::surface::{Body, Patch};
 
+use super::format::Format;
+use super::measured::Measured;
 use super::options::{MOST_POINTS, agreed_pitch};
 use crate::hdf5_file::writing::write_text;
 use crate::hdf5_file::{self, in_words, text_attribute};
 use crate::memory::refuse_beyond;
+use crate::number;
+use crate::run_file::{ReadError, RunFile, State, map_path};
 use crate::text::short;
 
 pub use error::Hdf5Error;
-pub(super) use recorded::Heights;
 
 /// Datasets named in a message.
 const NAMED: usize = 12;
@@ -74,8 +77,8 @@ impl Wanted {
 ///
 /// # Errors
 /// [`Hdf5Error`] when the file is damaged or the dataset missing, unsuitable or infinite.
-pub(super) fn heights(path: &Path, dataset: Option<&str>, at: Option<f64>) -> Result<Heights, Hdf5Error> {
-    if let Some(recorded) = recorded::heights(path, dataset, at)? {
+pub(super) fn heights(path: &Path, dataset: Option<&str>, at: Option<f64>) -> Result<Measured, Hdf5Error> {
+    if let Some(recorded) = recorded(path, dataset, at)? {
         return Ok(recorded);
     }
     let (dataset, dimensions, packing, pitch) = hdf5_file::guarded(0, || {
@@ -102,7 +105,8 @@ pub(super) fn heights(path: &Path, dataset: Option<&str>, at: Option<f64>) -> Re
     let is_converted = converted.is_some();
     let notes = [Some(format!("dataset {name}")), converted, dimensions.note(), packing.note()];
     let notes = notes.into_iter().flatten().collect();
-    Ok(Heights { columns, rows, pitch, heights, is_converted, body: None, notes, warnings: Vec::new() })
+    // Those of an instrument have peaks positive.
+    Ok(Measured { notes, instrument: is_converted, ..Measured::new(Format::Hdf5, [columns, rows], pitch, heights) })
 }
 
 /// From which file the heights were converted, and by what, if they were.
@@ -271,4 +275,66 @@ fn bounded_shape(dataset: &Dataset) -> Result<(usize, usize), Hdf5Error> {
         Some(points) if points <= MOST_POINTS => Ok((columns, rows)),
         _ => Err(Hdf5Error::TooLarge { dataset: dataset.name(), shape: (columns, rows) }),
     }
+}
+
+/// Maps that are heights.
+const HEIGHTS: [Map; 4] = [Map::DiscHeight, Map::DiscSubstrate, Map::PinHeight, Map::PinSubstrate];
+/// Part of a time by which a map may be from it: that of a step is recorded when it ends.
+const SAME_TIME: f64 = 0.01;
+
+/// The heights of a map of a run file, with the model's signs: the last, or that `at` a time in s. None where the file is no run
+/// file, or the dataset is none of its maps of heights.
+fn recorded(path: &Path, dataset: Option<&str>, at: Option<f64>) -> Result<Option<Measured>, Hdf5Error> {
+    let not_recorded = |found: &str| match at {
+        Some(_) => Err(Hdf5Error::NotRecorded { found: found.to_owned() }),
+        None => Ok(None),
+    };
+    let name = dataset.map(|name| name.trim_start_matches('/'));
+    let map = HEIGHTS.into_iter().find(|map| Some(map_path(*map)) == name);
+    let run = match RunFile::open(path) {
+        Ok(run) => run,
+        // What cannot be opened at all is told as of any file.
+        Err(error @ (ReadError::Newer { .. } | ReadError::Damaged { .. }))
+            if map.is_some() && hdf5_file::guarded(0, || hdf5_file::open(path)).is_ok() =>
+        {
+            return Err(error.into());
+        }
+        Err(_) => return not_recorded("this file"),
+    };
+    let map = match (map, dataset) {
+        (Some(map), _) => map,
+        (None, None) => return Err(Hdf5Error::WhichMap),
+        (None, Some(dataset)) => return not_recorded(dataset),
+    };
+    let times = run.map_time();
+    let is_near = |time: &f64, wanted: f64| (time - wanted).abs() <= SAME_TIME * wanted;
+    let index = match at {
+        None => times.len().checked_sub(1),
+        Some(at) => {
+            let near = (0..times.len()).filter(|index| is_near(&times[*index], at));
+            near.min_by(|one, other| (times[*one] - at).abs().total_cmp(&(times[*other] - at).abs()))
+        }
+    };
+    let body = if map.on_disc() { Body::Disc } else { Body::Pin };
+    let (columns, rows) = (body.columns(run.mesh()), run.mesh().rows());
+    // As they are stored, and as they are read.
+    let needed = 2 * (columns * rows * size_of::<f64>()) as u64;
+    let too_large = |no_room| Hdf5Error::Memory { dataset: format!("/{}", map_path(map)), no_room };
+    refuse_beyond(needed).map_err(too_large)?;
+    let found = index.map(|index| Ok::<_, Hdf5Error>((times[index], run.map(map, index)?))).transpose()?;
+    let Some((time, Some(MapValues::Float(mut heights)))) = found else {
+        let at = at.filter(|_| run.has_map(map)).map(|at| (at, times.to_vec()));
+        return Err(Hdf5Error::NoMap { map: map_path(map), at });
+    };
+    if body == Body::Pin {
+        run.mesh().absent_cells().for_each(|cell| heights[cell] = f64::NAN);
+    }
+    let mut warnings = Vec::new();
+    if run.state() != State::Finished {
+        warnings.push(format!("its run is not finished, its state is {}", run.state().name()));
+    }
+    let pitch = Some([run.mesh().column_width(), run.mesh().row_height()]);
+    let notes = vec![format!("dataset /{}", map_path(map)), format!("recorded by a run at {} s", number::plain(time))];
+    let plain = Measured::new(Format::Hdf5, [columns, rows], pitch, heights);
+    Ok(Some(Measured { body: Some(body), instrument: false, notes, warnings, ..plain }))
 }

@@ -5,7 +5,7 @@ use std::{fmt, io};
 use plateau_core::surface::Patch;
 use thiserror::Error;
 
-use crate::surface::profiles::Profiles;
+use crate::surface::stored::{Kind, Number};
 
 /// Where in a file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -27,105 +27,33 @@ impl fmt::Display for Position {
 
 /// Why an SDF file cannot be read.
 #[derive(Debug, Error)]
+#[allow(missing_docs)] // The messages say what they mean.
 pub enum SdfError {
-    /// The operating system refused.
     #[error("cannot be read: {0}")]
     System(#[from] io::Error),
-    /// It does not start as an SDF file does.
     #[error(
         "this is not an SDF file: starts with \"{found}\", expected \"aISO-1.0\", \"aISO-2.0\", \"aBCR-1.0\" or the same \
          with \"b\""
     )]
-    Magic {
-        /// First bytes.
-        found: String,
-    },
-    /// It ends too early.
+    Magic { found: String },
     #[error("the file is truncated: ends at byte {found}, expected {needed} bytes for {what}")]
-    Truncated {
-        /// Bytes that are there.
-        found: u64,
-        /// Bytes that are needed.
-        needed: u128,
-        /// What they are needed for.
-        what: String,
-    },
-    /// A record of an ASCII file does not end.
+    Truncated { found: u64, needed: u128, what: String },
     #[error("the file is truncated: the {record} ends at {at} without the line \"*\" that closes it")]
-    Unclosed {
-        /// Header or data.
-        record: &'static str,
-        /// Last line.
-        at: Position,
-    },
-    /// A line of the header is no field.
+    Unclosed { record: &'static str, at: Position },
     #[error("{at}: found \"{found}\", expected a header field \"Name = Value\", one of up to 100, or the line \"*\"")]
-    NotAField {
-        /// Where.
-        at: Position,
-        /// The line.
-        found: String,
-    },
-    /// A field of the header is missing.
+    NotAField { at: Position, found: String },
     #[error("{at}: the header ends without the field {field}")]
-    MissingField {
-        /// Where the header ends.
-        at: Position,
-        /// Which field.
-        field: &'static str,
-    },
-    /// A field of the header stands twice.
+    MissingField { at: Position, field: &'static str },
     #[error("{at}: the field {field} stands twice")]
-    Twice {
-        /// Where the second stands.
-        at: Position,
-        /// Which field.
-        field: String,
-    },
-    /// A field of the header has a value that cannot be.
+    Twice { at: Position, field: String },
     #[error("{at}: {field} is {found}, expected {expected}")]
-    Field {
-        /// Where.
-        at: Position,
-        /// Which field.
-        field: &'static str,
-        /// Its value.
-        found: String,
-        /// What can be.
-        expected: &'static str,
-    },
-    /// A height is none.
+    Field { at: Position, field: &'static str, found: String, expected: &'static str },
     #[error("{at}: found the height \"{found}\", expected {expected}")]
-    Height {
-        /// Where.
-        at: Position,
-        /// The number as it stands in the file.
-        found: String,
-        /// What can be.
-        expected: &'static str,
-    },
-    /// Fewer heights than promised.
+    Height { at: Position, found: String, expected: &'static str },
     #[error("{at}: the data end after {found} heights, expected NumPoints x NumProfiles = {points} x {profiles}")]
-    Count {
-        /// Where the data end.
-        at: Position,
-        /// Heights found.
-        found: usize,
-        /// Points of a profile.
-        points: usize,
-        /// Profiles.
-        profiles: usize,
-    },
-    /// More heights than promised.
+    Count { at: Position, found: usize, points: usize, profiles: usize },
     #[error("{at}: more heights than NumPoints x NumProfiles = {points} x {profiles}")]
-    TooMany {
-        /// Where the first height too many stands.
-        at: Position,
-        /// Points of a profile.
-        points: usize,
-        /// Profiles.
-        profiles: usize,
-    },
+    TooMany { at: Position, points: usize, profiles: usize },
 }
 
 /// Document that defines a file.
@@ -158,37 +86,17 @@ pub struct SdfKind {
 }
 
 impl SdfKind {
-    const ALL: [Self; 6] = {
-        use {Dialect::*, Encoding::*};
-        [
-            Self { dialect: Bcr1, encoding: Ascii },
-            Self { dialect: Bcr1, encoding: Binary },
-            Self { dialect: Iso1, encoding: Ascii },
-            Self { dialect: Iso1, encoding: Binary },
-            Self { dialect: Iso2, encoding: Ascii },
-            Self { dialect: Iso2, encoding: Binary },
-        ]
-    };
-
-    /// The eight bytes that such a file starts with.
-    pub fn magic(self) -> &'static str {
-        match (self.encoding, self.dialect) {
-            (Encoding::Ascii, Dialect::Bcr1) => "aBCR-1.0",
-            (Encoding::Ascii, Dialect::Iso1) => "aISO-1.0",
-            (Encoding::Ascii, Dialect::Iso2) => "aISO-2.0",
-            (Encoding::Binary, Dialect::Bcr1) => "bBCR-1.0",
-            (Encoding::Binary, Dialect::Iso1) => "bISO-1.0",
-            (Encoding::Binary, Dialect::Iso2) => "bISO-2.0",
-        }
-    }
-
-    /// The kind of a file that starts like this. BCR-1.0 allows the first letter to be large.
+    /// The kind of a file that starts like this: "aISO-1.0", "bBCR-1.0" and so on, of which the first letter may be large.
     pub(in crate::surface) fn from_magic(head: &[u8]) -> Option<Self> {
         let (first, rest) = head.split_first()?;
-        Self::ALL.into_iter().find(|kind| {
-            let magic = kind.magic().as_bytes();
-            first.eq_ignore_ascii_case(&magic[0]) && rest.starts_with(&magic[1..])
-        })
+        let encoding = match first {
+            b'a' | b'A' => Encoding::Ascii,
+            b'b' | b'B' => Encoding::Binary,
+            _ => return None,
+        };
+        let dialects = [Dialect::Bcr1, Dialect::Iso1, Dialect::Iso2];
+        let dialect = dialects.into_iter().find(|dialect| rest.starts_with(dialect.to_string().as_bytes()))?;
+        Some(Self { dialect, encoding })
     }
 }
 
@@ -217,39 +125,40 @@ pub(in crate::surface) fn without_margin(text: &[u8]) -> &[u8] {
     text.strip_prefix(b"\xef\xbb\xbf").unwrap_or(text).trim_ascii_start()
 }
 
-/// Type of the stored numbers.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum DataType {
-    Uint8,
-    Uint16,
-    Uint32,
-    Binary32,
-    Int8,
-    Int16,
-    Int32,
-    Binary64,
+/// Type of the stored numbers, by its code.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct DataType {
+    pub(super) number: Number,
+    /// With its article.
+    pub(super) name: &'static str,
 }
+
+const fn data_type(kind: Kind, size: usize, name: &'static str) -> DataType {
+    DataType { number: Number { kind, size, is_big_endian: false }, name }
+}
+
+const DATA_TYPES: [DataType; 8] = [
+    data_type(Kind::Unsigned, 1, "a uint8 number"),
+    data_type(Kind::Unsigned, 2, "a uint16 number"),
+    data_type(Kind::Unsigned, 4, "a uint32 number"),
+    data_type(Kind::Float, 4, "a binary32 number"),
+    data_type(Kind::Signed, 1, "an int8 number"),
+    data_type(Kind::Signed, 2, "an int16 number"),
+    data_type(Kind::Signed, 4, "an int32 number"),
+    data_type(Kind::Float, 8, "a binary64 number"),
+];
 
 /// From here on a binary32 or a binary64 number of BCR-1.0 marks a point that was not measured.
 const BCR_MISSING_32: f32 = 3.4e38;
-pub(super) const BCR_MISSING_64: f64 = 1.7e308;
+const BCR_MISSING_64: f64 = 1.7e308;
 
 impl DataType {
     /// The type with this code. Only BCR-1.0 has unsigned integers: ISO 25178-71 marks missing points by the smallest
     /// number of a type, which for them is a height. ISO-1.0 itself has the codes 5 to 7; 3 and 4, which ISO-2.0
     /// adds, mean the same wherever they occur.
     pub(super) fn from_code(code: i64, dialect: Dialect) -> Option<Self> {
-        Some(match code {
-            0 if dialect == Dialect::Bcr1 => Self::Uint8,
-            1 if dialect == Dialect::Bcr1 => Self::Uint16,
-            2 if dialect == Dialect::Bcr1 => Self::Uint32,
-            3 => Self::Binary32,
-            4 => Self::Int8,
-            5 => Self::Int16,
-            6 => Self::Int32,
-            7 => Self::Binary64,
-            _ => return None,
-        })
+        let known = DATA_TYPES.get(usize::try_from(code).ok()?).copied();
+        known.filter(|known| known.number.kind != Kind::Unsigned || dialect == Dialect::Bcr1)
     }
 
     /// The codes of a dialect, in words.
@@ -262,39 +171,12 @@ impl DataType {
         }
     }
 
-    /// Bytes of one number.
-    pub(super) fn size(self) -> usize {
-        match self {
-            Self::Uint8 | Self::Int8 => 1,
-            Self::Uint16 | Self::Int16 => 2,
-            Self::Uint32 | Self::Int32 | Self::Binary32 => 4,
-            Self::Binary64 => 8,
-        }
-    }
-
-    /// Smallest and largest number of an integer type.
-    fn integers(self) -> Option<(i64, i64)> {
-        match self {
-            Self::Uint8 => Some((u8::MIN.into(), u8::MAX.into())),
-            Self::Uint16 => Some((u16::MIN.into(), u16::MAX.into())),
-            Self::Uint32 => Some((u32::MIN.into(), u32::MAX.into())),
-            Self::Int8 => Some((i8::MIN.into(), i8::MAX.into())),
-            Self::Int16 => Some((i16::MIN.into(), i16::MAX.into())),
-            Self::Int32 => Some((i32::MIN.into(), i32::MAX.into())),
-            Self::Binary32 | Self::Binary64 => None,
-        }
-    }
-
-    pub(super) fn name(self) -> &'static str {
-        match self {
-            Self::Uint8 => "a uint8 number",
-            Self::Uint16 => "a uint16 number",
-            Self::Uint32 => "a uint32 number",
-            Self::Binary32 => "a binary32 number",
-            Self::Int8 => "an int8 number",
-            Self::Int16 => "an int16 number",
-            Self::Int32 => "an int32 number",
-            Self::Binary64 => "a binary64 number",
+    /// Whether a number of BCR-1.0 says that none was measured: the largest of its type.
+    fn is_missing_in_bcr(self, number: f64) -> bool {
+        match (self.number.integers(), self.number.size) {
+            (Some([_, largest]), _) => number == largest,
+            (None, 4) => number >= f64::from(BCR_MISSING_32),
+            (None, _) => number >= BCR_MISSING_64,
         }
     }
 
@@ -305,48 +187,28 @@ impl DataType {
             return Some(f64::NAN);
         }
         let text = std::str::from_utf8(text).ok()?;
-        let bcr = dialect == Dialect::Bcr1;
-        if let Some((smallest, largest)) = self.integers() {
-            let integer: i64 = text.parse().ok()?;
-            let missing = bcr && integer == largest;
-            return (smallest..=largest).contains(&integer).then_some(if missing { f64::NAN } else { integer as f64 });
-        }
-        let number: f64 = text.parse().ok()?;
-        let from = if self == Self::Binary32 { f64::from(BCR_MISSING_32) } else { BCR_MISSING_64 };
-        Some(if bcr && number >= from { f64::NAN } else { number })
+        let number: f64 = match self.number.integers() {
+            Some([smallest, largest]) => {
+                let integer = text.parse::<i64>().ok()? as f64;
+                Some(integer).filter(|integer| (smallest..=largest).contains(integer))?
+            }
+            None => text.parse().ok()?,
+        };
+        Some(if dialect == Dialect::Bcr1 && self.is_missing_in_bcr(number) { f64::NAN } else { number })
     }
 
     /// Gives `take` every number of `bytes`, NaN where none was measured: ISO 25178-71 marks those by the smallest
     /// number of the type, BCR-1.0 by the largest; NaN is what some programs write.
     pub(super) fn decode(self, bytes: &[u8], dialect: Dialect, mut take: impl FnMut(f64)) {
-        let bcr = dialect == Dialect::Bcr1;
-        macro_rules! integers {
-            ($type:ty) => {{
-                let missing = if bcr { <$type>::MAX } else { <$type>::MIN };
-                for raw in bytes.as_chunks().0 {
-                    let number = <$type>::from_le_bytes(*raw);
-                    take(if number == missing { f64::NAN } else { f64::from(number) });
-                }
-            }};
-        }
-        macro_rules! reals {
-            ($type:ty, $bcr_missing:expr) => {
-                for raw in bytes.as_chunks().0 {
-                    let number = <$type>::from_le_bytes(*raw);
-                    let missing = if bcr { number >= $bcr_missing } else { number == <$type>::MIN };
-                    take(if missing { f64::NAN } else { f64::from(number) });
-                }
-            };
-        }
-        match self {
-            Self::Uint8 => integers!(u8),
-            Self::Uint16 => integers!(u16),
-            Self::Uint32 => integers!(u32),
-            Self::Int8 => integers!(i8),
-            Self::Int16 => integers!(i16),
-            Self::Int32 => integers!(i32),
-            Self::Binary32 => reals!(f32, BCR_MISSING_32),
-            Self::Binary64 => reals!(f64, BCR_MISSING_64),
+        let smallest = match (self.number.integers(), self.number.size) {
+            (Some([smallest, _]), _) => smallest,
+            (None, 4) => f64::from(f32::MIN),
+            (None, _) => f64::MIN,
+        };
+        for bytes in bytes.chunks_exact(self.number.size) {
+            let number = self.number.read(bytes);
+            let missing = if dialect == Dialect::Bcr1 { self.is_missing_in_bcr(number) } else { number == smallest };
+            take(if missing { f64::NAN } else { number });
         }
     }
 }
@@ -410,9 +272,13 @@ impl Header {
     /// Room for the heights in the order of the file. In BCR-1.0 the first profile has the largest y (so MountainsMap
     /// shows such files, and so sdfio reads them; the document itself does not say), in ISO 25178-71 y is 0 there.
     pub(super) fn room(&self) -> Profiles {
-        match self.dialect {
-            Dialect::Bcr1 => Profiles::downward(self.points, self.profiles),
-            Dialect::Iso1 | Dialect::Iso2 => Profiles::new(self.points, self.profiles),
+        let (columns, rows) = (self.points, self.profiles);
+        Profiles {
+            columns,
+            rows,
+            downward: self.dialect == Dialect::Bcr1,
+            heights: vec![f64::NAN; columns * rows],
+            done: 0,
         }
     }
 
@@ -422,7 +288,7 @@ impl Header {
             rows: self.profiles,
             column_pitch: self.x_scale,
             row_pitch: self.y_scale,
-            heights: heights.finish(),
+            heights: heights.heights,
         }
     }
 
@@ -449,4 +315,35 @@ fn scale(field: &'static str, (found, at): (f64, Position)) -> Result<f64, SdfEr
 
 fn zero(field: &'static str, (found, at): (i64, Position), expected: &'static str) -> Result<(), SdfError> {
     if found == 0 { Ok(()) } else { Err(SdfError::Field { at, field, found: found.to_string(), expected }) }
+}
+
+/// Takes heights in the order of a file, x growing fastest, and stores them column by column.
+pub(super) struct Profiles {
+    columns: usize,
+    rows: usize,
+    /// The first profile has the largest y.
+    downward: bool,
+    heights: Vec<f64>,
+    /// Heights taken so far.
+    done: usize,
+}
+
+impl Profiles {
+    /// Heights taken so far.
+    pub(super) fn len(&self) -> usize {
+        self.done
+    }
+
+    /// Heights that are not there yet.
+    pub(super) fn missing(&self) -> usize {
+        self.heights.len() - self.done
+    }
+
+    /// Takes the next height, for which there must be room.
+    pub(super) fn push(&mut self, height: f64) {
+        let (profile, column) = (self.done / self.columns, self.done % self.columns);
+        let row = if self.downward { self.rows - 1 - profile } else { profile };
+        self.heights[column * self.rows + row] = height;
+        self.done += 1;
+    }
 }

@@ -226,7 +226,7 @@ fn read_heights(text: &mut Lexer<impl BufRead>, header: &Header) -> Result<Patch
             return Err(SdfError::TooMany { at, points, profiles });
         }
         let wrong = |expected| SdfError::Height { at, found: short(word), expected };
-        let stored = header.data_type.parse(word, header.dialect).ok_or_else(|| wrong(header.data_type.name()))?;
+        let stored = header.data_type.parse(word, header.dialect).ok_or_else(|| wrong(header.data_type.name))?;
         let height = stored * header.z_scale;
         if height.is_infinite() {
             return Err(wrong("a finite number times Zscale, or BAD"));
@@ -259,7 +259,7 @@ pub(super) fn binary(mut source: impl BufRead, length: u64) -> Result<Surface, S
         return Err(truncated(header_size as u128, "the header".to_owned()));
     }
     let header = binary_header(&rest, count_size, dialect)?;
-    let size = header.data_type.size();
+    let size = header.data_type.number.size;
     // Compared before anything is allocated: a header can promise more than any file holds.
     let needed = header_size as u128 + header.heights() * size as u128;
     let what = || format!("{} x {} heights of {size} bytes", header.points, header.profiles);
@@ -340,31 +340,4 @@ fn trailer_warning(trailer: &[u8], start: u128, length: u64) -> Option<String> {
         "the {after} bytes after the heights are not text (byte {}): do NumPoints, NumProfiles and DataType fit the data?",
         start + odd as u128
     ))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn lines_end_in_three_ways_and_keep_their_numbers() {
-        let mut lexer = Lexer::new(b"a \r\n\r\n b b\rc\nd".as_slice());
-        for expected in [(1, "a"), (2, ""), (3, "b b"), (4, "c"), (5, "d")] {
-            assert_eq!(lexer.line().unwrap(), Some((expected.0, expected.1.as_bytes())));
-        }
-        assert_eq!(lexer.line().unwrap(), None);
-        let mut lexer = Lexer::new(b"\r\n 1 22\r\n\r3 ;4 5\n6".as_slice());
-        lexer.comment = Some(b';');
-        for expected in [(2, "1"), (2, "22"), (4, "3"), (5, "6")] {
-            assert_eq!(lexer.word().unwrap(), Some((expected.0, expected.1.as_bytes())));
-        }
-        assert_eq!(lexer.word().unwrap(), None);
-    }
-
-    #[test]
-    fn a_word_without_end_is_not_kept_as_a_whole() {
-        let text = vec![b'7'; 100_000];
-        assert_eq!(Lexer::new(text.as_slice()).word().unwrap().unwrap().1.len(), LONGEST);
-        assert_eq!(Lexer::new(text.as_slice()).line().unwrap().unwrap().1.len(), LONGEST);
-    }
 }

@@ -19,10 +19,10 @@ mod points;
 
 pub use error::TextError;
 use header::{Columns, Names};
-pub(super) use numbers::Table;
 use numbers::{Numbers, matrix};
 use points::{is_list, list, profile};
 
+use super::measured::Measured;
 use super::options::ReadOptions;
 use crate::delimited::{decode, lines, stated_separator};
 
@@ -36,7 +36,7 @@ const WIDEST: usize = 8;
 ///
 /// # Errors
 /// [`TextError`] with the line.
-pub(super) fn read(content: &[u8], xyz: bool, options: &ReadOptions) -> Result<Table, TextError> {
+pub(super) fn read(content: &[u8], xyz: bool, options: &ReadOptions) -> Result<Measured, TextError> {
     let text = decode(content);
     let stated = stated_separator(&text);
     let Some(skip) = options.skip else { return table(&Numbers::read(lines(&text), stated, options)?, xyz, options) };
@@ -48,7 +48,7 @@ pub(super) fn read(content: &[u8], xyz: bool, options: &ReadOptions) -> Result<T
 }
 
 /// What a table of numbers is.
-fn table(numbers: &Numbers, xyz: bool, options: &ReadOptions) -> Result<Table, TextError> {
+fn table(numbers: &Numbers, xyz: bool, options: &ReadOptions) -> Result<Measured, TextError> {
     let (columns, lines) = (numbers.columns, numbers.lines.len());
     if options.profile_lay.is_some() {
         return profile(numbers, options);
@@ -83,6 +83,3 @@ fn table(numbers: &Numbers, xyz: bool, options: &ReadOptions) -> Result<Table, T
     }
     Ok(table)
 }
-
-#[cfg(test)]
-mod tests;

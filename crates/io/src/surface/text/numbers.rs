@@ -7,20 +7,9 @@ use super::dialect::{Dialect, Fault, is_comment, number, shown, starts_numbers};
 use super::error::TextError;
 use super::header::{Header, Names};
 use crate::delimited::{Decimal, Kind, Separator, starts};
+use crate::surface::format::Format;
+use crate::surface::measured::Measured;
 use crate::surface::options::{ReadOptions, agreed, agreed_pitch};
-
-/// Heights of a text file, m, column by column. A profile has one row.
-#[derive(Debug, Default)]
-pub(in crate::surface) struct Table {
-    pub(in crate::surface) columns: usize,
-    pub(in crate::surface) rows: usize,
-    pub(in crate::surface) pitch: Option<[f64; 2]>,
-    /// The file does not say in which unit its distances are, and they were taken in that of its heights.
-    pub(in crate::surface) is_pitch_assumed: bool,
-    pub(in crate::surface) heights: Vec<f64>,
-    pub(in crate::surface) notes: Vec<String>,
-    pub(in crate::surface) warnings: Vec<String>,
-}
 
 /// Lines that are looked at: no header of an instrument is nearly as long.
 const MOST_LINES: usize = 1000;
@@ -262,16 +251,10 @@ impl Numbers {
 
     /// Turns numbers into heights, m.
     pub(super) fn scale(&self, heights: &mut [f64], unit: f64) -> Result<(), TextError> {
-        scale(heights, unit, self.first_line())
-    }
-}
-
-/// Turns numbers into heights, m; `line` is where they begin.
-pub(super) fn scale(heights: &mut [f64], unit: f64, line: usize) -> Result<(), TextError> {
-    heights.iter_mut().for_each(|height| *height *= unit);
-    match heights.iter().find(|height| height.is_infinite()) {
-        Some(height) => Err(TextError::Infinite { line, column: 1, found: format!("a height of {height} m") }),
-        None => Ok(()),
+        heights.iter_mut().for_each(|height| *height *= unit);
+        let Some(height) = heights.iter().find(|height| height.is_infinite()) else { return Ok(()) };
+        let found = format!("a height of {height} m");
+        Err(TextError::Infinite { line: self.first_line(), column: 1, found })
     }
 }
 
@@ -331,7 +314,7 @@ fn is_even(numbers: &[f64]) -> bool {
 }
 
 /// The heights of a matrix, m.
-pub(super) fn matrix(numbers: &Numbers, options: &ReadOptions) -> Result<Table, TextError> {
+pub(super) fn matrix(numbers: &Numbers, options: &ReadOptions) -> Result<Measured, TextError> {
     let (columns, rows) = (numbers.columns, numbers.lines.len());
     let header = &numbers.header;
     for (what, stated, found) in [("columns", header.counts[0], columns), ("rows", header.counts[1], rows)] {
@@ -348,73 +331,5 @@ pub(super) fn matrix(numbers: &Numbers, options: &ReadOptions) -> Result<Table, 
     numbers.scale(&mut heights, unit)?;
     let pitch = agreed_pitch(header.matrix_pitch(columns, rows), options.pitch)?;
     let notes = vec![format!("matrix, 1 stands for {unit:e} m")];
-    Ok(Table { columns, rows, pitch, heights, notes, warnings, ..Table::default() })
-}
-
-#[cfg(test)]
-mod numbers_tests {
-    use super::*;
-    use crate::delimited::lines;
-
-    #[test]
-    fn the_table_begins_below_the_last_odd_line() {
-        let many = "line\n".repeat(MOST_LINES);
-        for (text, expected) in [
-            (
-                "Protocol\nDate;12.03.2026 14:05:11\nResolution X/Y\t5,0 um\nPoints 800 x 400\nBEGIN\n1,5\t2\t***\n3\t4\t5\n",
-                Some(5),
-            ),
-            // Counts, which are numbers themselves; a single line; blank lines and comments.
-            ("Sample 7\n3 2\n1,5 2,5 3\n4 5 6\n", Some(2)),
-            ("Sample 7\n1 2 3 4\n", Some(1)),
-            ("Sample 7\n\n# mean\n1 2\n# more\n3 4\n", Some(1)),
-            // A line that is shorter does not make the rest of the table its begin.
-            ("Sample 7\n1 2\n3 4\n5 6\n7\n8 9\n", Some(1)),
-            // What a header says right above the table is kept.
-            ("Sample 7\nunit: um\nMeasured\npitch = 5 um\n1 2\n3 4\n", Some(3)),
-            ("1,5, 2,5\n", None),
-            ("Sample 7\n1,5, 2,5\n3, 4,25\n", Some(1)),
-            ("Sample\nno numbers\n***\n", None),
-            (&format!("{many}1 2\n3 4\n"), None),
-        ] {
-            assert_eq!(lines_before(lines(text)), expected, "{text}");
-        }
-    }
-}
-
-#[cfg(test)]
-mod matrix_tests {
-    use super::*;
-
-    /// Rough heights of 8 columns by 7 rows, column by column.
-    fn rough() -> Vec<f64> {
-        (0..56).map(|point| f64::from(point * point % 17) / 7.0).collect()
-    }
-
-    #[test]
-    fn numbers_of_lines_and_coordinates_are_told() {
-        assert_eq!(labels(&rough(), 7).count(), 0);
-        // As pandas writes a table: numbers of lines in front of them, an empty corner, and numbers of columns above.
-        let mut table = rough();
-        (0..7).for_each(|row| table[row] = row as f64 - 1.0);
-        let told: Vec<_> = labels(&table, 7).collect();
-        assert_eq!(told.len(), 1, "{told:?}");
-        assert!(told[0].starts_with("the first column counts evenly to 5, from 0 on"), "{told:?}");
-        table[0] = f64::NAN;
-        // Coordinates in mm, rounded.
-        (1..8).for_each(|column| table[7 * column] = [0.33, 0.67, 1.0, 1.33, 1.67, 2.0, 2.33][column - 1]);
-        assert_eq!(labels(&table, 7).count(), 2);
-    }
-
-    #[test]
-    fn a_plane_steps_and_a_few_heights_have_none() {
-        let plane: Vec<f64> = (0..56).map(f64::from).collect();
-        let level = [1.0; 56];
-        assert_eq!([labels(&plane, 7).count(), labels(&level, 7).count()], [0, 0]);
-        // Four lines and four columns are too few to tell; a profile has nothing beside it.
-        let mut few: Vec<f64> = (0..16).map(|point| f64::from(point * point % 7)).collect();
-        (0..4).for_each(|row| few[row] = row as f64);
-        assert_eq!([labels(&few, 4).count(), labels(&plane, 1).count(), labels(&plane, 56).count()], [0; 3]);
-        assert_eq!(labels(&[], 0).count(), 0);
-    }
+    Ok(Measured { notes, warnings, ..Measured::new(Format::Text, [columns, rows], pitch, heights) })
 }

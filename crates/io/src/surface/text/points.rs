@@ -4,7 +4,9 @@ use plateau_core::surface::Length;
 
 use super::error::{TextError, short};
 use super::header::{Columns, Names};
-use super::numbers::{Numbers, Table};
+use super::numbers::Numbers;
+use crate::surface::format::Format;
+use crate::surface::measured::Measured;
 use crate::surface::options::{ReadOptions, agreed_pitch};
 
 /// Coordinates that are off by no more than this, in steps, are evenly spaced.
@@ -116,7 +118,7 @@ fn rounding(coordinates: &[f64], step: f64, off: f64, gaps: &[f64]) -> Option<f6
 }
 
 /// The heights of a profile, m: one row.
-pub(super) fn profile(numbers: &Numbers, options: &ReadOptions) -> Result<Table, TextError> {
+pub(super) fn profile(numbers: &Numbers, options: &ReadOptions) -> Result<Measured, TextError> {
     let (columns, lines) = (numbers.columns, numbers.lines.len());
     match &numbers.header.names {
         Some(names) => {
@@ -147,7 +149,7 @@ fn traced(numbers: &Numbers, coordinates: [usize; 2]) -> Result<usize, TextError
 }
 
 /// Heights alone, in a line or in a column.
-fn alone(numbers: &Numbers, options: &ReadOptions) -> Result<Table, TextError> {
+fn alone(numbers: &Numbers, options: &ReadOptions) -> Result<Measured, TextError> {
     let count = numbers.values.len();
     if count < 2 {
         return Err(TextError::ShortProfile { points: count });
@@ -159,7 +161,7 @@ fn alone(numbers: &Numbers, options: &ReadOptions) -> Result<Table, TextError> {
     let mut heights = numbers.values.clone();
     numbers.scale(&mut heights, unit)?;
     let notes = vec![format!("1 stands for {unit:e} m")];
-    Ok(Table { columns: count, rows: 1, pitch, heights, notes, ..Table::default() })
+    Ok(Measured { notes, ..Measured::new(Format::Text, [count, 1], pitch, heights) })
 }
 
 /// Heights beside the distance along the line.
@@ -168,7 +170,7 @@ fn beside_distances(
     names: &Names,
     [distance, height]: [usize; 2],
     options: &ReadOptions,
-) -> Result<Table, TextError> {
+) -> Result<Measured, TextError> {
     let spacing = Spacing::of(&numbers.coordinates(distance)?, &numbers.lines)?;
     let unit = numbers.unit(names.units[height].or(numbers.header.unit), options)?;
     // Distances are often in mm beside heights in um, so that their unit is not taken from the heights.
@@ -181,7 +183,7 @@ fn beside_distances(
     if let Some(place) = spacing.rounded_to {
         notes.push(format!("distances rounded to {place} are taken as evenly spaced, {} apart", short(spacing.step)));
     }
-    Ok(Table { columns: spacing.count, rows: 1, pitch: Some(pitch), heights, notes, ..Table::default() })
+    Ok(Measured { notes, ..Measured::new(Format::Text, [spacing.count, 1], Some(pitch), heights) })
 }
 
 /// A point is off the grid if it is farther from it than this, in steps of the grid; coordinates are printed with few
@@ -236,7 +238,7 @@ pub(super) fn list(
     names: &Names,
     columns: [usize; 3],
     options: &ReadOptions,
-) -> Result<Table, TextError> {
+) -> Result<Measured, TextError> {
     let gridded = Points::of(numbers, names, columns)?.grid()?;
     let header = &numbers.header;
     let [x_unit, y_unit, z_unit] = columns.map(|column| names.units[column]);
@@ -261,7 +263,8 @@ pub(super) fn list(
     warnings.extend(Numbers::stand_in(&heights));
     numbers.scale(&mut heights, unit)?;
     let notes = vec![format!("list of {} points, 1 stands for {unit:e} m", numbers.lines.len())];
-    Ok(Table { columns: gridded.columns, rows: gridded.rows, pitch, is_pitch_assumed, heights, notes, warnings })
+    let plain = Measured::new(Format::Text, [gridded.columns, gridded.rows], pitch, heights);
+    Ok(Measured { is_pitch_assumed, notes, warnings, ..plain })
 }
 
 /// Whether the first three columns look like a list of points without names.
@@ -420,71 +423,5 @@ impl Axis {
 
     fn index(&self, value: f64) -> usize {
         (((value - self.first) / self.step).round() as usize).min(self.count - 1)
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn of(coordinates: &[f64]) -> Result<Spacing, TextError> {
-        let lines: Vec<usize> = (11..11 + coordinates.len()).collect();
-        Spacing::of(coordinates, &lines)
-    }
-
-    fn rounded(count: usize, step: f64, digits: i32) -> Vec<f64> {
-        let scale = 10_f64.powi(digits);
-        (0..count).map(|n| (n as f64 * step * scale).round() / scale).collect()
-    }
-
-    #[test]
-    fn even_points_are_spaced_evenly_whatever_their_digits() {
-        let even = |count: usize| (0..count).collect::<Vec<_>>();
-        for (step, digits, rounded_to) in
-            [(0.5, 1, None), (0.156_25, 1, Some(0.1)), (9.951e-5, 6, None), (1.75, 0, Some(1.0))]
-        {
-            for sign in [1.0, -1.0] {
-                let coordinates: Vec<f64> = rounded(9600, step, digits).iter().map(|x| 3.0 + sign * x).collect();
-                let found = of(&coordinates).unwrap();
-                // The last coordinate is rounded: half a place over 9599 steps.
-                let error = 0.5 * 10_f64.powi(-digits) / 9599.0;
-                assert!((found.step - step).abs() <= error * 1.001, "{} for {step}", found.step);
-                assert_eq!((found.count, &found.places, found.rounded_to), (9600, &even(9600), rounded_to));
-            }
-        }
-        assert_eq!(of(&[4.0, 6.0]).unwrap(), Spacing { step: 2.0, count: 2, places: even(2), rounded_to: None });
-    }
-
-    #[test]
-    fn points_that_are_not_there_leave_holes() {
-        let mut coordinates: Vec<f64> = (0..40).map(f64::from).collect();
-        coordinates.drain(17..19);
-        coordinates.remove(30);
-        let found = of(&coordinates).unwrap();
-        assert_eq!((found.step, found.count), (1.0, 40));
-        let places: Vec<usize> = coordinates.iter().map(|x| *x as usize).collect();
-        assert_eq!(found.places, places);
-    }
-
-    #[test]
-    fn every_point_may_be_off_its_place_also_the_first() {
-        let coordinates: Vec<f64> =
-            [-0.015, 0.015, 0.0, 0.015, -0.015].iter().zip(0..).map(|(off, at)| f64::from(at) + off).collect();
-        assert_eq!((of(&coordinates).unwrap().step, of(&coordinates).unwrap().count), (1.0, 5));
-    }
-
-    #[test]
-    fn uneven_points_are_refused_with_the_numbers() {
-        assert_eq!(
-            of(&[0.0, 1.0, 2.0, 3.31, 4.0]).unwrap_err(),
-            TextError::Uneven { line: 14, found: 3.31, expected: 3.0, step: 1.0, gaps: [4.0 - 3.31, 3.31 - 2.0] }
-        );
-        // A third of the points is not there; integers with gaps of 1 and 3 are no rounded coordinates.
-        for uneven in [&[0.0, 1.0, 3.0, 4.0, 7.0, 8.0][..], &[0.0, 1.0, 2.0, 4.0, 6.0, 8.0], &[0.0, 1.0, 1.5, 4.0]] {
-            assert!(matches!(of(uneven), Err(TextError::Uneven { .. })), "{uneven:?}");
-        }
-        assert_eq!(of(&[0.0, 2.0, 1.0]).unwrap_err(), TextError::Disorder { line: 13, found: 1.0, before: 2.0 });
-        assert_eq!(of(&[1.0, 1.0]).unwrap_err(), TextError::Disorder { line: 12, found: 1.0, before: 1.0 });
-        assert_eq!(of(&[1.0]).unwrap_err(), TextError::ShortProfile { points: 1 });
     }
 }

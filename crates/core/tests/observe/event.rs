@@ -1,16 +1,21 @@
 //! Events and their accounts.
 
-use super::*;
-use crate::model::cycle::{Interpolation, Node};
-use crate::model::emission::EmissionReport;
-use crate::model::friction::FrictionReport;
-use crate::model::heat::account::HeatReport;
 use std::f64::consts::TAU;
+
+use plateau_core::model::accounts::AccountsReport;
+use plateau_core::model::cycle::{Cycle, Interpolation, Kind, Node};
+use plateau_core::model::emission::EmissionReport;
+use plateau_core::model::friction::FrictionReport;
+use plateau_core::model::heat::account::HeatReport;
+use plateau_core::model::mesh::Mesh;
+use plateau_core::model::parameters::Parameters;
+use plateau_core::observe::Sample;
+use plateau_core::observe::event::EventLog;
 
 /// Ten revolutions a second for a second, a second of rest, five revolutions: steps of half a revolution on two columns.
 fn log(until: f64) -> EventLog {
     let paper = Parameters::paper();
-    let mesh = crate::model::mesh::Mesh::new(1, 2, 1, 1.0, 3.0).unwrap();
+    let mesh = Mesh::new(1, 2, 1, 1.0, 3.0).unwrap();
     let parameters = Parameters { mesh, ..paper };
     let node = |time, force| Node::new(time, force, 10.0 * TAU);
     let nodes = [node(0.0, 1.0), node(1.0, 1.0), node(1.0, 0.0), node(2.0, 0.0), node(2.0, 1.0), node(2.5, 1.0)];
@@ -95,7 +100,7 @@ fn a_log_that_was_kept_within_an_event_goes_on() {
 /// taken; in a longer run the 21st is that of event 1.
 #[test]
 fn events_that_end_within_a_step_that_is_not_taken_have_the_account_of_their_pause() {
-    let mesh = crate::model::mesh::Mesh::new(1, 2, 1, 1.0, 3.0).unwrap();
+    let mesh = Mesh::new(1, 2, 1, 1.0, 3.0).unwrap();
     let parameters = Parameters { mesh, ..Parameters::paper() };
     let rows = [
         (0.0, 1.0),
@@ -115,7 +120,7 @@ fn events_that_end_within_a_step_that_is_not_taken_have_the_account_of_their_pau
         |until: f64| EventLog::new(&parameters, Some(&cycle), until, cycle.steps_done(until, parameters.step_angle()));
     let (mut whole, mut short) = (log(3.5), log(2.5));
     let closing = short.closing(20).map(|moment| (moment.step, moment.time, moment.pause));
-    assert_eq!(closing, Some((20, 1.02, Some(crate::model::cycle::Kind::Lifted))));
+    assert_eq!(closing, Some((20, 1.02, Some(Kind::Lifted))));
     assert!(whole.closing(20).is_none());
     for step in [1, 20] {
         whole.note(&sample(step));

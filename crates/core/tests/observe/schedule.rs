@@ -1,9 +1,12 @@
 //! When samples and maps of runs with a cycle are due.
 
-use super::*;
-use crate::model::cycle::{Interpolation, Node};
-use crate::model::mesh::Mesh;
 use std::f64::consts::PI;
+use std::sync::Arc;
+
+use plateau_core::model::cycle::{Cycle, Interpolation, Node};
+use plateau_core::model::mesh::Mesh;
+use plateau_core::model::parameters::Parameters;
+use plateau_core::observe::schedule::{End, SampleEvery, Schedule};
 
 /// 1 rad/s for 2 s, lifted for 2 s, 1 rad/s for 1.5 s, in steps of 1 rad.
 fn schedule(end: f64, sample_every: SampleEvery, maps_at: &[f64]) -> Schedule {

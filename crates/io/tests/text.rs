@@ -1,23 +1,35 @@
-//! Matrices and lists as programs write them, and what is refused.
+//! Tables of numbers as programs write them, and what of them is refused.
 
-use super::*;
-use crate::delimited::Decimal;
-use crate::surface::options::Lay;
+mod dialect;
+mod header;
+mod spacing;
+
+use std::fs;
+
+use plateau_io::surface::{Decimal, FileError, Lay, Measured, ReadOptions};
 
 fn options(unit: Option<f64>, pitch: Option<[f64; 2]>) -> ReadOptions {
     ReadOptions { unit, pitch, ..ReadOptions::default() }
 }
 
-fn um(text: &str) -> Result<Table, TextError> {
+/// What is read of a file with this content, which may be named as a list of points.
+fn read(content: &[u8], xyz: bool, options: &ReadOptions) -> Result<Measured, FileError> {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join(if xyz { "table.xyz" } else { "table.txt" });
+    fs::write(&path, content).unwrap();
+    plateau_io::surface::read(&path, options)
+}
+
+fn um(text: &str) -> Result<Measured, FileError> {
     read(text.as_bytes(), false, &options(Some(1e-6), None))
 }
 
-/// Heights line by line in µm, "-" where missing.
-fn shape(table: &Table) -> String {
+/// Heights line by line in µm, to three decimals, "-" where missing.
+fn shape(table: &Measured) -> String {
     let line = |row: usize| {
         let cell = |column: usize| match table.heights[column * table.rows + row] {
             height if height.is_nan() => "-".to_owned(),
-            height => format!("{}", (height * 1e6).round()),
+            height => format!("{}", (height * 1e9).round() / 1e3),
         };
         (0..table.columns).map(cell).collect::<Vec<_>>().join(" ")
     };
@@ -142,60 +154,60 @@ fn three_columns_that_are_no_grid_are_a_matrix_if_they_are_few() {
 #[test]
 fn what_the_header_states_needs_no_scene_and_must_not_contradict_it() {
     let text = "# unit: nm\n# pitch: 50 um\n1000 2000\n3000 4000";
-    let read = |unit, pitch| read(text.as_bytes(), false, &options(unit, pitch));
-    for table in [read(None, None), read(Some(1e-9), Some([50e-6; 2]))] {
+    let told = |unit, pitch| read(text.as_bytes(), false, &options(unit, pitch));
+    for table in [told(None, None), told(Some(1e-9), Some([50e-6; 2]))] {
         let table = table.unwrap();
         assert_eq!((shape(&table).as_str(), table.pitch), ("1 2/3 4", Some([50e-6; 2])));
     }
     assert_eq!(
-        read(Some(1e-6), None).unwrap_err().to_string(),
+        told(Some(1e-6), None).unwrap_err().to_string(),
         "the file states a unit of 1 nm, the scene 1 um: leave out unit (pixel and scale in the prepare table read a file \
          differently than it says)"
     );
-    assert!(read(None, Some([50e-6, 60e-6])).unwrap_err().to_string().starts_with("the file states a pitch of 50 um"));
+    assert!(told(None, Some([50e-6, 60e-6])).unwrap_err().to_string().starts_with("the file states a pitch of 50 um"));
     let latin = b"# Width: 2 \xb5m\n# Height: 4 \xb5m\n# Value units: \xb5m\n1 2\n3 4";
-    let table = super::read(latin, false, &ReadOptions::default()).unwrap();
+    let table = read(latin, false, &ReadOptions::default()).unwrap();
     assert_eq!((shape(&table).as_str(), table.pitch), ("1 2/3 4", Some([1e-6, 2e-6])));
 }
 
 /// Decimal mark and lines that the scene gives.
-fn told(text: &str, decimal: Option<Decimal>, skip: Option<u64>) -> Result<Table, TextError> {
+fn told(text: &str, decimal: Option<Decimal>, skip: Option<u64>) -> Result<Measured, FileError> {
     read(text.as_bytes(), false, &ReadOptions { decimal, skip, ..options(Some(1e-6), None) })
 }
 
 #[test]
 fn of_several_tables_one_is_read_that_is_chosen() {
-    let read = |text: &str, dataset: Option<&str>| {
+    let chosen = |text: &str, dataset: Option<&str>| {
         let options = ReadOptions { dataset: dataset.map(str::to_owned), ..options(None, None) };
-        super::read(text.as_bytes(), false, &options).map_err(|error| error.to_string())
+        read(text.as_bytes(), false, &options).map_err(|error| error.to_string())
     };
     // As Gwyddion writes two channels.
     let two = "# Channel: Height\n# Width: 2 um\n# Height: 4 um\n# Value units: um\n1 2\n3 4\n\n\
                # Channel: Error\n# Width: 2 um\n# Height: 2 um\n# Value units: nm\n1000 2000\n3000 5000\n";
-    let said = read(two, None).unwrap_err();
+    let said = chosen(two, None).unwrap_err();
     assert!(said.starts_with("line 8: another table begins here, below a blank line (\"# Channel: Error\")"), "{said}");
     assert!(said.contains("dataset = \"1\" below file in the scene chooses the first of the 2"), "{said}");
     for (dataset, heights, pitch) in [("1", "1 2/3 4", [1e-6, 2e-6]), ("2", "1 2/3 5", [1e-6; 2])] {
-        let table = read(two, Some(dataset)).unwrap();
+        let table = chosen(two, Some(dataset)).unwrap();
         assert_eq!((shape(&table).as_str(), table.pitch), (heights, Some(pitch)));
     }
     for dataset in ["0", "3", "Height", ""] {
-        let said = read(two, Some(dataset)).unwrap_err();
+        let said = chosen(two, Some(dataset)).unwrap_err();
         assert!(said.ends_with("expected the number of a table of the file, which has 2"), "{said}");
     }
     // A table says of itself what its numbers are.
-    assert!(read("unit: um\n1 2\n\n3 4\n", Some("2")).unwrap_err().starts_with("the file does not say the unit"));
+    assert!(chosen("unit: um\n1 2\n\n3 4\n", Some("2")).unwrap_err().starts_with("the file does not say the unit"));
     for (text, line, sign) in [
         ("unit: um\n1 2\n3 4\nunit: nm\n5 6\n", 4, "with a header"),
         ("unit: um\n1 2\n3 4\n# pitch: 2 um\n5 6\n", 4, "with a header"),
         ("x y z\n0 0 1\n1 0 1\nx y z\n0 1 1\n1 1 1\n", 4, "with a header"),
         ("unit: um\n\n1 2\n\n\n3 4\n", 6, "below a blank line"),
     ] {
-        let said = read(text, None).unwrap_err();
+        let said = chosen(text, None).unwrap_err();
         assert!(said.starts_with(&format!("line {line}: another table begins here, {sign}")), "{said}");
     }
     // What has no numbers below it is no table.
-    assert_eq!(shape(&read("unit: um\n\n1 2\n# a b\n3 4\n\n# end: here\n\n", Some("1")).unwrap()), "1 2/3 4");
+    assert_eq!(shape(&chosen("unit: um\n\n1 2\n# a b\n3 4\n\n# end: here\n\n", Some("1")).unwrap()), "1 2/3 4");
 }
 
 /// 20 x 12 points 2 apart of which each is off by up to this, in steps, at random.
@@ -248,12 +260,12 @@ fn points_off_the_grid_by_less_than_a_fiftieth_of_its_step_are_on_it() {
 fn the_scene_says_what_the_file_does_not() {
     let shape_of =
         |text, decimal, skip| told(text, decimal, skip).map(|table| shape(&table)).map_err(|error| error.to_string());
-    for (decimal, expected) in [(Decimal::Comma, "1 2/4 3"), (Decimal::Point, "has a decimal comma")] {
+    for (decimal, expected) in [(Decimal::Comma, "1.234 2.345/4.321 3.21"), (Decimal::Point, "has a decimal comma")] {
         let found = shape_of("1,234;2,345\n4,321;3,210", Some(decimal), None).unwrap_or_else(|error| error);
         assert!(found.contains(expected), "{found}");
     }
     assert_eq!(shape_of("1,2\n3,4", Some(Decimal::Point), None).unwrap(), "1 2/3 4");
-    assert_eq!(shape_of("1,2\n3,4", Some(Decimal::Comma), None).unwrap(), "1/3");
+    assert_eq!(shape_of("1,2\n3,4", Some(Decimal::Comma), None).unwrap(), "1.2/3.4");
     let text = "Sample 7\n12 3 4\nanything\n1 2\n3 4\n";
     let advice = "skip = 3 below file in the scene leaves out the lines before the table";
     assert!(shape_of(text, None, None).unwrap_err().ends_with(advice));
@@ -269,7 +281,7 @@ fn the_scene_says_what_the_file_does_not() {
     assert_eq!(shape_of(text, None, Some(5)).unwrap_err(), "skip = 5 leaves no line of the file");
     assert_eq!(shape_of("1 2\n3 4", None, Some(0)).unwrap(), "1 2/3 4");
     // A header below the lines that are skipped still counts; numbers in it are written as those of the table.
-    let text = "first\n# unit: nm\n# pitch: 0,5 um\n1000,5;2000\n3000;4000";
+    let text = "first\n# unit: nm\n# pitch: 0,5 um\n1000,25;2000\n3000;4000";
     let table = read(text.as_bytes(), false, &ReadOptions { skip: Some(1), ..options(None, None) }).unwrap();
     assert_eq!((shape(&table).as_str(), table.pitch), ("1 2/3 4", Some([0.5e-6; 2])));
 }
@@ -351,7 +363,7 @@ fn a_file_cut_anywhere_gets_an_answer() {
     }
 }
 
-fn profile(text: &str, unit: Option<f64>, pitch: Option<f64>) -> Result<Table, TextError> {
+fn profile(text: &str, unit: Option<f64>, pitch: Option<f64>) -> Result<Measured, FileError> {
     let pitch = pitch.map(|pitch| [pitch; 2]);
     read(text.as_bytes(), false, &ReadOptions { profile_lay: Some(Lay::Across), ..options(unit, pitch) })
 }
