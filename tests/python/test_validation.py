@@ -158,7 +158,7 @@ class Strength(unittest.TestCase):
         "emitted": 1e-9 * time,
         "contact_area_integral": 10e-6 * time,
         "filled_fraction": time / 3000,
-        **{name: time for name in ("worn_pin", "worn_resin", "worn_disc", "deposited_pin", "deposited_disc")},
+        **dict.fromkeys(("worn_pin", "worn_resin", "worn_disc", "deposited_pin", "deposited_disc"), time),
     }
 
     def test_wear_at_first_and_at_the_end(self) -> None:

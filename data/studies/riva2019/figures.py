@@ -26,10 +26,9 @@ COLOURS = ["#000000", "#0072b2", "#d55e00"]
 # What stands beside the lines of the discs.
 BESIDE = {"1": "rough disc (baseline)", "0.1": "disc with heights / 10", "0.01": "disc with heights / 100"}
 STATUS = ListedColormap(["#d9d2c3", "#8c8c8c", "#0072b2"])
-OF_STATUS = {"cmap": STATUS, "vmin": -0.5, "vmax": 2.5}
 STATUSES = ["none (resin)", "primary", "secondary"]
 # What docs/evidence/validation.md and README.md show.
-SHOWN = ["fig08", "fig09", "fig13", "fig14", "tornado", "radial", "pin", "friction", "friction-tornado"]
+SHOWN = ["fig08", "fig09", "fig10", "fig11", "fig12", "fig13", "fig14", "tornado", "radial", "pin", "friction", "friction-tornado"]
 # Piece of the ring that is shown, columns: the paper's 8 mm.
 PIECE = 160
 # Readings of the rule that no scene has: starred where they stand beside those that have.
@@ -109,13 +108,23 @@ def of_the_start(run: Maps) -> Normalize:
     return scale([at(run, "disc/height", 0) * 1e6])
 
 
-def status_of_three(runs: dict[str, Maps], name: str, field: str, columns: int | None = None) -> None:
-    """Status maps, side by side."""
-    figure, axes = plt.subplots(1, 3, figsize=(10, 2.5), layout="constrained")
-    for panel, (heights, run) in zip(axes, runs.items(), strict=True):
-        draw(panel, at(run, field, END)[:columns], NAMES[heights], **OF_STATUS)
-    patches = [plt.Rectangle((0, 0), 1, 1, color=STATUS(number)) for number in range(3)]
-    figure.legend(patches, STATUSES, loc="outside lower center", ncols=3)
+def with_strength() -> dict[str, dict[str, Maps]]:
+    """Runs of the first set of surfaces by both rules, by the words of a row of panels."""
+    names = {"plain rule": "set-local", "transport length 200 µm, strength 5 MPa": "strength"}
+    return {words: {heights: load(HERE / "runs" / f"{name}-1-{heights}.h5") for heights in NAMES} for words, name in names.items()}
+
+
+def of_both_rules(rows: dict[str, dict[str, Maps]], name: str, values, norm: Normalize, cmap=None, label: str = "") -> None:
+    """A map of each disc's run, a row for each rule; without a label the colours are those of statuses."""
+    figure, axes = plt.subplots(2, 3, figsize=(10, 4.6), layout="constrained")
+    for panels, (words, runs) in zip(axes, rows.items(), strict=True):
+        for panel, (heights, run) in zip(panels, runs.items(), strict=True):
+            image = draw(panel, values(run), f"{NAMES[heights]}, {words}" if panel is panels[0] else NAMES[heights], norm=norm, cmap=cmap)
+    if label:
+        figure.colorbar(image, ax=axes, label=label, shrink=0.8, extend="both")
+    else:
+        patches = [plt.Rectangle((0, 0), 1, 1, color=STATUS(number)) for number in range(3)]
+        figure.legend(patches, STATUSES, loc="outside lower center", ncols=3)
     save(figure, name)
 
 
@@ -130,7 +139,7 @@ def inputs(run: Maps) -> None:
     below.set(xlabel="along the track, mm", ylabel="height, µm", title="the same at the mean radius")
     save(figure, "fig05")
     figure, axes = plt.subplots(figsize=(4.5, 2.6), layout="constrained")
-    draw(axes, run["base"], "pin: fibres (grey) in resin", **OF_STATUS)
+    draw(axes, run["base"], "pin: fibres (grey) in resin", cmap=STATUS, vmin=-0.5, vmax=2.5)
     save(figure, "fig06")
     figure, axes = plt.subplots(figsize=(4.5, 2.6), layout="constrained")
     figure.colorbar(draw(axes, -pin, "pin at the start, toward the disc"), ax=axes, label="height, µm")
@@ -251,16 +260,24 @@ def pressure(run: Maps) -> xarray.DataArray:
     return field.where(field > 0)
 
 
+def statuses_and_heights() -> None:
+    """The paper's figures 10 to 12, without and with a strength of the build-up."""
+    rows = with_strength()
+    statuses = Normalize(-0.5, 2.5)
+    of_both_rules(rows, "fig10", lambda run: at(run, "disc/status", END)[:PIECE], statuses, STATUS)
+    every = [pin_height(run) for runs in rows.values() for run in runs.values()]
+    of_both_rules(rows, "fig11", pin_height, scale(every), label="height above the mean fibre, µm")
+    of_both_rules(rows, "fig12", lambda run: at(run, "pin/status", END), statuses, STATUS)
+
+
 def main() -> None:
     runs = {heights: load(run_of(HERE / "runs", heights)) for heights in NAMES}
     inputs(runs["1"])
     filling_of_the_baseline(runs["1"])
     of_three(runs, "fig09", lambda run: at(run, "disc/height", END)[:PIECE] * 1e6, "height, µm", of_the_start)
-    status_of_three(runs, "fig10", "disc/status", PIECE)
     of_three(runs, "fig10b", build_up, "build-up, µm", lambda run: scale([build_up(run)]))
-    of_three(runs, "fig11", pin_height, "height above the mean fibre, µm", scale([pin_height(run) for run in runs.values()]))
-    status_of_three(runs, "fig12", "pin/status")
     of_three(runs, "fig13", pressure, "pressure, MPa", LogNorm(1, 30))
+    statuses_and_heights()
     contact_area()
     radial()
     pin_over_sets()

@@ -51,19 +51,22 @@ def strengths(part: str = "strengths") -> dict[str, dict]:
     return dict(sorted(value(f"strength/{part}").items(), key=lambda one: float(one[0])))
 
 
-def of_discs(found: dict[str, dict], label: str) -> str:
-    """Rows of the three discs with one setting."""
-    text = ""
-    for heights, name in NAMES.items():
-        means = found["means"][heights]
-        text += row(label, name, *(with_interval(means[key], factor, form) for _, key, factor, form in OF_STRENGTHS))
-    return text
+def table_of(part: str) -> str:
+    """Means over sets of surfaces of the three discs after 3000 s with every strength, and the widest of their intervals."""
+    found = strengths(part)
+    text = head("strength", *(heading for heading, *_ in OF_STRENGTHS))
+    widest = ["± at most"]
+    for strength, of in found.items():
+        cells = (", ".join(shown(of["means"][heights][key][0] * factor, form) for heights in NAMES) for _, key, factor, form in OF_STRENGTHS)
+        text += row(named(strength), *cells)
+    for _, key, factor, form in OF_STRENGTHS:
+        widest.append(shown(max(of["means"][heights][key][1] for of in found.values() for heights in NAMES) * factor, form))
+    return text + row(*widest)
 
 
 def table_strengths() -> str:
-    """Means over sets of surfaces of every strength and disc after 3000 s."""
-    text = head("strength", "disc", *(heading for heading, *_ in OF_STRENGTHS))
-    return text + "".join(of_discs(found, named(strength)) for strength, found in strengths().items())
+    """Every strength."""
+    return table_of("strengths")
 
 
 def table_strength_claims() -> str:
@@ -76,9 +79,8 @@ def table_strength_claims() -> str:
 
 
 def table_counterface() -> str:
-    """Means with a quarter of the wear rate against build-up."""
-    text = head("strength", "disc", *(heading for heading, *_ in OF_STRENGTHS))
-    return text + "".join(of_discs(found, named(strength)) for strength, found in strengths("counterface").items())
+    """The same with a quarter of the wear rate against build-up."""
+    return table_of("counterface")
 
 
 def table_levels() -> str:
@@ -190,13 +192,13 @@ def table_mesh_200() -> str:
 
 
 def table_mesh_150() -> str:
-    """Filling and contact with a transport length of 150 um."""
-    return table_mesh("150", ("filled", "contact_ratio"))
+    """Filling with a transport length of 150 um."""
+    return table_mesh("150", ("filled",))
 
 
 def table_mesh_100() -> str:
-    """Filling and contact with a transport length of 100 um."""
-    return table_mesh("100", ("filled", "contact_ratio"))
+    """Filling with a transport length of 100 um."""
+    return table_mesh("100", ("filled",))
 
 
 def table_mesh_none() -> str:
