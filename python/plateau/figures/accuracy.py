@@ -1,6 +1,5 @@
 """The figure of ``plateau accuracy``: the error of runs against the time that they take."""
 
-import itertools
 import json
 import os
 from pathlib import Path
@@ -18,9 +17,8 @@ LADDERS = {
     "tolerance": ("tolerance of the time acceleration", "s", False),
     "perturbation": ("heights times 1 + the number", "v", False),
 }
-# Where names are put from their points, and the room around their own and other points, points of 1/72 inch; lines that lead there.
-DISTANCES, NEAR, ANGLES, ROOM, OTHERS = (5, 9, 14, 20, 27, 35, 44, 54, 65), 9, np.pi / 4 * np.array([1, 0, 7, 3, 4, 5, 2, 6]), 2.5, 7.0
-LEADER = {"arrowstyle": "-", "color": QUIET, "linewidth": 0.5, "shrinkA": 0, "shrinkB": 3}
+# Where names may stand beside their points.
+AROUND = [(1, 1), (1, 0), (1, -1), (-1, 1), (-1, 0), (-1, -1), (0, 1), (0, -1)]
 
 
 @in_style
@@ -96,42 +94,15 @@ def _number_axes(ax: Any) -> None:
 
 
 def _name_points(ax: Any, points: Any, names: list[str]) -> None:
-    """Writes a name near each point, off all points, lines and other names, where there is room for it; a line leads to one far away."""
+    """Writes a name beside each point, where it lies on no point and no other name; none where there is no room."""
     ax.figure.draw_without_rendering()
-    scale = ax.figure.dpi / 72
-    places = ax.transData.transform(points) / scale
-    taken = [[*(place - ROOM), *(place + ROOM)] for place in places]
-    for line in ax.lines:
-        ends = line.get_transform().transform(line.get_xydata()) / scale
-        taken += [box for one, other in zip(ends[:-1], ends[1:], strict=True) for box in _along(one, other)]
-    axes, written = ax.bbox.extents / scale + [1, 1, -1, -1], taken[: len(points)]
-    for number, (place, point, name) in enumerate(zip(places, points, names, strict=True)):
-        # Nearer to another point it would seem to be of that one.
-        others = [[*(one - OTHERS), *(one + OTHERS)] for one in np.delete(places, number, 0) if np.hypot(*(one - place)) > ROOM]
-        text = ax.annotate(name, point, (0, 0), textcoords="offset points", fontsize=7, ha="center", va="center", in_layout=False)
-        half = np.array(text.get_window_extent().size) / scale / 2
-        for far, angle in itertools.product(DISTANCES, ANGLES):
-            way = np.round([np.cos(angle), np.sin(angle)], 9)
-            low, high = (far * way + np.sign(way) * half + place + side * half for side in (-1, 1))
-            leader = _along(place + 5 * way, place + far * way) if far > NEAR else []
-            is_inside = (low > axes[:2]).all() and (high < axes[2:]).all()
-            if is_inside and not _meet([[*low, *high]], taken + others) and not _meet(leader, written):
-                text.set_position((low + high) / 2 - place)
-                own = [[*(low - 1), *(high + 1)], *leader]
-                written, taken = written + own, taken + own
-                if leader:
-                    ax.annotate("", point, far * way, textcoords="offset points", arrowprops=LEADER, in_layout=False)
+    places, written = ax.transData.transform(points), list[Any]()
+    for point, name in zip(points, names, strict=True):
+        for x, y in AROUND:
+            aligned = {"ha": ("center", "left", "right")[x], "va": ("center", "bottom", "top")[y]}
+            text = ax.annotate(name, point, (4 * x, 4 * y), textcoords="offset points", fontsize=7, in_layout=False, **aligned)
+            box = text.get_window_extent()
+            if ax.bbox.count_contains(box.corners()) == 4 and not box.count_contains(places) and not box.count_overlaps(written):
+                written.append(box)
                 break
-        else:
             text.remove()
-
-
-def _along(one: Any, other: Any) -> list[list[float]]:
-    """Boxes along a line."""
-    parts = np.linspace(0, 1, int(np.hypot(*(other - one)) / 3) + 2)[:, None]
-    return [[*(place - 1), *(place + 1)] for place in one + (other - one) * parts]
-
-
-def _meet(some: list[list[float]], others: list[list[float]]) -> bool:
-    """Whether boxes (left, bottom, right, top) lie on others."""
-    return any(a[0] < b[2] and b[0] < a[2] and a[1] < b[3] and b[1] < a[3] for a in some for b in others)
