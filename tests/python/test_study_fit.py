@@ -21,8 +21,7 @@ from plateau.study.calibration import calibrated
 from plateau.study.data import Factor, Response
 from plateau.study.fit_answer import Fit
 from plateau.study.fit_of_study import fit, plan
-from plateau.study.key_intervals import products, profile
-from plateau.study.likelihood import Components, Likelihood, Runs, Target
+from plateau.study.likelihood import Components, Likelihood, Runs, Target, products, profile
 from plateau.study.imports import import_values
 from plateau.study.measured import Measurement
 from plateau.study.results import analysed

@@ -15,8 +15,7 @@ from plateau.output_folder import plain
 from plateau.study.calibration import ENDS, Outcome
 from plateau.study.data import Factor, Numbers, Study
 from plateau.study.figure_axes import dots, file_names, set_axis
-from plateau.study.key_intervals import products, profile, region
-from plateau.study.likelihood import SETTLED, Likelihood, Target
+from plateau.study.likelihood import SETTLED, Likelihood, Target, products, profile, region
 from plateau.study.text_tables import aligned
 from plateau.style import LINES, NARROW, QUIET, WIDE, Figures, in_style, labelled, new
 from plateau.units import shown_unit, unit_for, with_minus

@@ -17,11 +17,12 @@ from plateau.study.figure_axes import STEPS, dots, drawn_map, grid_points, held,
 from plateau.study.goals import ROUNDING, Goal, Limit, Problem, axes_of, beyond_runs, overall, wanted
 from plateau.study.improvement import improved, is_run
 from plateau.output_folder import plain
-from plateau.study.prediction import INTERVALS, confirmed_by, forecast_table, reported, settings_at
+from plateau.study.prediction import INTERVALS, confirmed_by, confirmed_words, forecast_cells, forecast_table, reported, settings_at
 from plateau.study.results import analysed
 from plateau.study.runs import make_runs
 from plateau.study.settings import beyond_of, ends_of, no_curve, region_of
 from plateau.study.surrogate import Surrogate, surrogates
+from plateau.study.text_tables import listed
 from plateau.style import APART, CHOSEN, LINES, NARROW, WIDE, Figures, in_style, labelled, new
 from plateau.units import Unit, unit_of, with_minus
 
@@ -117,24 +118,18 @@ class Optimum:
         found = "best at" if self.keeps_limits else "no settings within the ranges keep all limits; they are missed least at"
         place = ", ".join(f"{one.name} = {one.shown(value)}" for one, value in zip(self.problem.study.factors, self.settings["value"], strict=True))
         lines = [self.problem.study.title, f"  {found} {place}", f"  desirability {self.desirability:.3g}, searched in {region_of(self.problem.study)}"]
-        level, cells, confirmed = f"{100 * self.problem.confidence:g} %", [], []
+        cells, confirmed = [], []
         for row in self.table.to_dict("records"):
-            unit = unit_of(row["unit"], self.problem.study.runs[row["response"]])
+            unit, cell = forecast_cells(self.problem.study, row, self.problem.confidence)
             goals = [
                 f"{AIMS[goal.aim]} {' … '.join(f'{unit.value(value):.4g}' for value in goal.values)}"
                 for goal in self._of(row, self.problem.goals)
             ]
             wanted = "; ".join([*goals, *(_limit_words(limit, unit) for limit in self._of(row, self.problem.limits))])
-            cell = {"response": ", ".join(filter(None, [row["response"], unit.symbol])), "predicted": f"{unit.value(row['value']):.4g}"}
-            for name, of in (("mean", "means"), ("run", "runs")):
-                cell[f"{level} of {of}"] = f"{unit.value(row[f'{name}_low']):.4g} … {unit.value(row[f'{name}_high']):.4g}"
             worth = "" if np.isnan(row["desirability"]) else f"{row['desirability']:.3g}"
             cells.append({**cell, "goal": wanted, "desirability": worth})
-            if row["confirmed_runs"]:
-                is_within = "within" if row["is_within"] else "outside"
-                mean = unit.text(row["confirmed"], row["confirmed_error"])
-                confirmed.append(f"  {row['response']}: {mean}, {row['confirmed_runs']:.0f} runs, {is_within} the interval of runs")
-        lines += ["  " + line for line in pandas.DataFrame(cells).to_string(index=False).splitlines()]
+            confirmed += [f"  {row['response']}: {confirmed_words(row, unit)}"] if row["confirmed_runs"] else []
+        lines += listed(cells)
         for limit in self.problem.limits:
             unit = unit_of(responses[limit.response].unit, self.problem.study.runs[limit.response])
             words, margin = f"{limit.response} {_limit_words(limit, unit)}", self._margin(limit)

@@ -19,8 +19,8 @@ from plateau.output_folder import plain
 from plateau.study.results import analysed
 from plateau.study.settings import SAME, axis_of, beyond_of, factor_named, held_values, joined, no_curve, region_of, value_of
 from plateau.study.surrogate import Surrogate, surrogates
-from plateau.study.text_tables import read_text_table
-from plateau.units import unit_for, unit_of, with_digits, with_minus, with_unit
+from plateau.study.text_tables import listed, read_text_table
+from plateau.units import Unit, unit_for, unit_of, with_digits, with_minus, with_unit
 
 # Most places of a grid.
 MOST_PLACES = 1_000_000
@@ -90,27 +90,18 @@ class Prediction:
 
     def text(self) -> str:
         """What ``plateau sweep predict`` prints."""
-        level, lines = f"{100 * self.confidence:g} %", []
+        lines: list[str] = []
         for (number, rows), (_, place) in zip(self.table.groupby("place", sort=False), self.places.iterrows(), strict=True):
             where = [
                 f"{one.name} = {one.shown(place[one.name])}{'' if one.name in self.given else ' (not given)'}" for one in self.study.factors
             ]
             lines += [self.study.title if number == 1 else "", f"  at {', '.join(where)}"]
             cells = []
-            for _, row in rows.iterrows():
-                unit = unit_of(row["unit"], self.study.runs[row["response"]])
-                ends = [unit.value(row[name]) for name in INTERVALS]
-                # Digits follow the interval.
-                width = (ends[1] - ends[0]) / 2 if np.isfinite(ends[0]) else np.nan
-                shown = [with_digits(value, width) for value in (unit.value(row["value"]), *ends, unit.value(row["confirmed"]))]
-                pairs = [f"{shown[at]} … {shown[at + 1]}" if shown[at] else "–" for at in (1, 3)]
-                cell = {"response": ", ".join(filter(None, [row["response"], unit.symbol])), "predicted": shown[0] or "–"}
-                cell |= {f"{level} of means": pairs[0], f"{level} of runs": pairs[1], "": row["beyond"]}
-                if rows["confirmed_runs"].any():
-                    error = with_digits(row["confirmed_error"] * unit.per_si, row["confirmed_error"] * unit.per_si)
-                    cell["confirmed by runs"] = f"{shown[5]} ± {error or '–'} ({row['confirmed_runs']} runs)"
-                cells.append(cell)
-            lines += ["  " + line.rstrip() for line in pandas.DataFrame(cells).to_string(index=False).splitlines()]
+            for row in rows.to_dict("records"):
+                unit, cell = forecast_cells(self.study, row, self.confidence)
+                cell |= {"confirmed": confirmed_words(row, unit)} if rows["confirmed_runs"].any() else {}
+                cells.append(cell | {"": row["beyond"]} if row["beyond"] else cell)
+            lines += listed(cells)
         made = self.table[self.table["confirmed_runs"] > 0]
         if len(self.places) > 1 and len(made):
             for name, rows in made.groupby("response", sort=False):
@@ -121,6 +112,23 @@ class Prediction:
                 )
         lines += [f"  {one.response.name}: {one.error or one.reason}" for one in self.surrogates if one.process is not None or one.error]
         return with_minus("\n".join([*lines, *(f"  caution: {caution}" for caution in self.cautions), ""]))
+
+
+def forecast_cells(study: Study, row: dict[Any, Any], confidence: float) -> tuple[Unit, dict[str, str]]:
+    """The unit of a forecast, and its value and intervals for people; digits follow the interval."""
+    unit, level = unit_of(row["unit"], study.runs[row["response"]]), f"{100 * confidence:g} %"
+    ends = [unit.value(row[name]) for name in INTERVALS]
+    width = (ends[1] - ends[0]) / 2 if np.isfinite(ends[0]) else np.nan
+    value, *shown = (with_digits(value, width) or "–" for value in (unit.value(row["value"]), *ends))
+    pairs = [" … ".join(shown[at : at + 2]) if np.isfinite(ends[at]) else "–" for at in (0, 2)]
+    name = ", ".join(filter(None, [row["response"], unit.symbol]))
+    return unit, {"response": name, "predicted": value, f"{level} of means": pairs[0], f"{level} of runs": pairs[1]}
+
+
+def confirmed_words(row: dict[Any, Any], unit: Unit) -> str:
+    """What runs at a place gave, mean ± standard error, for people."""
+    judged = "" if row["is_within"] is None else f", {'within' if row['is_within'] else 'outside'} the interval of runs"
+    return f"{unit.text(row['confirmed'], row['confirmed_error'])}, {row['confirmed_runs']:.0f} runs{judged}"
 
 
 def settings_at(study: Study, place: pandas.Series, given: Sequence[str]) -> list[dict[str, Any]]:

@@ -20,6 +20,7 @@ from plateau.quantities import series_of
 from plateau.study.data import Numbers, Response, Study
 from plateau.output_folder import plain
 from plateau.study.runs import finished
+from plateau.study.text_tables import listed
 from plateau.style import DASHES, LINES, NARROW, QUIET, Figures, in_style, labelled, new, wrapped
 from plateau.units import unit_for, unit_of, with_minus
 
@@ -98,7 +99,8 @@ class Comparison:
 
     def text(self) -> str:
         """What ``plateau compare`` prints."""
-        return with_minus("\n".join([self.title, self.shown().to_string(index=False), *(f"  {words}" for words in self.said()), ""]))
+        table = listed(self.shown().astype(str).to_dict("records"))
+        return with_minus("\n".join([self.title, *table, *(f"  {words}" for words in self.said()), ""]))
 
     def document(self) -> dict[str, Any]:
         """The JSON of ``plateau compare --json``; None where there is no number."""

@@ -6,7 +6,7 @@ import math
 import re
 import stat
 import unicodedata
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -90,6 +90,11 @@ def written_table(rows: Iterable[Sequence[str]]) -> bytes:
     file = io.StringIO()
     csv.writer(file, lineterminator="\n").writerows([f"'{cell}" if _is_formula(cell.lstrip("'")) else cell for cell in row] for row in rows)
     return file.getvalue().encode()
+
+
+def listed(cells: Sequence[Mapping[str, str]]) -> list[str]:
+    """Lines of a table for people, of rows with cells by the heads of their columns."""
+    return aligned([list(cells[0]), *(list(row.values()) for row in cells)])
 
 
 def aligned(rows: Sequence[Sequence[str]], indent: str = "  ") -> list[str]:

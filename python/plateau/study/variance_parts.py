@@ -25,6 +25,7 @@ from plateau.output_folder import plain
 from plateau.study.process import Process
 from plateau.study.results import analysed
 from plateau.study.surrogate import Surrogate, surrogates
+from plateau.study.text_tables import listed
 from plateau.style import LINES, NARROW, QUIET, Figures, in_style, labelled, new, wrapped
 from plateau.units import unit_of, with_digits, with_minus
 
@@ -115,7 +116,7 @@ class Sensitivity:
                     {"factor": rows["factor"], **{said: [_part(row, name) for _, row in rows.iterrows()] for name, said in heads.items()}}
                 )
                 shown["factor"] = shown["factor"].where(shown["factor"] != SEEDS, "seeds (of single runs)")
-            lines += ["  " + line.rstrip() for line in shown.to_string(index=False).splitlines()] + [""]
+            lines += [*listed(shown.astype(str).to_dict("records")), ""]
         return with_minus("\n".join([*lines, *(f"caution: {caution}" for caution in self.cautions), ""]))
 
     def figures(self) -> Any:

@@ -15,8 +15,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[3] / "python"))
 
 from plateau.study.calibration import calibrated
 from plateau.study.data import Response
-from plateau.study.key_intervals import best_with
-from plateau.study.likelihood import Runs, Target
+from plateau.study.likelihood import Runs, Target, best_with
 from plateau.study.measured import Measurement
 
 SEEDS, POINTS, NOISE, OF_SEEDS, ERROR = 3, 10, 0.02, 0.03, 0.05
