@@ -38,18 +38,7 @@ class Parser(argparse.ArgumentParser):
 
 
 def main(arguments: Sequence[str]) -> int:
-    """Answers a word.
-
-    Parameters
-    ----------
-    arguments : sequence of str
-        The word and its arguments.
-
-    Returns
-    -------
-    int
-        Exit status: 0, 1 for a failed run, 2 for a wrong command line or input, 128 and its number for a signal.
-    """
+    """Answers a word; gives the exit status: 0, 1 for a failed run, 2 for wrong input, 128 and its number for a signal."""
     # Nothing is shown in windows, and a wrong backend would keep figures from being drawn.
     os.environ["MPLBACKEND"] = "agg"
     if isinstance(sys.stdout, io.TextIOWrapper):
@@ -152,14 +141,6 @@ def show(text: str) -> None:
 
 def shown(text: str) -> str:
     r"""A text that can do nothing to a terminal: control characters and those that turn the direction of letters are written out.
-
-    Parameters
-    ----------
-    text : str
-
-    Returns
-    -------
-    str
 
     Examples
     --------

@@ -16,7 +16,7 @@ WORDS = [
     (r"--model (\w+)", r'model="\1"'),
     (r"--extend-to TIME\b", "extend_to=TIME"),
     (r"--limit-on (\w+)", r'limit_on="\1"'),
-    (r"--(set|workers|jobs|model|terms|confidence|output|at|grid|points|limit|hold|maximize|minimize|target|importance|contour)\b", r"\1"),
+    (r"--(set|workers|jobs|model|confidence|output|at|grid|points|limit|hold|maximize|minimize|target|importance|contour)\b", r"\1"),
     (r"--(extend|max)-(to|failures)\b", r"\1_\2"),
     (r"-o FILE\b", "output=FILE"),
     (r"-o\b", "output"),
@@ -101,14 +101,6 @@ def in_program_words() -> Iterator[None]:
 def in_python(message: str) -> str:
     """A message of the program, with the Python names of options and commands.
 
-    Parameters
-    ----------
-    message : str
-
-    Returns
-    -------
-    str
-
     Examples
     --------
     >>> in_python("quick.h5 exists; give --force to replace it, or write elsewhere with -o FILE")
@@ -123,15 +115,6 @@ def in_python(message: str) -> str:
 
 def not_installed(name: str | None) -> str:
     """What to do where a Python package is missing.
-
-    Parameters
-    ----------
-    name : str or None
-        Its name, as `ModuleNotFoundError` has it.
-
-    Returns
-    -------
-    str
 
     Examples
     --------

@@ -27,24 +27,9 @@ STEPS = {0: 4096, 1: 32768, 2: 131072}
 
 
 def read_text(path: Path, content: bytes) -> Read | None:
-    """Heights of a text export.
+    """Heights of a text export, m, of shape (columns, rows), NaN where no point was measured; distances of the points along x and y, m; notes.
 
-    Parameters
-    ----------
-    path : Path
-        For messages.
-    content : bytes
-
-    Returns
-    -------
-    tuple or None
-        Heights, m, of shape (columns, rows), NaN where no point was measured; distances of the points along x and y, m; notes. None if
-        it is no such export.
-
-    Raises
-    ------
-    InputError
-        If it is one, and damaged, or holds something else than heights.
+    None if it is no such export; `InputError` if it is one, and damaged, or holds something else than heights.
     """
     if b"\0" in content[:4096] and not content.startswith((b"\xff\xfe", b"\xfe\xff")):
         return None

@@ -93,20 +93,7 @@ def standard_error(values: Array) -> float:
 
 
 def last_tenth(time: Array, revolutions: Array | None) -> tuple[float, float]:
-    """The last tenth of a run, from a sample to the last one; at least ten simulated revolutions, if the run has that many.
-
-    Parameters
-    ----------
-    time : array, shape (samples,)
-        Times, s, ascending.
-    revolutions : array, shape (samples,), optional
-        Simulated revolutions until then.
-
-    Returns
-    -------
-    tuple of float
-        Start and end, s.
-    """
+    """The last tenth of a run from its times, s: start and end; at least ten simulated revolutions, if the run has that many."""
     first = int(np.searchsorted(time, time[-1] * (1 - LAST_PART) * (1 + ROUNDING), side="right"))
     if revolutions is not None:
         latest = revolutions[-1] - LEAST_REVOLUTIONS * (1 - ROUNDING)

@@ -22,16 +22,7 @@ OF = "# of "
 
 
 def refuse_earlier(folder: Path, of: str | None, force: bool) -> None:
-    """Refuses a folder that has the files of an earlier call, before any work is done.
-
-    Parameters
-    ----------
-    folder : Path
-    of : str or None
-        What the files are of, where a later call of the same replaces them.
-    force : bool
-        Whether they are replaced.
-    """
+    """Refuses a folder that has the files of an earlier call, before any work is done; those `of` the same are replaced."""
     followed(folder)
     earlier = _list(folder)
     if earlier is None or force or (of is not None and earlier[0] == of):
@@ -41,16 +32,7 @@ def refuse_earlier(folder: Path, of: str | None, force: bool) -> None:
 
 
 def followed(path: Path) -> Path:
-    """What a path names, which is replaced: where it is a link, what that points to.
-
-    Parameters
-    ----------
-    path : Path
-
-    Returns
-    -------
-    Path
-    """
+    """What a path names, which is replaced: where it is a link, what that points to."""
     if path.is_symlink() and not path.exists():
         raise InputError(f"{path} is a link to {os.readlink(path)}, which is not there; make that, or name another place with -o")
     return path.resolve() if path.is_symlink() else path
@@ -59,30 +41,10 @@ def followed(path: Path) -> Path:
 def write(
     folder: Path, files: Mapping[str, bytes], *, of: str | None = None, force: bool = False, inputs: tuple[Path, ...] = ()
 ) -> list[str]:
-    """Writes files into a folder, with the list of them, each under its name when it is complete.
+    """Writes files, content by name, into a folder, with the list of them, each under its name when it is complete; gives their paths.
 
-    Parameters
-    ----------
-    folder : Path
-        Made if it is not there.
-    files : mapping
-        Name and content.
-    of : str, optional
-        What the files are of, where a later call of the same replaces them.
-    force : bool
-        Whether files of others are replaced.
-    inputs : tuple of Path
-        Files that are never replaced.
-
-    Returns
-    -------
-    list of str
-        Paths of the files, but for the list.
-
-    Raises
-    ------
-    InputError
-        If a file would be replaced that is not to be replaced; then nothing has changed.
+    Where a file would be replaced that is not to be replaced, an input or a file of others without `force`, nothing has changed. `of` says
+    what the files are of, where a later call of the same replaces them.
     """
     refuse_earlier(folder, of, force)
     earlier = _list(folder)
@@ -121,18 +83,7 @@ def write(
 
 
 def refuse_file(path: Path, force: bool, inputs: tuple[Path, ...], to_do: str = "write elsewhere with -o FILE") -> None:
-    """Refuses to write where something is that is not to be replaced.
-
-    Parameters
-    ----------
-    path : Path
-    force : bool
-        Whether a file there is replaced.
-    inputs : tuple of Path
-        Files that are never replaced.
-    to_do : str
-        What else can be done.
-    """
+    """Refuses to write where something is that is not to be replaced; `to_do` says what else can be done."""
     if path.exists() and os.path.realpath(path) in map(os.path.realpath, inputs):
         raise InputError(f"{path} is an input and is not replaced; {to_do}")
     if path.exists() and not path.is_file():
@@ -142,32 +93,12 @@ def refuse_file(path: Path, force: bool, inputs: tuple[Path, ...], to_do: str = 
 
 
 def relative(path: Path, folder: Path) -> str:
-    """The way from a folder to a file: the same wherever both are moved together.
-
-    Parameters
-    ----------
-    path, folder : Path
-
-    Returns
-    -------
-    str
-    """
+    """The way from a folder to a file: the same wherever both are moved together."""
     return os.path.relpath(os.path.realpath(path), os.path.realpath(folder)).replace("\n", "\\n")
 
 
 def put(path: Path, content: bytes) -> None:
-    """Writes a file that appears under its name when it is complete; a link of this name is replaced, not followed.
-
-    Parameters
-    ----------
-    path : Path
-    content : bytes
-
-    Raises
-    ------
-    RunFailed
-        If the system fails.
-    """
+    """Writes a file that appears under its name when it is complete; a link of this name is replaced, not followed."""
     try:
         with tempfile.NamedTemporaryFile(dir=path.parent, prefix=f".{path.name}.", delete=False) as file:
             try:
@@ -183,20 +114,7 @@ def put(path: Path, content: bytes) -> None:
 
 @contextmanager
 def all_or_none(folder: Path, names: Iterable[str], force: bool, inputs: tuple[Path, ...] = ()) -> Iterator[list[Path]]:
-    """Places for files, which appear in their folder, made if it is not there, when all of them are complete.
-
-    Parameters
-    ----------
-    folder : Path
-    names : iterable of str
-    force, inputs
-        As for `refuse_file`.
-
-    Yields
-    ------
-    list of Path
-        Where each is to be written meanwhile.
-    """
+    """Places where files are written meanwhile; they appear in their folder, made if it is not there, when all of them are complete."""
     names = list(names)
     for name in names:
         refuse_file(folder / name, force, inputs, "name another place with -o")
@@ -216,16 +134,7 @@ def all_or_none(folder: Path, names: Iterable[str], force: bool, inputs: tuple[P
 
 
 def put_together(folder: Path, files: Mapping[str, bytes], force: bool, inputs: tuple[Path, ...] = ()) -> None:
-    """Writes files that appear in their folder, made if it is not there, when all of them are complete.
-
-    Parameters
-    ----------
-    folder : Path
-    files : mapping
-        Name and content.
-    force, inputs
-        As for `refuse_file`.
-    """
+    """Writes files that appear in their folder, made if it is not there, when all of them are complete."""
     with all_or_none(folder, files, force, inputs) as places:
         for place, content in zip(places, files.values(), strict=True):
             place.write_bytes(content)

@@ -71,25 +71,7 @@ def _scheme(key: Any) -> str:
 
 
 def call(arguments: Sequence[str | os.PathLike[str]], progress: bool | None = None) -> Any:
-    """Calls the program with ``--json`` and returns its output, as `listen` does.
-
-    Parameters
-    ----------
-    arguments : sequence of str or path
-        Command and arguments.
-    progress : bool, optional
-        Whether progress is shown; by default in a notebook and in a terminal.
-
-    Returns
-    -------
-    object
-        The JSON document: dictionaries, lists, numbers and text; None if the program prints nothing because there was nothing to do.
-
-    Raises
-    ------
-    PlateauError
-        With the message of the program. Its warnings are given as `PlateauWarning`.
-    """
+    """Calls the program with ``--json``, as `listen` does, and returns the document; None if nothing was to be done."""
     document = listen([*arguments, "--json"], progress, 4)
     try:
         return json.loads(document) if document.strip() else None
@@ -98,22 +80,7 @@ def call(arguments: Sequence[str | os.PathLike[str]], progress: bool | None = No
 
 
 def file_name(path: str | os.PathLike[str], what: str) -> str:
-    """A path as an argument that the program does not read as an option.
-
-    Parameters
-    ----------
-    path : str or path
-    what : str
-        The name of the file in messages, such as "a scene".
-
-    Returns
-    -------
-    str
-
-    Raises
-    ------
-    InputTypeError
-        If it is not a path.
+    """A path as an argument that the program does not read as an option; messages name `what` it is, such as "a scene".
 
     Examples
     --------
@@ -128,25 +95,9 @@ def file_name(path: str | os.PathLike[str], what: str) -> str:
 
 
 def listen(arguments: Sequence[str | os.PathLike[str]], progress: bool | None = None, stacklevel: int = 3) -> str:
-    """Calls the program and returns its standard output.
+    """Calls the program and returns its standard output; its errors are `PlateauError`, its warnings `PlateauWarning`.
 
-    Parameters
-    ----------
-    arguments : sequence of str or path
-        Command and arguments.
-    progress : bool, optional
-        Whether progress is shown; by default in a notebook and in a terminal.
-    stacklevel : int
-        The caller whose line is named in warnings, as in ``warnings.warn``.
-
-    Returns
-    -------
-    str
-
-    Raises
-    ------
-    PlateauError
-        With the message of the program. Its warnings are given as `PlateauWarning`.
+    Progress is shown in notebooks and terminals unless told; `stacklevel` is the caller whose line is named in warnings.
     """
     try:
         command = [find_program(), *[os.fspath(argument) for argument in arguments]]

@@ -101,20 +101,10 @@ def open_run(path: str | os.PathLike[str]) -> xarray.DataTree:
 
 
 def locking(path: str | os.PathLike[str]) -> dict[str, Any]:
-    """How a file is to be opened: without locks where it cannot be locked, as on many network file systems. A reader needs none.
+    """Options of `h5py.File` for a file: without locks where it cannot be locked, as on many network file systems. A reader needs none.
 
     HDF5 refuses to open a file with locks and without at the same time. So where there are locks, files are opened with them, as
     other users of h5py in this process do.
-
-    Parameters
-    ----------
-    path : path
-        An HDF5 file.
-
-    Returns
-    -------
-    dict
-        Options of `h5py.File`.
     """
     try:
         with h5py.File(path, "r"):
@@ -124,24 +114,7 @@ def locking(path: str | os.PathLike[str]) -> dict[str, Any]:
 
 
 def array(run: xarray.DataTree, path: str) -> xarray.DataArray:
-    """A variable of a run by its path.
-
-    Parameters
-    ----------
-    run : xarray.DataTree
-        As for `open_run`.
-    path : str
-        Such as ``"series/contact_area"``.
-
-    Returns
-    -------
-    xarray.DataArray
-
-    Raises
-    ------
-    UnknownNameError
-        If the run has no such variable.
-    """
+    """A variable of a run by its path, such as ``"series/contact_area"``; `UnknownNameError` if there is none."""
     try:
         found = run[path]
     except KeyError:

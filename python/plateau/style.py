@@ -54,22 +54,7 @@ def _look() -> Any:
 
 
 def saved(figures: Mapping[str, Any], formats: Sequence[str] | None = None, dpi: int | None = None) -> dict[str, bytes]:
-    """Files of figures; equal figures give equal files.
-
-    Parameters
-    ----------
-    figures : mapping
-        Name and figure.
-    formats : sequence of str, optional
-        Of png, svg and pdf; all unless given.
-    dpi : int, optional
-        Pixels per inch, also of maps within svg and pdf.
-
-    Returns
-    -------
-    dict
-        Name with ending, and content.
-    """
+    """Files of figures by name with ending, of all formats unless told; equal figures give equal files. `dpi` is also that of maps within svg and pdf."""
     import matplotlib
 
     files = {}

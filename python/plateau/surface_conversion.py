@@ -94,23 +94,7 @@ def convert(path: str | os.PathLike[str], output: str | os.PathLike[str] | None 
 
 
 def read(path: Path, content: bytes) -> Heights:
-    """Heights of a file by whichever library reads it.
-
-    Parameters
-    ----------
-    path : Path
-    content : bytes
-        What is in it.
-
-    Returns
-    -------
-    Heights
-
-    Raises
-    ------
-    InputError
-        If none reads it, with what each says.
-    """
+    """Heights of a file by whichever library reads it; `InputError` if none does, with what each says."""
     if content.startswith(NATIVE):
         raise InputError(f"{path} need not be converted: plateau surface and scenes read it as it is")
     text = read_text(path, content)

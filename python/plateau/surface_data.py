@@ -109,22 +109,10 @@ class Surface:
 
 
 def power_spectrum(heights: Any, pitch: float, axis: int) -> tuple[Any, Any]:
-    """The mean power spectral density of profiles.
+    """Spatial frequencies, 1/m, and the one-sided mean power spectral density, m³, of profiles along x (axis 1) or y (0), with a Hann window.
 
-    Parameters
-    ----------
-    heights : array
-        Rows along x, columns along y, m. Missing points are interpolated; profiles of which less than half was measured are left out.
-    pitch : float
-        Distance of the points, m.
-    axis : int
-        1 for profiles along x, 0 for those along y.
-
-    Returns
-    -------
-    tuple of array
-        Spatial frequencies, 1/m, and the one-sided density, m³, with a Hann window; its integral is the mean square of the profiles,
-        each less its mean.
+    Its integral is the mean square of the profiles, each less its mean. Missing points are interpolated; profiles of which less than half was
+    measured are left out.
     """
     count = heights.shape[axis]
     window = 0.5 - 0.5 * np.cos(2 * np.pi * np.arange(count) / count)
@@ -156,18 +144,7 @@ def in_bands(frequency: Any, density: Any) -> tuple[Any, Any]:
 
 
 def autocorrelation(heights: Any, pitch: float, axis: int) -> tuple[Any, Any]:
-    """The autocorrelation along x or y, as that of Sal: the mean over all pairs of measured points.
-
-    Parameters
-    ----------
-    heights, pitch, axis
-        As for `power_spectrum`.
-
-    Returns
-    -------
-    tuple of array
-        Lags up to half the extent, m, and the autocorrelation.
-    """
+    """Lags up to half the extent, m, and the autocorrelation along x or y, as that of Sal: the mean over all pairs of measured points."""
     count = heights.shape[axis]
     lags, length, mean = count // 2 + 1, 2 * count, np.nanmean(heights)
     sums, pairs = np.zeros((2, count + 1))

@@ -2,17 +2,7 @@
 
 
 def decoded(content: bytes) -> str:
-    """The text of a file: UTF-8 or UTF-16, with byte order mark or without, else Windows-1252.
-
-    Parameters
-    ----------
-    content : bytes
-        All of the file.
-
-    Returns
-    -------
-    str
-        Without the byte order mark. What the encoding does not have is a replacement character.
+    """The text of a file: UTF-8 or UTF-16, with byte order mark or without, else Windows-1252. What the encoding does not have is a replacement character.
 
     Examples
     --------

@@ -166,17 +166,7 @@ TOKEN = re.compile(r"\s*(?:([()/*·⋅])|([A-Za-z]+|[1%])(-?[1-9])?)\s*")
 
 
 def scale_of(unit: str) -> tuple[tuple[int, ...], Fraction]:
-    """Powers of m, kg, s, rad and K of a unit, and how many SI units it is.
-
-    Parameters
-    ----------
-    unit : str
-        Such as ``"mm^3/(N m)"``.
-
-    Returns
-    -------
-    tuple
-    """
+    """Powers of m, kg, s, rad and K of a unit, such as ``"mm^3/(N m)"``, and how many SI units it is."""
     text, at, powers, factor = plain(unit), 0, [0] * 5, Fraction(1)
     # Only products and quotients: each symbol has the sign of all groups that it is in.
     groups, sign = [1], 1
@@ -200,25 +190,7 @@ def scale_of(unit: str) -> tuple[tuple[int, ...], Fraction]:
 
 
 def in_si(number: str | float, unit: str, si: str, *, is_difference: bool = False) -> float:
-    """A number with a unit in the SI unit of the same kind, correctly rounded.
-
-    Parameters
-    ----------
-    number : str or float
-        A finite number.
-    unit, si : str
-    is_difference : bool
-        Whether it is a difference, of which 5 °C are 5 K.
-
-    Returns
-    -------
-    float
-
-    Raises
-    ------
-    InputError
-        If the unit measures something else, or the number is too large.
-    """
+    """A number with a unit in the SI unit of the same kind, correctly rounded; of a difference 5 °C are 5 K."""
     # Exactly 1e-999999999 would be a number of as many digits.
     if not math.isfinite(float(number)):
         raise InputError(f"{number} {unit} is too large a number")
