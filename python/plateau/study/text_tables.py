@@ -94,7 +94,7 @@ def written_table(rows: Iterable[Sequence[str]]) -> bytes:
 
 def listed(cells: Sequence[Mapping[str, str]]) -> list[str]:
     """Lines of a table for people, of rows with cells by the heads of their columns."""
-    return aligned([list(cells[0]), *(list(row.values()) for row in cells)])
+    return aligned([*map(list, cells[:1]), *(list(row.values()) for row in cells)])
 
 
 def aligned(rows: Sequence[Sequence[str]], indent: str = "  ") -> list[str]:
