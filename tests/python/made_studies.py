@@ -33,7 +33,7 @@ def study_of(factors, columns, design="full-factorial", transform="none", respon
     own = pandas.DataFrame({"point": point, "replicate": 1, "order": runs.index, "same_as": runs.index, "state": "finished"}, index=runs.index)
     asked = [Response(name, unit, name, transform, -math.inf, math.inf, {}) for name, unit in (responses or {"y": "1"}).items()]
     runs = pandas.concat([own.drop(columns=[name for name in own if name in runs]), runs], axis=1)
-    return Study(title, design, list(factors), asked, runs, pandas.DataFrame(), pandas.DataFrame(), xarray.Dataset(), {}, None, Path())
+    return Study(title, design, list(factors), asked, runs, pandas.DataFrame(), xarray.Dataset(), {}, None, Path())
 
 
 def stored(said):

@@ -158,8 +158,6 @@ class Study:
     runs : pandas.DataFrame
         A row for each run, by its number: ``point``, ``replicate``, ``order``, ``same_as``, ``state``, and by their names all factors and
         responses, in SI units or words; NaN where a run gives no response.
-    errors : pandas.DataFrame
-        Standard errors of responses, where runs have them.
     table : pandas.DataFrame
         The same for people: quantities in the unit of their column head.
     data : xarray.Dataset
@@ -178,7 +176,6 @@ class Study:
     factors: list[Factor]
     responses: list[Response]
     runs: pandas.DataFrame
-    errors: pandas.DataFrame
     table: pandas.DataFrame
     data: xarray.Dataset
     document: dict[str, Any]

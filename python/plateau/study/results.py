@@ -84,20 +84,16 @@ def _opened(folder: Path, study: Path | None, directory: Path) -> Study:
         index = pandas.Index(data["run"].values.astype(int), name="run")
 
         factors, responses = [_factor(values) for values in with_role["factor"]], with_role["response"]
-        of_factors = {factor.name: values.values for factor, values in zip(factors, with_role["factor"], strict=True)}
         taken = {*own, *(factor.name for factor in factors)}
-
-        def columns(role: str) -> dict[str, Any]:
-            return {_name(values, "response", taken): values.values for values in with_role[role]}
-
+        named = {_name(values, "response", taken): values for values in responses}
+        columns = own | {factor.name: values.values for factor, values in zip(factors, with_role["factor"], strict=True)}
         asked = {str(table.get("name", table.get("dataset", "").rsplit("/")[-1])): table for table in document.get("response", [])}
         study_of = Study(
             title=str(data.attrs["title"]),
             design=str(data.attrs["design"]),
             factors=factors,
-            responses=[_response(values, asked, _name(values, "response", taken)) for values in responses],
-            runs=pandas.DataFrame({**own, **of_factors, **columns("response")}, index=index),
-            errors=pandas.DataFrame(columns("standard error"), index=index),
+            responses=[_response(values, asked, name) for name, values in named.items()],
+            runs=pandas.DataFrame(columns | {name: values.values for name, values in named.items()}, index=index),
             table=table,
             data=data,
             document=document,
@@ -129,7 +125,7 @@ def _with_imported(study: Study) -> Study:
     return study
 
 
-ROLES = ("factor", "response", "standard error")
+ROLES = ("factor", "response")
 # Columns that stand beside those of factors in tables of runs and answers.
 COLUMNS = {"point", "replicate", "order", "same_as", "state", "error", "run", "place", "response", "unit", "value", "leverage", "beyond", "cautions"}
 COLUMNS |= {"mean", "low", "high", "observed", "runs", "round", "expected_improvement", "is_within", "confirmed", "check", "forecast", "deviation", "held"}
