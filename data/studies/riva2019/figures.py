@@ -11,7 +11,7 @@ import numpy as np
 import xarray
 from discs import NAMES
 from history import END, LONG_END, opened, run_of
-from maps import BANDS
+from maps import BANDS, LATE
 from matplotlib.colors import ListedColormap, LogNorm, Normalize
 from tables import m_of, m_of_one
 
@@ -111,7 +111,18 @@ def of_the_start(run: Maps) -> Normalize:
 def with_strength() -> dict[str, dict[str, Maps]]:
     """Runs of the first set of surfaces by both rules, by the words of a row of panels."""
     names = {"plain rule": "set-local", "transport length 200 µm, strength 5 MPa": "strength"}
-    return {words: {heights: load(HERE / "runs" / f"{name}-1-{heights}.h5") for heights in NAMES} for words, name in names.items()}
+    paths = {words: {heights: HERE / "runs" / f"{name}-1-{heights}.h5" for heights in NAMES} for words, name in names.items()}
+    return {words: {heights: load(path) | {"pin/usual status": usual_status(path)} for heights, path in of.items()} for words, of in paths.items()}
+
+
+def usual_status(path: Path) -> xarray.DataArray:
+    """The pin's status at the moment near the end whose share of secondary plateaus is nearest the mean of these moments."""
+    run = opened(path)
+    times = run["map_time"].values
+    late = run.isel(map_time=np.flatnonzero((times > END - LATE) & (times < END + 1)))
+    secondary = late.plateau.build_up("pin") > 0
+    shares = secondary.mean(["pin_angle", "radius"]).values
+    return xarray.where(secondary.isel(map_time=int(np.abs(shares - shares.mean()).argmin())), 2, run["pin/base"])
 
 
 def of_both_rules(rows: dict[str, dict[str, Maps]], name: str, values, norm: Normalize, cmap=None, label: str = "") -> None:
@@ -267,7 +278,7 @@ def statuses_and_heights() -> None:
     of_both_rules(rows, "fig10", lambda run: at(run, "disc/status", END)[:PIECE], statuses, STATUS)
     every = [pin_height(run) for runs in rows.values() for run in runs.values()]
     of_both_rules(rows, "fig11", pin_height, scale(every), label="height above the mean fibre, µm")
-    of_both_rules(rows, "fig12", lambda run: at(run, "pin/status", END), statuses, STATUS)
+    of_both_rules(rows, "fig12", lambda run: run["pin/usual status"], statuses, STATUS)
 
 
 def main() -> None:

@@ -1,7 +1,7 @@
 #!/bin/sh
 # The whole study: runs without time acceleration of the paper's three discs with local and with pooled debris, sets of surfaces,
 # checks of symmetry, what the local rule rests on, and what a strength of the build-up does; then all numbers, figures and tables.
-# Takes four hours or more on two cores. Called again after it was stopped, it goes on.
+# Takes six hours or more on two cores. Called again after it was stopped, it goes on.
 #
 # usage: data/studies/riva2019/run.sh [--keep-pooled]
 #   --keep-pooled  without the runs with pooled debris and without time acceleration: their numbers are those that were kept in

@@ -39,13 +39,19 @@ def lower(key: str) -> Callable[[claims.Of], bool]:
 ASKED: dict[str, Callable[[claims.Of], bool]] = {
     "filled as in the paper": claims.near_the_paper,
     "less on the rough disc": lower("disc_secondary"),
+    "more, the smoother the disc": claims.rising("disc_secondary"),
     "less on the rough disc's pin": lower("pin_secondary"),
+    "more on the pin, the smoother the disc": claims.rising("pin_secondary"),
     "more even pressure": lambda of: of("pressure_gini", "1") > max(of("pressure_gini", "0.1"), of("pressure_gini", "0.01")),
+    "more even, the smoother the disc": claims.falling("pressure_gini"),
     "lower contact area": lower("contact_area_mean"),
+    "larger area, the smoother the disc": claims.rising("contact_area_mean"),
     "longer run-in": claims.falling("run_in"),
+    "heights / 10 not steady": lambda of: of("drift", "0.1") > of("drift_error", "0.1"),
     "wears more on the rough disc": lambda of: of("wear", "1") > max(of("wear", "0.1"), of("wear", "0.01")),
     "wear falls": lambda of: of("wear", "1") < of("first_wear", "1"),
     "wear falls, heights / 10": lambda of: of("wear", "0.1") < of("first_wear", "0.1"),
+    "wear falls, heights / 100": lambda of: of("wear", "0.01") < of("first_wear", "0.01"),
     "emits more on the rough disc": lambda of: of("emitted", "1") > max(of("emitted", "0.1"), of("emitted", "0.01")),
 }
 
@@ -115,13 +121,13 @@ def levels(study: str, key: str, end: float) -> dict[str, object]:
 
 
 def unknowns() -> dict[str, object]:
-    """Filling with other correlation lengths and fibre fractions."""
+    """Filling with other correlation lengths and fibre fractions, set by set."""
     data = plateau.open_study(HERE / "unknowns").table
     found: dict[str, dict[str, list[float]]] = {}
     for _, run in data.iterrows():
         name = f"{run['correlation length [um]']:g} µm, {run['fibre fraction']:g}"
         found.setdefault(name, {}).setdefault(heights_of(run["heights"]), []).append(run["filled"])
-    return {name: {heights: measures.interval(values) for heights, values in discs.items()} for name, discs in found.items()}
+    return found
 
 
 def on_the_paper_s_mesh(name: str) -> dict[str, object]:

@@ -29,15 +29,21 @@ OF_STRENGTHS = [
 #: Claims of strength.py, in the words of the table.
 CLAIMS = {
     "filled as in the paper": "1, near the paper's",
-    "less on the rough disc": "2, rough against both smooth ones",
-    "less on the rough disc's pin": "3, rough against both smooth ones",
-    "more even pressure": "5, rough against both smooth ones",
-    "lower contact area": "6",
-    "longer run-in": "7, first half",
-    "wears more on the rough disc": "Federici: smoother discs wear less",
-    "wear falls": "Federici: wear falls, rough disc",
+    "less on the rough disc": "2, rough disc against both",
+    "more, the smoother the disc": "… strict order",
+    "less on the rough disc's pin": "3, by status, rough disc against both",
+    "more on the pin, the smoother the disc": "… strict order",
+    "more even pressure": "5, rough disc against both",
+    "more even, the smoother the disc": "… strict order",
+    "lower contact area": "6, rough disc against both",
+    "larger area, the smoother the disc": "… strict order",
+    "longer run-in": "7, run-in, strict order",
+    "heights / 10 not steady": "7, heights / 10 not steady",
+    "wears more on the rough disc": "rough disc wears more than both",
+    "wear falls": "wear falls, rough disc",
     "wear falls, heights / 10": "… heights / 10",
-    "emits more on the rough disc": "smoother discs emit less",
+    "wear falls, heights / 100": "… heights / 100",
+    "emits more on the rough disc": "rough disc emits more than both",
 }
 
 
@@ -72,10 +78,11 @@ def table_strengths() -> str:
 def table_strength_claims() -> str:
     """In how many sets of surfaces each claim holds with each strength."""
     found = strengths()
-    text = head("claim; in how many sets", *map(named, found))
+    text = head("holds in so many of ten sets", *map(named, found))
     for claim, words in CLAIMS.items():
-        text += row(words, *(f"{of['holds'][claim][0]} of {of['holds'][claim][1]}" for of in found.values()))
-    return text
+        text += row(words, *(f"{of['holds'][claim][0]}" for of in found.values()))
+    late = strengths("late").values()
+    return text + row("rough disc wears more than both, after 7200 s", *(f"{of['holds']['wears more on the rough disc'][0]}" for of in late))
 
 
 def table_counterface() -> str:
@@ -98,10 +105,10 @@ def table_levels() -> str:
 
 
 def table_unknowns() -> str:
-    """Filling with other correlation lengths and fibre fractions."""
-    text = head("correlation length, fibre fraction: filled, %", *NAMES.values())
+    """Filling with other correlation lengths and fibre fractions, set by set."""
+    text = head("correlation length, fibre fraction: filled in three sets, %", *NAMES.values())
     for name, discs in value("strength/unknowns").items():
-        text += row(name, *(with_interval(discs[heights], 100, ".1f") for heights in NAMES))
+        text += row(name, *(", ".join(shown(100 * one, ".0f") for one in discs[heights]) for heights in NAMES))
     return text
 
 
