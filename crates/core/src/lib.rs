@@ -9,7 +9,7 @@
 //! | h_m | m | height that resin loses when it touches | [`material`](model::material) |
 //! | F_N, ω, h, m | N, rad/s, m, 1 | load, rotational speed, foundation height, time acceleration | [`parameters`](model::parameters) |
 //! | z_d, b_d, z_p, b_p | m | surface and substrate height of disc and pin | [`state`](model::state) |
-//! | k = E*/h | Pa/m | stiffness per area of a pair | `engine::pair` |
+//! | k = E*/h | Pa/m | stiffness per area of a pair | `engine::coefficients` |
 //! | δ, u, p | m, m, Pa | displacement of the pin, overlap, pressure p = k u | `engine::contact` |
 //! | M, s, η, β | m³, m, 1, 1 | debris pool, its share per open cell, captured fraction, pad share | [`step`](model::step) |
 //!

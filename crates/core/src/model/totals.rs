@@ -14,7 +14,7 @@ pub struct Totals {
     pub worn_resin: RunningSum,
     /// Worn off the disc.
     pub worn_disc: RunningSum,
-    /// Build-up of unsupported plateaus.
+    /// Build-up of the pin that lost its support or broke away.
     pub returned: RunningSum,
     /// Compacted on the pin.
     pub deposited_pin: RunningSum,

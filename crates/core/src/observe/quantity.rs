@@ -75,7 +75,7 @@ pub const QUANTITIES: &[Quantity] = quantities! {
     emitted, "m3", "wear debris that left the contact of the simulated pin";
     deposited_pin, "m3", "wear debris compacted on the pin";
     deposited_disc, "m3", "wear debris compacted on the disc";
-    returned, "m3", "build-up of unsupported plateaus returned to the pool";
+    returned, "m3", "build-up of the pin that lost its support (to the pool) or broke away (emitted)";
     pin_primary, "1", "area fraction of the pin that is primary plateau";
     pin_secondary, "1", "area fraction of the pin that is secondary plateau";
     pin_none, "1", "area fraction of the pin that is no plateau";

@@ -44,7 +44,7 @@ pub struct Sample {
     pub deposited_pin: f64,
     /// Debris compacted on the disc, m³, cumulative.
     pub deposited_disc: f64,
-    /// Build-up of unsupported plateaus that went back to the pool, m³, cumulative.
+    /// Build-up of the pin that lost its support or broke away, m³, cumulative.
     pub returned: f64,
     /// Area fraction of the pin that is primary plateau.
     pub pin_primary: f64,
