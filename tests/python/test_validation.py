@@ -168,11 +168,13 @@ class Strength(unittest.TestCase):
         self.assertAlmostEqual(found["emitted"], 3e-6)
 
     def test_claims_are_counted_over_sets(self) -> None:
-        keys = ("filled", "disc_secondary", "pin_secondary", "pressure_gini", "contact_area_mean", "run_in", "wear", "first_wear", "emitted")
+        keys = ("filled", "disc_secondary", "pin_secondary", "pressure_gini", "contact_area_mean", "run_in", "drift", "drift_error")
+        keys += ("wear", "first_wear", "emitted")
         # In the first set everything falls from disc to disc, in the second everything is equal.
         discs = {heights: [dict.fromkeys(keys, value), dict.fromkeys(keys, 1.0)] for heights, value in (("1", 3.0), ("0.1", 2.0), ("0.01", 1.0))}
         held = {name: found[0] for name, found in strength.holds(discs).items()}
-        falling = ("more even pressure", "longer run-in", "wears more on the rough disc", "emits more on the rough disc")
+        falling = ("more even pressure", "more even, the smoother the disc", "longer run-in")
+        falling += ("wears more on the rough disc", "emits more on the rough disc")
         self.assertEqual(held, {name: 1 if name in falling else 0 for name in held})
 
 
