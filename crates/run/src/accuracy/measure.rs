@@ -80,7 +80,7 @@ pub fn measure(
     let mut run =
         Measurement { wish, surfaces, finest: None, execution, observer, started, step_time: 0.0, notes: Vec::new() };
     if read.is_none() {
-        run.finest = run.halve()?;
+        run.finest = run.halve();
     }
     let model = run.rung(1.0)?;
     run.step_time = try_steps(&model.scene, run.surfaces_of(&model)?, execution)? / model.cells.work().sqrt();
@@ -138,23 +138,28 @@ impl Measurement<'_> {
     }
 
     /// Makes the surfaces on the mesh of halved cells, if the mesh is to be varied and the cell is a numerical setting.
-    fn halve(&mut self) -> Result<Option<InitialSurfaces>, AccuracyError> {
+    fn halve(&mut self) -> Option<InitialSurfaces> {
         if !self.wish.ladders.contains(&Ladder::Mesh) {
-            return Ok(None);
+            return None;
         }
         if self.base().parameters.plateaus.transport_length.is_none() {
             let note = "the cell is part of the model of this scene, so the mesh is not varied; with \
                         plateaus.transport_length it is a numerical setting";
             self.notes.push(note.to_owned());
-            return Ok(None);
+            return None;
         }
         let step = Step { ladder: Ladder::TimeAcceleration, value: 1.0, cells: Cells::Halved };
-        let rung = Rung::new(&self.wish.base, step, 1.0).map_err(PlanError::Scene)?;
+        let Ok(rung) = Rung::new(&self.wish.base, step, 1.0) else {
+            let note =
+                "the mesh is not varied: columns cannot be set where it is given in lengths, or the pin is round";
+            self.notes.push(note.to_owned());
+            return None;
+        };
         match surface::load(&rung.scene) {
-            Ok(loaded) => Ok(Some(loaded.surfaces)),
+            Ok(loaded) => Some(loaded.surfaces),
             Err(error) => {
                 self.notes.push(format!("the mesh is not varied: with {}, {error}", rung.setting()));
-                Ok(None)
+                None
             }
         }
     }
