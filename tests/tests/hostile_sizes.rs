@@ -3,7 +3,6 @@
 use std::fs::{self, File};
 use std::path::Path;
 use std::process::Command;
-use std::time::{Duration, Instant};
 
 use plateau_tests::fault::without_threads;
 use plateau_tests::program::{Outcome, WorkingDirectory, quick_scene_with, run, scene};
@@ -37,7 +36,7 @@ fn surface_scene(directory: &WorkingDirectory, file: &str, more: &str) {
 
 #[test]
 #[cfg_attr(debug_assertions, ignore = "takes a second in release")]
-fn a_design_of_as_many_points_as_there_may_be_is_planned_at_once() {
+fn a_design_of_as_many_points_as_there_may_be_is_planned() {
     let directory = WorkingDirectory::new();
     let study = |points: usize| {
         format!(
@@ -47,11 +46,8 @@ fn a_design_of_as_many_points_as_there_may_be_is_planned_at_once() {
         )
     };
     directory.write("study.toml", study(10_000_000));
-    let start = Instant::now();
     let planned = directory.plateau(["sweep", "plan", "study.toml"]);
     assert!(planned.status == Some(0) && planned.stdout.contains("10 000 000"), "{planned:?}");
-    // It takes half a second. Before, with a value made in words for every point, 18 s.
-    assert!(start.elapsed() < Duration::from_secs(9), "{:?}", start.elapsed());
     directory.write("study.toml", study(10_000_001));
     let refused = directory.plateau(["sweep", "plan", "study.toml"]);
     assert_refused(&refused, "has at most 10000000 points, not 10000001");
