@@ -3,7 +3,6 @@
 usage: evaluate.py, in the environment .venv of the checkout with PYTHONPATH=python
 """
 
-import json
 import re
 import sys
 from pathlib import Path
@@ -14,8 +13,8 @@ import plateau
 
 HERE = Path(__file__).parent
 sys.path.append(str(HERE.parent / "riva2019"))
-import measures  # noqa: E402, where the other study is
-from history import history  # noqa: E402
+from as_json import as_text  # noqa: E402, where the other study is
+from history import finished_runs, history  # noqa: E402
 
 #: Length of a cell along the sliding direction in um, by the columns of the disc.
 CELLS = {346: "100", 692: "50", 1384: "25", 2768: "12.5"}
@@ -30,14 +29,8 @@ def runs() -> Found:
     """Return the numbers of every finished run of both studies."""
     found: Found = {}
     for study in ("length", "cell"):
-        data = plateau.open_study(HERE / study).data
-        finished = data.isel(run=np.flatnonzero(data["state"] == "finished"))
-        for number in range(finished.sizes["run"]):
-            run = finished.isel(run=number)
-            time = run["time" if "time" in run else "sample_time"].values
-            known = np.isfinite(time)
-            series = {name: values.values[known] for name, values in run.data_vars.items() if values.ndim == 1}
-            numbers = history(series | {"time": time[known]}, END)
+        for run, series in finished_runs(plateau.open_study(HERE / study).data):
+            numbers = history(series, END)
             numbers["contact_ratio"] = numbers["contact_area_mean"] * (series["contact_ratio"] / series["contact_area"]).mean()
             numbers["worn"] = sum(series[name][-1] for name in ("worn_pin", "worn_resin", "worn_disc"))
             numbers["emitted"] = series["emitted"][-1]
@@ -92,26 +85,13 @@ def main() -> None:
         heights: compared(found, ("200", heights, 20, 1.0, "50"), ("200", heights, 20, 100.0, "50")) for heights in ("1", "0.1", "0.01")
     }
     results = {"values": values, "changes": changes, "rows": rows, "acceleration": accelerated, "runs": len(found)}
-    text = json.dumps(rounded(results), indent=1)
-    (HERE / "mesh.json").write_text(re.sub(r"\[[^\[\]{}]*\]", lambda part: " ".join(part.group().split()), text) + "\n")
+    (HERE / "mesh.json").write_text(as_text(results))
 
 
 def mean(found: Found, setting: tuple[str, str, int, float, str]) -> dict[str, list[float]]:
     """Mean, standard error and number of runs of every quantity with a setting."""
     of = [numbers for key, numbers in found.items() if key[:5] == setting]
     return {name: standard([numbers[name] for numbers in of]) for name in KEYS} if of else {}
-
-
-def rounded(value: object) -> object:
-    """With as many digits as anybody reads; what is not known is null."""
-    match value:
-        case float():
-            return float(f"{value:.5g}") if np.isfinite(value) else None
-        case dict():
-            return {key: rounded(entry) for key, entry in value.items()}
-        case list():
-            return [rounded(entry) for entry in value]
-    return value
 
 
 if __name__ == "__main__":

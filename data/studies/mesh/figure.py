@@ -31,7 +31,7 @@ def main() -> None:
         for rule, (name, colour, line, mark) in RULES.items():
             of = values[rule]["1"]
             cells = [float(cell) for cell in of]
-            means, errors = ([100 * (of[cell][key][part] or 0.0) for cell in of] for part in (0, 1))
+            means, errors = ([100 * of[cell][key][part] for cell in of] for part in (0, 1))
             axis.errorbar(cells, means, errors, label=name, color=colour, linestyle=line, marker=mark, markersize=4, linewidth=1, capsize=2)
         axis.set(xscale="log", xlabel="cell along the sliding direction, µm", ylabel=label, ylim=(0, None))
         axis.set_xticks([100, 50, 25, 12.5], ["100", "50", "25", "12.5"])

@@ -10,7 +10,7 @@ import measures
 import numpy as np
 import xarray
 from discs import SCENES
-from history import history
+from history import finished_runs, history
 from make_points import DEFAULT, VARIANTS
 from readings import READINGS, SEEDS
 
@@ -58,15 +58,10 @@ def runs_of(study: Path, variants: Collection[str]) -> Iterator[tuple[str, str, 
         return
     # In the order of points.csv.
     keys = [(name, heights) for name in VARIANTS for heights in SCENES]
-    series = [name for name, values in data.data_vars.items() if values.ndim == 2 and name != "sample_time"]
-    finished = data.isel(run=np.flatnonzero(data["state"] == "finished")).sortby("replicate")
-    for number in range(finished.sizes["run"]):
-        run = finished.isel(run=number)
+    for run, series in finished_runs(data):
         name, heights = keys[int(run["point"]) - 1]
         if name in variants:
-            time = run["time" if "time" in run else "sample_time"].values
-            there = np.isfinite(time)
-            yield name, heights, {key: run[key].values[there] for key in series} | {"time": time[there]}
+            yield name, heights, series
 
 
 def of_scenes(study: Path) -> Found:

@@ -5,7 +5,6 @@ usage: evaluate.py, in the environment .venv of the checkout with PYTHONPATH=pyt
 
 import itertools
 import json
-import re
 import sys
 from dataclasses import asdict
 from pathlib import Path
@@ -17,6 +16,7 @@ import maps
 import measures
 import numpy as np
 import xarray
+from as_json import as_text
 from discs import SCENES
 from history import END, LONG_END, at, history, opened, reached, run_of, series_of, window_means
 
@@ -208,24 +208,6 @@ def core_hours() -> float:
             seconds += float(opened(path).attrs.get("wall_time", 0.0))
     others = choices.collected(CHOICES)
     return (seconds + (0.0 if others is None else float(others["wall_time"].values.sum()))) / 3600
-
-
-def rounded(value: object) -> object:
-    """With as many digits as anybody reads."""
-    match value:
-        case float():
-            return float(f"{value:.6g}")
-        case dict():
-            return {key: rounded(entry) for key, entry in value.items()}
-        case list() | tuple():
-            return [rounded(entry) for entry in value]
-    return value
-
-
-def as_text(results: object) -> str:
-    """JSON with a line for each number, but for lists, which have a line for themselves."""
-    text = json.dumps(rounded(results), indent=1)
-    return re.sub(r"\[[^\[\]{}]*\]", lambda found: " ".join(found.group().split()), text) + "\n"
 
 
 def main() -> None:

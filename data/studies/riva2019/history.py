@@ -1,5 +1,6 @@
 """What the series of a run say up to a time."""
 
+from collections.abc import Iterator
 from functools import cache
 from pathlib import Path
 
@@ -42,6 +43,18 @@ def series_of(run: xarray.DataTree) -> dict[str, np.ndarray]:
     """All series of a run as far as it came, and their time."""
     table = run.plateau.series
     return {name: table[name].to_numpy() for name in table} | {"time": table.index.to_numpy()}
+
+
+def finished_runs(data: xarray.Dataset) -> Iterator[tuple[xarray.Dataset, dict[str, np.ndarray]]]:
+    """Every finished run of a collected study with all its series and their time, sets of surfaces in their order."""
+    series = [name for name, values in data.data_vars.items() if values.ndim == 2 and name != "sample_time"]
+    finished = data.isel(run=np.flatnonzero(data["state"] == "finished"))
+    finished = finished.sortby("replicate") if "replicate" in finished else finished
+    for number in range(finished.sizes["run"]):
+        run = finished.isel(run=number)
+        time = run["time" if "time" in run else "sample_time"].values
+        there = np.isfinite(time)
+        yield run, {key: run[key].values[there] for key in series} | {"time": time[there]}
 
 
 def at(time: np.ndarray, values: np.ndarray, moment: float) -> float:

@@ -3,23 +3,21 @@
 usage: strength.py, in the environment .venv of the checkout with PYTHONPATH=python; run.sh calls it
 """
 
-import json
 from collections.abc import Callable
 from pathlib import Path
 
 import claims
 import measures
 import numpy as np
+from as_json import as_text
 from discs import SCENES
-from evaluate import as_text, flat, run_numbers, there
-from history import END, LONG_END, at, history
+from evaluate import flat, run_numbers, there
+from history import END, LONG_END, at, finished_runs, history
 
 import plateau
 
 HERE = Path(__file__).parent
 RUNS = HERE / "runs"
-#: Strength of the build-up in Pa that no pressure reaches: none.
-NONE = 1e12
 #: Time over which wear is taken at the start and at the end, s.
 WHILE = 300.0
 #: Load of the reduced ring, N.
@@ -56,11 +54,6 @@ ASKED: dict[str, Callable[[claims.Of], bool]] = {
 }
 
 
-def heights_of(scale: float) -> str:
-    """Name of a disc by the factor on its heights."""
-    return f"{scale:g}"
-
-
 def numbers(series: dict[str, np.ndarray], end: float, load: float = LOAD) -> Numbers:
     """Numbers of a run at a time: those of every run, emitted volume, and specific wear of the whole pin at first and at last, 1/Pa."""
     time = series["time"]
@@ -73,27 +66,12 @@ def numbers(series: dict[str, np.ndarray], end: float, load: float = LOAD) -> Nu
     return history(series, end) | found
 
 
-def runs_of(study: str, key: str) -> list[tuple[str, str, dict[str, np.ndarray]]]:
-    """Value of a factor, disc and series of every finished run of a collected study, sets of surfaces in their order."""
-    data = plateau.open_study(HERE / study).data
-    finished = data.isel(run=np.flatnonzero(data["state"] == "finished"))
-    finished = finished.sortby("replicate") if "replicate" in finished else finished
-    series = [name for name, values in finished.data_vars.items() if values.ndim == 2 and name != "sample_time"]
-    found = []
-    for number in range(finished.sizes["run"]):
-        run = finished.isel(run=number)
-        time = run["time" if "time" in run else "sample_time"].values
-        known = np.isfinite(time)
-        values = {name: run[name].values[known] for name in series} | {"time": time[known]}
-        found.append((str(run[key].item()), heights_of(float(run["heights"])), values))
-    return found
-
-
 def by_value(study: str, key: str, end: float) -> dict[str, Discs]:
-    """Numbers of the runs of a study at a time, by the value of a factor; values of which a disc is missing are left out."""
+    """Numbers of the finished runs of a collected study at a time, by the value of a factor; values of which a disc is missing are left out."""
     found: dict[str, Discs] = {}
-    for value, heights, series in runs_of(study, key):
-        found.setdefault(value, {heights: [] for heights in SCENES})[heights].append(numbers(series, end))
+    for run, series in finished_runs(plateau.open_study(HERE / study).data):
+        discs = found.setdefault(str(run[key].item()), {heights: [] for heights in SCENES})
+        discs[f"{float(run['heights']):g}"].append(numbers(series, end))
     return {value: discs for value, discs in found.items() if all(discs.values())}
 
 
@@ -107,17 +85,14 @@ def holds(discs: Discs) -> dict[str, list[float]]:
     return found
 
 
+def means(discs: Discs) -> dict[str, object]:
+    """Means with intervals of each disc."""
+    return {heights: claims.intervals(runs) for heights, runs in discs.items()}
+
+
 def told(discs: Discs) -> dict[str, object]:
     """Means with intervals of each disc, and what holds."""
-    return {"means": {heights: claims.intervals(runs) for heights, runs in discs.items()}, "holds": holds(discs)}
-
-
-def levels(study: str, key: str, end: float) -> dict[str, object]:
-    """Contact area over the last tenth and filling of each disc at the end of long runs, by the value of a factor."""
-    found: dict[str, dict[str, list[Numbers]]] = {}
-    for value, heights, series in runs_of(study, key):
-        found.setdefault(value, {}).setdefault(heights, []).append(history(series, end))
-    return {value: {heights: claims.intervals(runs) for heights, runs in discs.items()} for value, discs in found.items()}
+    return {"means": means(discs), "holds": holds(discs)}
 
 
 def unknowns() -> dict[str, object]:
@@ -126,7 +101,7 @@ def unknowns() -> dict[str, object]:
     found: dict[str, dict[str, list[float]]] = {}
     for _, run in data.iterrows():
         name = f"{run['correlation length [um]']:g} µm, {run['fibre fraction']:g}"
-        found.setdefault(name, {}).setdefault(heights_of(run["heights"]), []).append(run["filled"])
+        found.setdefault(name, {}).setdefault(f"{run['heights']:g}", []).append(run["filled"])
     return found
 
 
@@ -139,8 +114,8 @@ def on_the_paper_s_mesh(name: str) -> dict[str, object]:
     late = {heights: [read[of_set[disc]]["history"][f"{LONG_END:.0f}"] for of_set in whole] for disc, heights in enumerate(SCENES)}
     return {
         "sets": len(whole),
-        "means": {heights: claims.intervals(runs) for heights, runs in discs.items()},
-        "late": {heights: claims.intervals(runs) for heights, runs in late.items()},
+        "means": means(discs),
+        "late": means(late),
         "holds": claims.holds(discs),
     }
 
@@ -151,9 +126,8 @@ def main() -> None:
         "strengths": {value: told(discs) for value, discs in by_value("../strength", "strength", END).items()},
         "late": {value: told(discs) for value, discs in by_value("../strength", "strength", LONG_END).items()},
         "counterface": {value: told(discs) for value, discs in by_value("counterface", "strength", END).items()},
-        "steady": levels("steady", "wear_rate_of_the_disc_s_build_up", 15000.0),
-        "steady at 8000 s": levels("steady", "wear_rate_of_the_disc_s_build_up", 8000.0),
-        "levels": levels("levels", "state", 30000.0),
+        "steady": {value: means(discs) for value, discs in by_value("steady", "wear_rate_of_the_disc_s_build_up", 15000.0).items()},
+        "levels": {value: means(discs) for value, discs in by_value("levels", "state", 30000.0).items()},
         "unknowns": unknowns(),
         "full": {name: on_the_paper_s_mesh(name) for name in ("length", "strength")},
     }

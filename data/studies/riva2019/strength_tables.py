@@ -4,7 +4,7 @@ import json
 from pathlib import Path
 
 from discs import NAMES
-from tables import RESULTS, head, row, shown, value, with_interval
+from tables import ASKED, RESULTS, head, row, shown, value, with_interval
 
 HERE = Path(__file__).parent
 RESULTS |= {
@@ -57,7 +57,7 @@ def strengths(part: str = "strengths") -> dict[str, dict]:
     return dict(sorted(value(f"strength/{part}").items(), key=lambda one: float(one[0])))
 
 
-def table_of(part: str) -> str:
+def table_means(part: str) -> str:
     """Means over sets of surfaces of the three discs after 3000 s with every strength, and the widest of their intervals."""
     found = strengths(part)
     text = head("strength", *(heading for heading, *_ in OF_STRENGTHS))
@@ -70,11 +70,6 @@ def table_of(part: str) -> str:
     return text + row(*widest)
 
 
-def table_strengths() -> str:
-    """Every strength."""
-    return table_of("strengths")
-
-
 def table_strength_claims() -> str:
     """In how many sets of surfaces each claim holds with each strength."""
     found = strengths()
@@ -83,11 +78,6 @@ def table_strength_claims() -> str:
         text += row(words, *(f"{of['holds'][claim][0]}" for of in found.values()))
     late = strengths("late").values()
     return text + row("rough disc wears more than both, after 7200 s", *(f"{of['holds']['wears more on the rough disc'][0]}" for of in late))
-
-
-def table_counterface() -> str:
-    """The same with a quarter of the wear rate against build-up."""
-    return table_of("counterface")
 
 
 def table_levels() -> str:
@@ -112,18 +102,8 @@ def table_unknowns() -> str:
     return text
 
 
-#: What is told of the paper's pin with and without a strength, and its claims in claims.py.
-OF_FULL = [
-    ("1", "filled, %", "filled", 100, ".1f", "filled in order"),
-    ("2", "disc, secondary by status, %", "disc_secondary", 100, ".1f", "more on the disc"),
-    ("3", "pin, secondary by status, %", "pin_covered", 100, ".1f", "more on the pin, by status"),
-    ("4", "Sq of the fibres, nm", "sq_fibres", 1e9, ".0f", "smoother fibres"),
-    ("4", "Sq of the whole pin, µm", "sq_pin", 1e6, ".2f", "smoother pin"),
-    ("5", "Gini coefficient", "pressure_gini", 1, ".3f", "more even pressure"),
-    ("6", "contact area, mm²", "contact_area_mean", 1e6, ".2f", "lower contact area"),
-    ("7", "run-in, to 90 %, s", "run_in", 1, ".0f", "longer run-in"),
-    ("8", "inner less outer half, points", "inner_over_outer", 100, ".1f", "fuller inside"),
-]
+#: What is told of the paper's pin with and without a strength, of what tables.py asks of sets.
+OF_FULL = ("filled", "disc_secondary", "pin_covered", "sq_fibres", "sq_pin", "pressure_gini", "contact_area_mean", "run_in", "inner_over_outer")
 
 
 def table_full() -> str:
@@ -131,7 +111,7 @@ def table_full() -> str:
     kinds = {"length": "no strength", "strength": "5 MPa"}
     sets = value("strength/full/strength/sets")
     text = head("claim", f"after 3000 s, {sets} sets", *(cell for name in kinds.values() for cell in (name, "in order in")))
-    for number, words, key, factor, form, claim in OF_FULL:
+    for number, words, key, factor, form, claim in (one for one in ASKED if one[2] in OF_FULL):
         cells = []
         for kind in kinds:
             found = value(f"strength/full/{kind}")
@@ -157,10 +137,7 @@ CELLS = ("100", "50", "25", "12.5")
 
 def with_error(found: list[float] | None, factor: float, form: str) -> str:
     """Mean ± standard error; nothing where there is none."""
-    if not found:
-        return ""
-    mean, error, _ = found
-    return shown(mean * factor, form) + ("" if error is None else f" ± {shown(error * factor, form)}")
+    return with_interval(found[:2], factor, form) if found else ""
 
 
 def change(length: str, heights: str, what: str) -> str:
@@ -179,7 +156,7 @@ def table_lengths() -> str:
     return text
 
 
-def table_mesh(length: str, keys: tuple[str, ...]) -> str:
+def table_mesh(length: str, *keys: str) -> str:
     """Quantities on every mesh, and their change by the last halvings, with one transport length or the plain rule."""
     cells = [cell for cell in CELLS if cell in value(f"mesh/values/{length}/1")]
     halvings = [f"{coarse} to {fine}" for coarse, fine in zip(cells, cells[1:], strict=False)]
@@ -191,26 +168,6 @@ def table_mesh(length: str, keys: tuple[str, ...]) -> str:
             values = (with_error(of.get(cell, {}).get(key), factor, form) for cell in cells)
             text += row(heading, name, *values, *(with_error(changes.get(halving, {}).get(key), 100, ".1f") for halving in halvings[-2:]))
     return text
-
-
-def table_mesh_200() -> str:
-    """All quantities with a transport length of 200 um."""
-    return table_mesh("200", tuple(key for _, key, *_ in OF_MESH))
-
-
-def table_mesh_150() -> str:
-    """Filling with a transport length of 150 um."""
-    return table_mesh("150", ("filled",))
-
-
-def table_mesh_100() -> str:
-    """Filling with a transport length of 100 um."""
-    return table_mesh("100", ("filled",))
-
-
-def table_mesh_none() -> str:
-    """Filling and contact with the plain rule."""
-    return table_mesh("none", ("filled", "contact_ratio"))
 
 
 def table_mesh_numerics() -> str:

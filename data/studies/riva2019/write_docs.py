@@ -4,7 +4,7 @@ screen of README.md.
 usage: write_docs.py [--check]: with --check only says whether they agree, as exit status
 
 Templates have `{{path}}`, `{{path|format}}` and `{{path|factor|format}}`: a path in results.json, a factor and a Python
-format; with `*` in the path for the three discs, one after the other. `{{table NAME}}` is one of tables.py, friction_tables.py or strength_tables.py, `{{m runs}}` the
+format; with `*` in the path for the three discs, one after the other. `{{table NAME ARGUMENT...}}` is one of tables.py, friction_tables.py or strength_tables.py, `{{m runs}}` the
 time acceleration of a part of the study; between `{{if PATH}}`, `{{else}}` and `{{end}}` stands what depends on a part that may
 not be there yet; `{{change LENGTH HEIGHTS HALVING QUANTITY}}` is one of the mesh; `{{last tenth HEIGHTS END}}` is the mean contact area of a run at m = 1 over the last tenth of the time to its end, mm².
 """
@@ -51,9 +51,9 @@ def filled_in(template: str) -> str:
     def one(match: re.Match) -> str:
         what = match.group(1)
         if what.startswith("table "):
-            name = "table_" + what.removeprefix("table ")
-            module = next(of for of in (friction_tables, strength_tables, tables) if hasattr(of, name))
-            return getattr(module, name)().rstrip("\n")
+            name, *arguments = what.removeprefix("table ").split()
+            module = next(of for of in (friction_tables, strength_tables, tables) if hasattr(of, f"table_{name}"))
+            return getattr(module, f"table_{name}")(*arguments).rstrip("\n")
         if what.startswith("m "):
             return m_of(what.removeprefix("m "))
         if what.startswith("change "):

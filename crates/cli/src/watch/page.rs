@@ -4,7 +4,7 @@ use console::style;
 use plateau_io::number;
 use plateau_io::run_file::State;
 
-use super::{Look, Pace};
+use super::look::{Look, Pace};
 use crate::table::on_one_line;
 
 /// Characters of the dots of a curve.

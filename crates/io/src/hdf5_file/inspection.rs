@@ -9,6 +9,7 @@
 //! outside is opened, and links in a circle do no harm.
 
 use std::collections::HashSet;
+use std::fmt::Display;
 use std::fs::File;
 use std::hash::{BuildHasher, RandomState};
 use std::io::{self, Read, Seek};
@@ -18,8 +19,12 @@ use hdf5::plist::dataset_create::Layout;
 use hdf5::{Dataset, Group, IndexType, IterationOrder, LinkInfo, LinkType, LocationType};
 use memchr::memmem;
 
-use super::in_words;
 use crate::text::short;
+
+/// An error of something else, as one of the library with its words.
+pub(crate) fn in_words(error: impl Display) -> hdf5::Error {
+    error.to_string().into()
+}
 
 /// Beginning of an HDF5 file, at byte 0 or at 512, 1024 and so on.
 const SIGNATURE: &[u8] = b"\x89HDF\r\n\x1a\n";

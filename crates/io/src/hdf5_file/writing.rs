@@ -12,7 +12,7 @@ use hdf5::file::{File, FileBuilder};
 use hdf5::types::{FixedAscii, VarLenArray, VarLenUnicode};
 use hdf5::{Dataset, Datatype, H5Type, Location, ObjectReference1};
 
-use super::in_words;
+use super::inspection::in_words;
 
 /// Chunk cache of a dataset: slots, bytes, and 1 for "a chunk that is full goes first".
 ///

@@ -7,7 +7,7 @@ use plateau_core::model::material::Material;
 use plateau_core::model::mesh::Mesh;
 use plateau_core::surface::{HeightSynthesis, Length, Texture};
 
-use super::{Finding, Rule, apply, number, pressure_in_words, softest_plateau, too_much_pressure};
+use super::rule::{Finding, Rule, apply, number, pressure_in_words, softest_plateau, too_much_pressure};
 use crate::scene::{BaseSource, HeightSettings, HeightSource, Scene, Warning};
 
 /// Young's moduli of what brakes are made of, soft rubber and diamond included, Pa.

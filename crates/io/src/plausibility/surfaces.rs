@@ -6,7 +6,7 @@ use plateau_core::model::parameters::Parameters;
 use plateau_core::observe::Sample;
 use plateau_core::surface::Length;
 
-use super::{Finding, Rule, apply, number, softest_plateau, too_much_overlap, too_much_pressure};
+use super::rule::{Finding, Rule, apply, number, softest_plateau, too_much_overlap, too_much_pressure};
 use crate::scene::{HeightSettings, HeightSource, Scene, Warning};
 use crate::surface::Loaded;
 

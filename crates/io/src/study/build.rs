@@ -6,12 +6,13 @@ use std::path::Path;
 use plateau_study::design::{Alpha, Fraction, Kind};
 use toml::Spanned;
 
+use super::contents::{DesignSource, Order, Replicates, Study};
 use super::document::{self, Document};
 use super::factor::Factor;
 use super::factor_keys::{factors, stated_unit};
 use super::response::Response;
 use super::response_keys::{responses, series_name};
-use super::{DesignSource, Order, Replicates, Study, value_table};
+use super::value_table;
 use crate::scene::{Locator, Origin, Problem, schema};
 use crate::text::{self, MOST_PROBLEMS, short};
 

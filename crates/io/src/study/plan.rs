@@ -5,8 +5,8 @@ use std::path::Path;
 use plateau_study::design::{self, Aliases, Design, Setting};
 use plateau_study::shuffle;
 
+use super::contents::{DesignSource, Order, Study, StudyError};
 use super::factor::Level;
-use super::{DesignSource, Order, Study, StudyError};
 use crate::scene::{self, Origin, Problem, Scene, SceneError};
 
 /// The runs of a study.

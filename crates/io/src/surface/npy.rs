@@ -156,10 +156,10 @@ struct Dictionary<'a> {
 impl<'a> Dictionary<'a> {
     fn read(mut self) -> Result<Header, NpyError> {
         let (mut descr, mut fortran_order, mut shape) = (None, None, None);
-        self.expect('{')?;
+        self.require('{')?;
         while !self.take('}') {
             let key = self.quoted()?;
-            self.expect(':')?;
+            self.require(':')?;
             match key {
                 "descr" => descr = Some(self.descr()?),
                 "fortran_order" => fortran_order = Some(self.boolean()?),
@@ -167,7 +167,7 @@ impl<'a> Dictionary<'a> {
                 _ => return self.wrong("the keys descr, fortran_order and shape"),
             }
             if !self.take(',') {
-                self.expect('}')?;
+                self.require('}')?;
                 break;
             }
         }
@@ -189,7 +189,7 @@ impl<'a> Dictionary<'a> {
         rest.is_some()
     }
 
-    fn expect(&mut self, mark: char) -> Result<(), NpyError> {
+    fn require(&mut self, mark: char) -> Result<(), NpyError> {
         if self.take(mark) {
             Ok(())
         } else {
@@ -228,7 +228,7 @@ impl<'a> Dictionary<'a> {
     }
 
     fn shape(&mut self) -> Result<Vec<u64>, NpyError> {
-        self.expect('(')?;
+        self.require('(')?;
         let mut shape = Vec::new();
         while !self.take(')') {
             self.rest = self.rest.trim_start();
@@ -239,7 +239,7 @@ impl<'a> Dictionary<'a> {
             // Python 2 marked long integers.
             self.rest = rest.strip_prefix('L').unwrap_or(rest);
             if !self.take(',') {
-                self.expect(')')?;
+                self.require(')')?;
                 break;
             }
         }

@@ -12,8 +12,9 @@ use plateau_io::study::record::{Identity, dataset_of};
 use plateau_io::temporary::Temporary;
 use plateau_io::{number, text};
 
+use super::error::SweepError;
+use super::observer::SweepObserver;
 use super::resolved::Resolved;
-use super::{SweepError, SweepObserver};
 use crate::execution;
 
 /// Folder of the study's journal.

@@ -16,44 +16,48 @@
 //! | file | content |
 //! |---|---|
 //! | `resolved.rs` | scenes of the runs, built before any run is made |
-//! | `estimate.rs` | length and cost of the runs |
+//! | `run_length.rs` | length of the runs |
+//! | `estimate.rs` | cost of the runs |
 //! | `warnings.rs` | warnings of several runs, each kind once |
 //! | `earlier.rs` | the journal: results of before, those that are left out, series that were not kept |
 //! | `make.rs` | one run, from its scene to its record |
 //! | `under_way.rs` | runs that are under way: one process makes each, and keeps the state from which it continues |
 //! | `runner.rs` | several runs at a time |
+//! | `observer.rs`, `error.rs` | who follows the runs, and their failure as a whole |
 
 mod earlier;
+mod error;
 mod estimate;
 mod make;
+mod observer;
 mod resolved;
+mod run_length;
 mod runner;
 mod under_way;
 mod warnings;
 
 use std::collections::HashSet;
-use std::error::Error as StdError;
-use std::fmt::{self, Display};
 use std::path::Path;
 use std::time::Instant;
 
 use earlier::{is_whole, refuse_unwritable};
 use plateau_io::number;
+use plateau_io::study::Study;
 use plateau_io::study::journal::{Entry, Journal};
 use plateau_io::study::plan::Plan;
-use plateau_io::study::{Study, StudyError};
 use plateau_io::text::shown_on_one_line;
 use runner::Runner;
 use serde::Serialize;
-use thiserror::Error;
 
-use crate::error::lacks_resources;
 use crate::job::{Agreement, Job};
 use crate::options::Program;
 
 pub use earlier::{journal, journal_folder, say_left_out, say_unkept};
-pub use estimate::{Estimate, RunLength, note_short_tenths};
+pub use error::SweepError;
+pub use estimate::Estimate;
+pub use observer::SweepObserver;
 pub use resolved::{Resolved, ResolvedRun};
+pub use run_length::{RunLength, note_short_tenths};
 pub use warnings::{SceneWarnings, of_questions};
 
 /// Files that are no part of a journal, of which the names are told.
@@ -300,68 +304,3 @@ fn tidy(plan: &Plan, resolved: &Resolved, journal: &Journal, observer: &dyn Swee
         ));
     }
 }
-
-/// Failure of the runs of a study, which tells a wrong input from a failed run.
-#[derive(Debug, Error)]
-pub enum SweepError {
-    /// The study cannot be used: everything that is wrong with it.
-    #[error(transparent)]
-    Study(#[from] StudyError),
-    /// An input is wrong: a scene, a file that it names, the folder of the results.
-    #[error("{0}")]
-    Input(String),
-    /// Runs failed, their results could not be kept, or the system lacks what they take.
-    #[error("{0}")]
-    Failed(String),
-}
-
-impl SweepError {
-    /// A wrong input; or a failure, where the error says, or comes from one that says, that the system lacks what it takes to look at
-    /// the input.
-    pub(super) fn input(error: impl StdError + 'static) -> Self {
-        let message = error.to_string();
-        Self::because(&error, message)
-    }
-
-    /// As [`input`](Self::input), with a message of its own.
-    pub(super) fn because(error: &(dyn StdError + 'static), message: impl fmt::Display) -> Self {
-        let message = message.to_string();
-        if lacks_resources(error) { Self::Failed(message) } else { Self::Input(message) }
-    }
-
-    /// A failure.
-    pub(super) fn failed(error: impl fmt::Display) -> Self {
-        Self::Failed(error.to_string())
-    }
-}
-
-/// Follows the runs of a study and may stop them; called from several threads at a time. `()` observes nothing.
-pub trait SweepObserver: Sync {
-    /// Told what deserves attention though the runs go on.
-    fn warning(&self, _message: &dyn Display) {}
-
-    /// Told what is worth knowing.
-    fn note(&self, _message: &dyn Display) {}
-
-    /// Told that so many steps of all runs together were taken since the last time.
-    fn steps(&self, _count: u64) {}
-
-    /// Told that a run ended.
-    fn run_ended(&self, _failed: bool) {}
-
-    /// Told that no more runs are made.
-    fn ends(&self) {}
-
-    /// The number of the signal that asks the runs to stop, if one does. Looked at about ten times a second in each run; a run leaves
-    /// its state, from which the next sweep continues it.
-    fn asked_to_stop(&self) -> Option<u8> {
-        None
-    }
-
-    /// Advice, in messages, on how runs of a study are made again.
-    fn retry_advice(&self, _study: &Path) -> String {
-        "`retry` makes them again".to_owned()
-    }
-}
-
-impl SweepObserver for () {}

@@ -12,9 +12,10 @@ use plateau_io::study::response_series::lacking;
 use plateau_io::{input, text};
 use rayon::prelude::*;
 
-use super::estimate::{RunLength, seconds};
+use super::error::SweepError;
+use super::observer::SweepObserver;
+use super::run_length::{RunLength, seconds};
 use super::warnings::{Found, SceneWarnings, of_scene};
-use super::{SweepError, SweepObserver};
 
 /// Problems that are shown.
 const SHOWN: usize = 10;

@@ -18,11 +18,12 @@ use plateau_io::surface::Loaded;
 use plateau_io::{number, text};
 
 use super::earlier::{is_whole, journal_folder};
+use super::error::SweepError;
 use super::make::{MadeRun, Request, Watcher, make};
+use super::observer::SweepObserver;
 use super::resolved::{Resolved, needed};
 use super::under_way::{self, Others, UnderWay};
 use super::warnings::{SceneWarnings, of_questions, of_surfaces};
-use super::{SweepError, SweepObserver};
 use crate::execution;
 use crate::job::PieceEnd;
 

@@ -14,7 +14,7 @@ use plateau_io::run_file::checkpoint::{self, SimulationState};
 use plateau_io::temporary::Temporary;
 use serde::{Deserialize, Serialize};
 
-use super::SweepObserver;
+use super::observer::SweepObserver;
 use crate::assembly::Assembly;
 
 /// Folder of locks and states, in that of the results.

@@ -9,7 +9,7 @@ use plateau_io::study::Study;
 use plateau_io::study::response::NoAnswer;
 use plateau_io::surface::Loaded;
 
-use super::SweepObserver;
+use super::observer::SweepObserver;
 
 /// Kinds of warnings that are said.
 const SHOWN: usize = 10;

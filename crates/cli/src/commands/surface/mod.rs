@@ -2,6 +2,7 @@
 
 mod comparison;
 mod describe;
+mod document;
 mod figure_data;
 mod recorded;
 mod subject;
@@ -228,7 +229,7 @@ fn tell(
         return Ok(());
     }
     if arguments.json {
-        return print(&describe::document(subjects)?);
+        return print(&document::document(subjects)?);
     }
     let written: String = taken.iter().map(|path| format!("\nwrote {}\n", path.display())).collect();
     print(&(text::text(subjects) + &written))

@@ -16,6 +16,7 @@ mod rules;
 mod strip;
 mod transport;
 mod worn;
+mod worn_column;
 mod worn_pair;
 
 pub(crate) use edge::Edge;

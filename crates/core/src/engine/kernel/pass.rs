@@ -13,7 +13,7 @@
 use super::deposit::{COLUMNS, deposit};
 use super::edge::Edge;
 use super::instructions::{InstructionSet, kernel, with_build_up};
-use super::moved::{Moved, SeldomEvent, StripMoved, note_broken, note_worn_through};
+use super::moved::{Moved, SeldomEvent, StripMoved};
 use super::ordinary::pass_over_ordinary;
 use super::pairs::Pairs;
 use super::read::Span;
@@ -21,8 +21,8 @@ use super::reading::{Reading, StripReading};
 use super::rules::{Conditions, Rules, StripRules};
 use super::strip::{Behind, Strip};
 use super::transport::pass_against_sliding;
-use super::worn::{Worn, wear, wear_ordinary};
-use crate::engine::lanes::{Chunk, LANES, Lanes, Mask};
+use super::worn_column::{wear_and_note, wear_any_and_note};
+use crate::engine::lanes::{Lanes, Mask};
 use crate::engine::parts::{Needs, build_up};
 use crate::engine::pin_strips::PinStrips;
 use crate::engine::strips::DiscSector;
@@ -134,9 +134,9 @@ fn update<L: Lanes, const BUILD_UP: u8, const DISC_WEARS: bool>(
     reading: &mut Reading,
 ) -> Behind<L> {
     let worn = if BUILD_UP == build_up::DISTINCT {
-        wear_column::<L, BUILD_UP, DISC_WEARS>(rules, strip, column, moved, seldom)
+        wear_and_note::<L, BUILD_UP, DISC_WEARS>(rules, strip, column, moved, seldom)
     } else {
-        wear_any::<L, BUILD_UP, DISC_WEARS>(rules, strip, column, seldom)
+        wear_any_and_note::<L, BUILD_UP, DISC_WEARS>(rules, strip, column, seldom)
     };
     let nothing = L::Mask::of_byte(0);
     let (mut z_p, mut pin_secondary) = (worn.z_p, nothing);
@@ -161,53 +161,4 @@ fn update<L: Lanes, const BUILD_UP: u8, const DISC_WEARS: bool>(
     strip.pin.touches[column] = next.add(z_p - behind.height, pairs, &rules.bracket, place, reading).byte();
     let secondary = if BUILD_UP == build_up::DISTINCT { worn.b_d.below(worn.z_d) } else { nothing };
     Behind { height: worn.z_d, secondary }
-}
-
-/// Wears the eight cells of a column, with few instructions where nothing out of the ordinary happens to them, and notes what
-/// they lose.
-#[inline(always)]
-pub(super) fn wear_column<L: Lanes, const BUILD_UP: u8, const DISC_WEARS: bool>(
-    rules: &StripRules<L>,
-    strip: &Strip,
-    column: usize,
-    moved: &mut StripMoved<L>,
-    seldom: &mut Vec<SeldomEvent>,
-) -> Worn<L> {
-    let bytes = [strip.pin.touches[column], strip.pin.plateau[column], strip.pin.resin[column]];
-    let cells = strip.cells::<L, BUILD_UP, DISC_WEARS>(column);
-    let worn = match wear_ordinary::<L, BUILD_UP, DISC_WEARS>(rules, cells, bytes) {
-        Some(worn) => worn,
-        None => wear_any::<L, BUILD_UP, DISC_WEARS>(rules, strip, column, seldom),
-    };
-    if BUILD_UP == build_up::DISTINCT {
-        moved.lost_pin = rules.plus_loss(moved.lost_pin, worn.lost_pin);
-        if DISC_WEARS {
-            moved.lost_disc = rules.plus_loss(moved.lost_disc, worn.lost_disc);
-        }
-    }
-    worn
-}
-
-/// Wears the eight cells of a column, and notes what happens to few of them.
-#[inline(always)]
-fn wear_any<L: Lanes, const BUILD_UP: u8, const DISC_WEARS: bool>(
-    rules: &StripRules<L>,
-    strip: &Strip,
-    column: usize,
-    seldom: &mut Vec<SeldomEvent>,
-) -> Worn<L> {
-    let cells = strip.cells::<L, BUILD_UP, DISC_WEARS>(column);
-    let worn = wear::<L, BUILD_UP, DISC_WEARS>(rules, cells);
-    if BUILD_UP != build_up::DISTINCT && worn.worn_through.any() {
-        let (mut heights, mut gaps) = (Chunk([0.0; LANES]), Chunk([0.0; LANES]));
-        (worn.b_p - cells.z_p).store(&mut heights);
-        (cells.z_p - cells.z_d).store(&mut gaps);
-        note_worn_through(seldom, &heights, &gaps, worn.worn_through.byte(), rules.strip);
-    }
-    if (BUILD_UP == build_up::BRITTLE || BUILD_UP == build_up::DISTINCT) && worn.broken.any() {
-        let mut heights = Chunk([0.0; LANES]);
-        (worn.b_p - worn.z_p).store(&mut heights);
-        note_broken(seldom, &heights, worn.broken.byte(), rules.strip);
-    }
-    worn
 }

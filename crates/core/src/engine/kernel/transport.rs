@@ -10,12 +10,12 @@ use super::edge::{Edge, Reach};
 use super::instructions::{InstructionSet, kernel, with_build_up};
 use super::moved::{Moved, StripMoved, add};
 use super::pairs::{Pairs, lanes_of};
-use super::pass::wear_column;
 use super::read::Span;
 use super::reading::{Reading, StripReading};
 use super::rules::{Conditions, Rules, StripRules};
 use super::strip::Strip;
 use super::worn::{Worn, wear};
+use super::worn_column::wear_and_note;
 use crate::engine::lanes::{Chunk, Integers, LANES, Lanes, Mask};
 use crate::engine::parts::{Needs, build_up};
 use crate::engine::pin_strips::PinStrips;
@@ -128,7 +128,7 @@ fn pass_over<L: Lanes, const BUILD_UP: u8, const DISC_WEARS: bool>(
     // The pin of the column ahead after the step: it lies over this column of the disc in the next.
     let (mut height_ahead, mut resin_ahead, mut secondary_ahead) = (rules.zero, nothing, nothing);
     for column in extent.clone().rev() {
-        let worn = wear_column::<L, BUILD_UP, DISC_WEARS>(rules, strip, column, &mut strip_moved, &mut moved.seldom);
+        let worn = wear_and_note::<L, BUILD_UP, DISC_WEARS>(rules, strip, column, &mut strip_moved, &mut moved.seldom);
         let z_p = worn.height();
         let receivers = scan.enter(rules, column) & L::Mask::of_byte(strip.present(column));
         let filled = fill(rules, &worn, receivers, scan.height, scan.share);

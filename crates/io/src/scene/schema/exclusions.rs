@@ -1,9 +1,9 @@
 //! Keys that exclude each other, keys that have no meaning beside a value of another, and ways to say the same with different keys of a
 //! table.
 
-use super::find;
 use super::key::{Choose, Key, Need, join};
 use super::keys::{self, BRAKING_TORQUE, CYCLE, DEBRIS_IS_LOCAL};
+use super::lookup::find;
 
 /// Keys of which a scene gives exactly one, or at most one.
 #[derive(Debug, Clone, Copy)]

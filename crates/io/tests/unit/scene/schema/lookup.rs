@@ -1,3 +1,4 @@
+use super::super::exclusions::GROUPS;
 use super::*;
 
 #[test]

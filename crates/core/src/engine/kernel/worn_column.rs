@@ -1,0 +1,57 @@
+//! Wear of the eight cells of a column of a strip (model 4.2, 4.2a), and what is noted of it.
+
+use super::moved::{SeldomEvent, StripMoved, note_broken, note_worn_through};
+use super::rules::StripRules;
+use super::strip::Strip;
+use super::worn::{Worn, wear, wear_ordinary};
+use crate::engine::lanes::{Chunk, LANES, Lanes, Mask};
+use crate::engine::parts::build_up;
+
+/// Wears the eight cells of a column, with few instructions where nothing out of the ordinary happens to them, and notes what
+/// they lose.
+#[inline(always)]
+pub fn wear_and_note<L: Lanes, const BUILD_UP: u8, const DISC_WEARS: bool>(
+    rules: &StripRules<L>,
+    strip: &Strip,
+    column: usize,
+    moved: &mut StripMoved<L>,
+    seldom: &mut Vec<SeldomEvent>,
+) -> Worn<L> {
+    let bytes = [strip.pin.touches[column], strip.pin.plateau[column], strip.pin.resin[column]];
+    let cells = strip.cells::<L, BUILD_UP, DISC_WEARS>(column);
+    let worn = match wear_ordinary::<L, BUILD_UP, DISC_WEARS>(rules, cells, bytes) {
+        Some(worn) => worn,
+        None => wear_any_and_note::<L, BUILD_UP, DISC_WEARS>(rules, strip, column, seldom),
+    };
+    if BUILD_UP == build_up::DISTINCT {
+        moved.lost_pin = rules.plus_loss(moved.lost_pin, worn.lost_pin);
+        if DISC_WEARS {
+            moved.lost_disc = rules.plus_loss(moved.lost_disc, worn.lost_disc);
+        }
+    }
+    worn
+}
+
+/// Wears the eight cells of a column, and notes what happens to few of them.
+#[inline(always)]
+pub fn wear_any_and_note<L: Lanes, const BUILD_UP: u8, const DISC_WEARS: bool>(
+    rules: &StripRules<L>,
+    strip: &Strip,
+    column: usize,
+    seldom: &mut Vec<SeldomEvent>,
+) -> Worn<L> {
+    let cells = strip.cells::<L, BUILD_UP, DISC_WEARS>(column);
+    let worn = wear::<L, BUILD_UP, DISC_WEARS>(rules, cells);
+    if BUILD_UP != build_up::DISTINCT && worn.worn_through.any() {
+        let (mut heights, mut gaps) = (Chunk([0.0; LANES]), Chunk([0.0; LANES]));
+        (worn.b_p - cells.z_p).store(&mut heights);
+        (cells.z_p - cells.z_d).store(&mut gaps);
+        note_worn_through(seldom, &heights, &gaps, worn.worn_through.byte(), rules.strip);
+    }
+    if (BUILD_UP == build_up::BRITTLE || BUILD_UP == build_up::DISTINCT) && worn.broken.any() {
+        let mut heights = Chunk([0.0; LANES]);
+        (worn.b_p - worn.z_p).store(&mut heights);
+        note_broken(seldom, &heights, worn.broken.byte(), rules.strip);
+    }
+    worn
+}
