@@ -9,9 +9,9 @@ PATCH = np.pi * (24e-3**2 - 20e-3**2) * 161 / 2764
 BETWEEN = "heights / 100 less baseline"
 
 
-def three(found: dict[str, list[float]], form: str = ".4f", factor: float = 1) -> str:
+def three(found: dict[str, list[float]], form: str = ".4f") -> str:
     """Of the three discs the mean and its interval."""
-    return ", ".join(with_interval(found[heights], factor, form) for heights in NAMES)
+    return ", ".join(with_interval(found[heights], 1, form) for heights in NAMES)
 
 
 def counted(order: dict[str, float]) -> str:
@@ -27,22 +27,16 @@ def apart(compared: dict[str, object]) -> str:
 def table_friction() -> str:
     """Friction of the three discs over time."""
     friction = value("friction")
-    text = head("μ: baseline, heights / 10, heights / 100", f"m = {m_of('runs')}", f"m = {m_of('sets')}", BETWEEN, f"in order in, of {value('set_count/local')}")
-    windows = friction["runs"]["windows"]
-    for window, of_runs in windows.items():
+    text = head(f"μ, m = {m_of('sets')}", "baseline, heights / 10, heights / 100", BETWEEN, f"in order in, of {value('set_count/local')}")
+    for window in ("0 to 100 s", "2700 to 3000 s"):
         found = friction["local"]["windows"][window]
-        text += row(window, ", ".join(shown(of_runs[heights], ".4f") for heights in NAMES), three(found["discs"]), apart(found), counted(found["order"]))
-    first, last = (windows[window] for window in ("0 to 100 s", "2700 to 3000 s"))
-    rise = ", ".join(shown(last[heights] - first[heights], ".4f") for heights in NAMES)
-    return text + row("the last less the first 100 s", rise, three(friction["local"]["run_in"]), "", "")
+        text += row(window, three(found["discs"]), apart(found), counted(found["order"]))
+    return text
 
 
 def table_friction_loads() -> str:
     """Friction under other loads."""
-    text = head(f"load on the paper's patch, nominal pressure; m = {m_of('variants')}", "μ, 2700 to 3000 s", BETWEEN, "in order in, of 3", "the same without ceiling")
+    text = head(f"load on the paper's patch; m = {m_of('variants')}", "μ, 2700 to 3000 s", BETWEEN, "in order in, of 3")
     for load, found in value("friction/loads").items():
-        text += row(
-            f"{load} N, {shown(float(load) / PATCH * 1e-6, '.2f')} MPa", three(found["discs"], ".3f"), apart(found), counted(found["order"]),
-            apart(found["without_ceiling"]),
-        )
+        text += row(f"{load} N, {shown(float(load) / PATCH * 1e-6, '.2f')} MPa", three(found["discs"], ".3f"), apart(found), counted(found["order"]))
     return text

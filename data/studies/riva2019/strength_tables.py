@@ -17,10 +17,8 @@ NONE = 1e12
 #: What tables of strengths have of each disc: heading, key, factor, form.
 OF_STRENGTHS = [
     ("filled, %", "filled", 100, ".1f"),
-    ("secondary, %: disc", "disc_secondary", 100, ".1f"),
-    ("pin", "pin_secondary", 100, ".1f"),
+    ("pin, secondary, %", "pin_secondary", 100, ".1f"),
     ("area, mm²", "contact_area_mean", 1e6, ".2f"),
-    ("Gini", "pressure_gini", 1, ".3f"),
     ("run-in, s", "run_in", 1, ".0f"),
     ("wear at first", "first_wear", 1e13, ".2f"),
     ("… at the end", "wear", 1e13, ".2f"),
@@ -29,20 +27,20 @@ OF_STRENGTHS = [
 #: Claims of strength.py, in the words of the table.
 CLAIMS = {
     "filled as in the paper": "1, near the paper's",
-    "less on the rough disc": "2, rough disc against both",
-    "more, the smoother the disc": "… strict order",
-    "less on the rough disc's pin": "3, by status, rough disc against both",
-    "more on the pin, the smoother the disc": "… strict order",
-    "more even pressure": "5, rough disc against both",
-    "more even, the smoother the disc": "… strict order",
-    "lower contact area": "6, rough disc against both",
-    "larger area, the smoother the disc": "… strict order",
+    "less on the rough disc": "2, against both",
+    "more, the smoother the disc": "2, strict order",
+    "less on the rough disc's pin": "3, by status, against both",
+    "more on the pin, the smoother the disc": "3, strict order",
+    "more even pressure": "5, against both",
+    "more even, the smoother the disc": "5, strict order",
+    "lower contact area": "6, against both",
+    "larger area, the smoother the disc": "6, strict order",
     "longer run-in": "7, run-in, strict order",
     "heights / 10 not steady": "7, heights / 10 not steady",
     "wears more on the rough disc": "rough disc wears more than both",
     "wear falls": "wear falls, rough disc",
-    "wear falls, heights / 10": "… heights / 10",
-    "wear falls, heights / 100": "… heights / 100",
+    "wear falls, heights / 10": "wear falls, heights / 10",
+    "wear falls, heights / 100": "wear falls, heights / 100",
     "emits more on the rough disc": "rough disc emits more than both",
 }
 
@@ -57,27 +55,32 @@ def strengths(part: str = "strengths") -> dict[str, dict]:
     return dict(sorted(value(f"strength/{part}").items(), key=lambda one: float(one[0])))
 
 
-def table_means(part: str) -> str:
+def table_means(part: str, *keys: str) -> str:
     """Means over sets of surfaces of the three discs after 3000 s with every strength, and the widest of their intervals."""
-    found = strengths(part)
-    text = head("strength", *(heading for heading, *_ in OF_STRENGTHS))
-    widest = ["± at most"]
+    found, asked = strengths(part), [one for one in OF_STRENGTHS if one[1] in keys]
+    text = head("strength", *(heading for heading, *_ in asked))
     for strength, of in found.items():
-        cells = (", ".join(shown(of["means"][heights][key][0] * factor, form) for heights in NAMES) for _, key, factor, form in OF_STRENGTHS)
+        cells = (", ".join(shown(of["means"][heights][key][0] * factor, form) for heights in NAMES) for _, key, factor, form in asked)
         text += row(named(strength), *cells)
-    for _, key, factor, form in OF_STRENGTHS:
-        widest.append(shown(max(of["means"][heights][key][1] for of in found.values() for heights in NAMES) * factor, form))
-    return text + row(*widest)
+    half = (max(of["means"][heights][key][1] for of in found.values() for heights in NAMES) * factor for _, key, factor, _ in asked)
+    return text + row("± at most", *(shown(one, form) for one, (*_, form) in zip(half, asked, strict=True)))
 
 
 def table_strength_claims() -> str:
-    """In how many sets of surfaces each claim holds with each strength."""
-    found = strengths()
-    text = head("holds in so many of ten sets", *map(named, found))
-    for claim, words in CLAIMS.items():
-        text += row(words, *(f"{of['holds'][claim][0]}" for of in found.values()))
-    late = strengths("late").values()
-    return text + row("rough disc wears more than both, after 7200 s", *(f"{of['holds']['wears more on the rough disc'][0]}" for of in late))
+    """In how many sets of surfaces each claim holds with each strength; below the table those that hold in as many with every strength."""
+    counted = {words: [of["holds"][claim][0] for of in strengths().values()] for claim, words in CLAIMS.items()}
+    late = "wears more on the rough disc"
+    text = head("holds in so many of ten sets (*against both*: the rough disc)", *map(named, strengths()))
+    alike: dict[int, list[str]] = {}
+    for words, counts in counted.items():
+        if len(set(counts)) == 1:
+            alike.setdefault(counts[0], []).append(words)
+        else:
+            text += row(words, *map(str, counts))
+        if words == CLAIMS[late]:
+            text += row("… after 7200 s", *(str(of["holds"][late][0]) for of in strengths("late").values()))
+    told = " ".join(f"In {count}: {'; '.join(claims)}." for count, claims in sorted(alike.items(), reverse=True))
+    return f"{text}\nAlike with every strength and with none. {told}\n"
 
 
 def table_levels() -> str:
@@ -88,9 +91,9 @@ def table_levels() -> str:
         return [f"{with_interval(discs[of]['contact_area_mean'], 1e6, '.2f')}; {with_interval(discs[of]['filled'], 100, '.1f')}" for of in NAMES]
 
     for discs in value("strength/levels").values():
-        text += row("plain rule, 30 000 s, three sets", *cells(discs))
+        text += row("plain rule", *cells(discs))
     for rate, discs in sorted(value("strength/steady").items(), key=lambda one: float(one[0])):
-        text += row(f"5 MPa and 200 µm, 15 000 s, build-up on the disc wears at {shown(float(rate), 'g')} 1/Pa", *cells(discs))
+        text += row(f"5 MPa, wear at {shown(float(rate), 'g')} 1/Pa", *cells(discs))
     return text
 
 
@@ -103,25 +106,28 @@ def table_unknowns() -> str:
 
 
 #: What is told of the paper's pin with and without a strength, of what tables.py asks of sets.
-OF_FULL = ("filled", "disc_secondary", "pin_covered", "sq_fibres", "sq_pin", "pressure_gini", "contact_area_mean", "run_in", "inner_over_outer")
+OF_FULL = ("filled", "disc_secondary", "pin_covered", "sq_fibres", "pressure_gini", "contact_area_mean", "run_in")
+
+
+def with_widest(found: list[list[float]], factor: float, form: str) -> str:
+    """Means of the three discs ± the widest of their intervals."""
+    means = ", ".join(shown(mean * factor, form) for mean, _ in found)
+    return f"{means} (± {shown(max(half for _, half in found) * factor, form)})"
 
 
 def table_full() -> str:
     """The paper's pin with a transport length, with and without a strength: means, and in how many sets the order is strict."""
     kinds = {"length": "no strength", "strength": "5 MPa"}
     sets = value("strength/full/strength/sets")
-    text = head("claim", f"after 3000 s, {sets} sets", *(cell for name in kinds.values() for cell in (name, "in order in")))
+    text = head("claim", f"measured, {sets} sets", *(cell for name in kinds.values() for cell in (name, "in order in")))
     for number, words, key, factor, form, claim in (one for one in ASKED if one[2] in OF_FULL):
         cells = []
         for kind in kinds:
             found = value(f"strength/full/{kind}")
-            cells.append(", ".join(with_interval(found["means"][heights][key], factor, form) for heights in NAMES))
-            cells.append(str(found["holds"][claim]["hits"]))
+            cells += [with_widest([found["means"][heights][key] for heights in NAMES], factor, form), str(found["holds"][claim]["hits"])]
         text += row(number, words, *cells)
-    late = [
-        ", ".join(with_interval(value(f"strength/full/{kind}/late/{heights}/filled"), 100, ".1f") for heights in NAMES) for kind in kinds
-    ]
-    return text + row("8", "filled after 7200 s, %", late[0], "", late[1], "")
+    late = [with_widest([value(f"strength/full/{kind}/late/{heights}/filled") for heights in NAMES], 100, ".1f") for kind in kinds]
+    return text + row("", "filled after 7200 s, %", late[0], "", late[1], "")
 
 
 #: Quantities of the mesh: heading, key, factor, form.
@@ -170,16 +176,11 @@ def table_mesh(length: str, *keys: str) -> str:
     return text
 
 
-def table_mesh_numerics() -> str:
-    """What rows of half the size change, and what the time acceleration of 100 does."""
+def table_mesh_acceleration() -> str:
+    """What the time acceleration of 100 does."""
     names = {key: heading.split(",")[0] for heading, key, *_ in OF_MESH}
-    text = head("change, %", "disc", *names.values())
-    for heights, name in NAMES.items():
-        for cell, change in value(f"mesh/rows/{heights}").items():
-            if change:
-                text += row(f"rows of 25 instead of 50 µm, cells of {cell} µm", name, *(with_error(change[key], 100, ".1f") for key in names))
+    text = head("m = 100 instead of 1, one set, change in %", *names.values())
     for heights, name in NAMES.items():
         change = value(f"mesh/acceleration/{heights}")
-        if change:
-            text += row("m = 100 instead of 1, one set", name, *(with_error(change[key], 100, ".1f") for key in names))
+        text += row(name, *(with_error(change[key], 100, ".1f") for key in names))
     return text

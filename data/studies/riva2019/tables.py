@@ -98,10 +98,11 @@ def once(part: str, heights: str, key: str, end: str = "3000") -> float | None:
     return None
 
 
-# The paper's claims: its number, what is measured, and of each the quantity and the claim in claims.py.
+# The paper's claims: its number, what is measured, and of each the quantity and the claim in claims.py; without a quantity it is asked of
+# the one before.
 ASKED = [
     ("1", "filled, by volume, %", "filled", 100, ".1f", "filled in order"),
-    ("1", "… near the paper's 70, 90, almost", None, 0, "", "filled as in the paper"),
+    ("1", "near the paper", None, 0, "", "filled as in the paper"),
     ("2", "disc, secondary by status, %", "disc_secondary", 100, ".1f", "more on the disc"),
     ("3", "pin, secondary by status, %", "pin_covered", 100, ".1f", "more on the pin, by status"),
     ("3", "build-up on the pin, mean, nm", "pin_film", 1e9, ".0f", "more on the pin, by volume"),
@@ -111,33 +112,32 @@ ASKED = [
     ("4", "Sq of the whole pin, µm", "sq_pin", 1e6, ".2f", "smoother pin"),
     ("5", "pressure: Gini coefficient", "pressure_gini", 1, ".3f", "more even pressure"),
     ("6", "contact area, 2700 to 3000 s, mm²", "contact_area_mean", 1e6, ".2f", "lower contact area"),
-    ("6", "… below three quarters of either smooth disc's", None, 0, "", "less than three quarters of it"),
+    ("6", "below three quarters of either", None, 0, "", "less than three quarters of it"),
     ("7", "run-in, to 90 %, s", "run_in", 1, ".0f", "longer run-in"),
     ("7", "drift, 2000 to 3000 s, % per 1000 s", "drift", 100, ".1f", "baseline not steady"),
-    ("7", "… of heights / 10, not 0", None, 0, "", "heights / 10 not steady"),
+    ("7", "heights / 10, not 0", None, 0, "", "heights / 10 not steady"),
     ("8", "inner less outer half, percentage points", "inner_over_outer", 100, ".1f", "fuller inside"),
     ("9", "half of the contact lies in spots below, µm", "contact_50", 1e6, ".0f", None),
-    ("10", "mean pressure of the contact, MPa", "mean_pressure", 1e-6, ".2f", "higher pressure"),
-    ("10", "coefficient of friction, 2700 to 3000 s", "friction", 1, ".4f", "higher friction"),
 ]
 
 
 def table_claims() -> str:
     """The paper's claims over sets of surfaces."""
-    text = head("claim", "measured", f"m = {m_of('sets')}, {value('set_count/local')} sets", "in order in")
+    rows: list[list[str]] = []
     for number, name, key, factor, form, claim in ASKED:
-        of = [] if key is None else [value(f"sets/local/{heights}/{key}") for heights in NAMES]
         hits = str(RESULTS["holds"]["local"][claim]["hits"]) if claim else ""
-        text += row(number, name, ", ".join(with_interval(one, factor, form) for one in of), hits)
-    return text
+        if key is None:
+            rows[-1][-1] += f"; {name}: {hits}"
+            continue
+        rows.append([number, name, of_discs("sets/local", key, factor, form), hits])
+    text = head("claim", "measured", f"m = {m_of('sets')}, {value('set_count/local')} sets", "in order in")
+    return text + "".join(row(*cells) for cells in rows)
 
 
 # What the table of the runs tells of each beside the claims: name, factor, form, quantity.
 OF_RUNS = [
-    ("filled, by area (within 0.1 µm), %", 100, ".1f", "filled_area"),
     ("run-in: change-point, s", 1, ".0f", "change_point"),
     ("drift in the last third, % per 1000 s", 100, ".2f", "drift"),
-    ("± (95 %)", 100, ".2f", "drift_error"),
     ("deposited / worn, %", 100, ".1f", "deposited_over_worn"),
 ]
 
@@ -150,8 +150,8 @@ def table_runs() -> str:
     text = head(f"at the end, m = {m_of('runs')}", *(f"{NAMES[heights]}, {end} s" for heights, end in columns))
     text += row("contact area, last tenth ± standard error, mm²", *(last_tenth(heights, float(end)) for heights, end in columns))
     for name, factor, form, key in OF_RUNS:
-        found = [once("runs", heights, key, end) for heights, end in columns]
-        text += row(name, *("" if one is None else shown(one * factor, form) for one in found))
+        found = [(once("runs", heights, key, end), once("runs", heights, f"{key}_error", end)) for heights, end in columns]
+        text += row(name, *(shown(one * factor, form) if error is None else with_interval([one, error], factor, form) for one, error in found))
     return text
 
 
@@ -170,9 +170,7 @@ def table_sizes() -> str:
     text = head(f"diameter, µm, of what holds 10, 50, 90 % of the area, m = {m_of('runs')}", *NAMES.values())
     names = {
         "pin_contact": "pin, in contact",
-        "pin_plateaus": "pin, primary and secondary",
         "pin_thick": "pin, build-up of 0.1 µm and more",
-        "disc_secondary": "disc, secondary",
     }
     for key, name in names.items():
         cells = []
@@ -186,16 +184,31 @@ def table_sizes() -> str:
 def table_round_pin() -> str:
     """The rig's round pin and the paper's patch."""
     numbers = {
-        "part of the pin in contact, %": ("contact_fraction", 100, ".1f"),
-        "mean pressure of the contact, MPa": ("mean_pressure", 1e-6, ".2f"),
+        "part in contact, %": ("contact_fraction", 100, ".1f"),
+        "mean pressure, MPa": ("mean_pressure", 1e-6, ".2f"),
         "filled, %": ("filled", 100, ".1f"),
     }
-    pins = {"round": "round", "patch": "4 × 8 mm"}
-    text = head("", *(f"{name}, {pin}" for name in NAMES.values() for pin in pins.values()))
-    for name, (key, factor, form) in numbers.items():
-        found = [value(f"round_pin/{pin}/{heights}/{key}") for heights in NAMES for pin in pins]
-        text += row(name, *(with_interval(pair, factor, form) for pair in found))
+    text = head("pin", *numbers)
+    for pin, name in {"round": "round", "patch": "4 × 8 mm"}.items():
+        text += row(name, *(of_discs(f"round_pin/{pin}", *number) for number in numbers.values()))
     return text
+
+
+def of_discs(part: str, key: str, factor: float, form: str) -> str:
+    """A quantity of the three discs."""
+    return ", ".join(with_interval(value(f"{part}/{heights}/{key}"), factor, form) for heights in NAMES)
+
+
+def table_pooled() -> str:
+    """Pooled debris over sets of surfaces."""
+    numbers = {
+        "filled, %": ("filled", 100, ".1f"),
+        "disc, secondary by status, %": ("disc_secondary", 100, ".1f"),
+        "contact area, mm²": ("contact_area_mean", 1e6, ".2f"),
+        "run-in, s": ("run_in", 1, ".0f"),
+    }
+    text = head(f"m = {m_of('pooled-sets')}, {value('set_count/pooled')} sets", "baseline, heights / 10, heights / 100")
+    return text + "".join(row(name, of_discs("sets/pooled", *number)) for name, number in numbers.items())
 
 
 # The claims that are asked of every choice, by the paper's numbers.
@@ -207,16 +220,15 @@ OF_CHOICES = {
 
 def table_choices() -> str:
     """Choices that scenes have and readings that no scene has: what comes out, and what does not hold in all sets of surfaces."""
-    text = head("choice", "filled, %", "contact area, mm²", "fails in one set or more")
+    text = head("choice", "filled, %", "fails in one set or more")
     for part in ("variants", "readings"):
         for name, means in value(f"{part}/means").items():
-            if name == "the rule as it stands":
+            if name in ("the rule as it stands", *(f"resin set back by {depth} um" for depth in (2, 4, 16))):
                 continue
             held = value(f"{part}/holds")[name]
             text += row(
                 name,
                 ", ".join(shown(means[heights]["filled"][0] * 100, ".1f") for heights in NAMES),
-                ", ".join(shown(means[heights]["contact_area_mean"][0] * 1e6, ".2f") for heights in NAMES),
                 ", ".join(number for claim, number in OF_CHOICES.items() if held[claim]["hits"] < held[claim]["of"]),
             )
     return text

@@ -5,8 +5,7 @@ usage: write_docs.py [--check]: with --check only says whether they agree, as ex
 
 Templates have `{{path}}`, `{{path|format}}` and `{{path|factor|format}}`: a path in results.json, a factor and a Python
 format; with `*` in the path for the three discs, one after the other. `{{table NAME ARGUMENT...}}` is one of tables.py, friction_tables.py or strength_tables.py, `{{m runs}}` the
-time acceleration of a part of the study; between `{{if PATH}}`, `{{else}}` and `{{end}}` stands what depends on a part that may
-not be there yet; `{{change LENGTH HEIGHTS HALVING QUANTITY}}` is one of the mesh; `{{last tenth HEIGHTS END}}` is the mean contact area of a run at m = 1 over the last tenth of the time to its end, mm².
+time acceleration of a part of the study; `{{change LENGTH HEIGHTS HALVING QUANTITY}}` is one of the mesh; `{{last tenth HEIGHTS END}}` is the mean contact area of a run at m = 1 over the last tenth of the time to its end, mm².
 """
 
 import re
@@ -33,21 +32,8 @@ def one_of(path: str, factor: float, form: str | None) -> str:
     return told(value(path), factor, form)
 
 
-def there(path: str) -> bool:
-    """Whether results.json has a part, and something in it."""
-    try:
-        return bool(value(path))
-    except KeyError:
-        return False
-
-
 def filled_in(template: str) -> str:
-    """A template with its numbers, and without what belongs to parts of the study that are not there."""
-    template = re.sub(
-        r"\{\{if (.+?)\}\}\n(.*?)\{\{else\}\}\n(.*?)\{\{end\}\}\n",
-        lambda match: match.group(2) if there(match.group(1)) else match.group(3), template, flags=re.DOTALL,
-    )
-
+    """A template with its numbers."""
     def one(match: re.Match) -> str:
         what = match.group(1)
         if what.startswith("table "):
