@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 
 use plateau_core::observe::event::EVENT_QUANTITIES;
 use plateau_core::observe::{EXTRAS, Map, QUANTITIES, Quantity, TOTALS, quantities};
-use plateau_io::scene::schema::{self, Key, Kind, Need, Range, WAYS};
+use plateau_io::scene::schema::{self, Key, Kind, Need, Range};
 
 use scene_schema::{example_of, table_meaning};
 
@@ -80,21 +80,17 @@ fn the_source_files_that_documents_name_exist() {
 
 fn kind(key: &Key) -> String {
     let value = plain(key);
-    if key.may_be_none() { format!("{value}, or `\"none\"`") } else { value }
+    if key.may_be_none() { format!("{value} or `\"none\"`") } else { value }
 }
 
+/// Values of a key: of quantities and rows an example.
 fn plain(key: &Key) -> String {
-    let example = example_of(key).map(|example| format!(", such as `{example}`")).unwrap_or_default();
+    let example = || format!("`{}`", example_of(key).expect("an example"));
     match key.kind {
-        Kind::Quantity { dimension, .. } => format!("{}{example}", dimension.name()),
-        Kind::Lengths { single, count, .. } => {
-            if single {
-                format!("length{example}, or list of {count}")
-            } else {
-                format!("list of {count} lengths{example}")
-            }
-        }
-        Kind::LengthUnit => format!("unit of length{example}, or length"),
+        Kind::Quantity { .. } | Kind::Times | Kind::Rows | Kind::Factor => example(),
+        Kind::Lengths { single: true, count, .. } => format!("{} or {count} of them", example()),
+        Kind::Lengths { .. } => example(),
+        Kind::LengthUnit => format!("{} or a length", example()),
         Kind::Number(range) => format!("number{}", limits(range)),
         Kind::NumberOr(range, word) => format!("number{}, or `\"{word}\"`", limits(range)),
         Kind::Integer(least) => format!("integer, at least {least}"),
@@ -104,9 +100,6 @@ fn plain(key: &Key) -> String {
         Kind::CountOr(word) => format!("integer, at least 1, or `\"{word}\"`"),
         Kind::Text => "text".into(),
         Kind::InputFile => "path".into(),
-        Kind::Times => format!("list of times{example}"),
-        Kind::Rows => format!("rows{example}"),
-        Kind::Factor => format!("rows of temperature and factor{example}"),
         Kind::Maps => format!("list of {}", Map::CHOICES.map(|map| format!("`\"{}\"`", map.name())).join(", ")),
     }
 }
@@ -120,10 +113,11 @@ fn need(key: &Key) -> String {
         Need::Required => "required".into(),
         Need::OneOf => {
             let group = key.group().expect("a group of the key");
-            let names: Vec<_> = group.members.iter().map(|(name, _)| format!("`{name}`")).collect();
-            let count = if group.required { "one of" } else { "at most one of" };
-            let unless = group.unless.map(|table| format!(", unless there is `[{table}]`")).unwrap_or_default();
-            format!("{count} {}{unless}", names.join(", "))
+            let names = group.members.iter().map(|(name, _)| *name).filter(|name| *name != key.name);
+            let mut others: Vec<_> = names.map(|name| format!("`{name}`")).collect();
+            others.extend(group.unless.map(|table| format!("`[{table}]`")));
+            let begin = if group.required { "this or " } else { "not beside " };
+            format!("{begin}{}", others.join(" or "))
         }
         Need::Default(value) => format!("`{value}`"),
         Need::SameAs(table) => format!("as in `[{table}]`"),
@@ -133,18 +127,11 @@ fn need(key: &Key) -> String {
             format!("required; `{default}` with `{key} = \"{}\"`", choose.value)
         }
         Need::OfWay(unless) => {
-            let ways = WAYS.iter().find(|ways| ways.section == key.section).expect("ways of the table");
-            let set = ways.sets.into_iter().find(|set| set.contains(&key.name)).expect("a way of the key");
-            let always = |name: &&str| {
-                schema::find(&format!("{}.{name}", key.section)).is_some_and(|key| key.need == Need::OfWay(None))
-            };
-            let beside: Vec<_> = set.iter().filter(|name| **name != key.name).filter(|name| always(name)).collect();
-            let beside: Vec<_> = beside.into_iter().map(|name| format!("`{name}`")).collect();
             let but = unless.map(|choose| {
                 let (_, key) = choose.key.rsplit_once('.').expect("a key of a table");
                 format!(", but for `{key} = \"{}\"`", choose.value)
             });
-            format!("required beside {}{}", beside.join(", "), but.unwrap_or_default())
+            format!("required [in this way](#mesh){}", but.unwrap_or_default())
         }
         Need::Optional => "–".into(),
     }
