@@ -108,8 +108,19 @@ fn limits(range: Range) -> String {
     if range == Range::ANY { String::new() } else { format!(", {range}") }
 }
 
-fn need(key: &Key) -> String {
-    match key.need {
+/// Values of a key, and what holds without it.
+fn value(key: &Key) -> String {
+    match (key.need, absent(key)) {
+        // The default is an example, too.
+        (Need::Default(_), Some(default)) if matches!(key.kind, Kind::Quantity { .. } | Kind::Times) => default,
+        (_, Some(absent)) => format!("{}; {absent}", kind(key)),
+        (_, None) => kind(key),
+    }
+}
+
+/// What holds without a key, unless something is then left out.
+fn absent(key: &Key) -> Option<String> {
+    let told = match key.need {
         Need::Required => "required".into(),
         Need::OneOf => {
             let group = key.group().expect("a group of the key");
@@ -119,12 +130,12 @@ fn need(key: &Key) -> String {
             let begin = if group.required { "this or " } else { "not beside " };
             format!("{begin}{}", others.join(" or "))
         }
-        Need::Default(value) => format!("`{value}`"),
-        Need::SameAs(table) => format!("as in `[{table}]`"),
-        Need::Computed(what) => what.into(),
+        Need::Default(value) => format!("default `{value}`"),
+        Need::SameAs(table) => format!("default as in `[{table}]`"),
+        Need::Computed(what) => format!("default {what}"),
         Need::RequiredUnless(choose, default) => {
             let (_, key) = choose.key.rsplit_once('.').expect("a key of a table");
-            format!("required; `{default}` with `{key} = \"{}\"`", choose.value)
+            format!("required, default `{default}` with `{key} = \"{}\"`", choose.value)
         }
         Need::OfWay(unless) => {
             let but = unless.map(|choose| {
@@ -133,8 +144,9 @@ fn need(key: &Key) -> String {
             });
             format!("required [in this way](#mesh){}", but.unwrap_or_default())
         }
-        Need::Optional => "–".into(),
-    }
+        Need::Optional => return None,
+    };
+    Some(told)
 }
 
 /// Tables that have the same keys, but for those that the last alone has.
@@ -168,7 +180,7 @@ fn section(tables: &[&str]) -> String {
         };
         format!("### {}\n\n{}", names.join(", "), purposes.concat())
     };
-    text.push_str("\n| key | value | default | meaning |\n|---|---|---|---|\n");
+    text.push_str("\n| key | value | meaning |\n|---|---|---|\n");
     let shared = keys_of(first);
     for (at, key) in keys_of(last).into_iter().enumerate() {
         let (like, only) = match shared.get(at) {
@@ -181,7 +193,7 @@ fn section(tables: &[&str]) -> String {
         }
         // Writing to a String cannot fail.
         let meaning = format!("{only}{}", like.meaning).replace('|', "\\|");
-        let _ = writeln!(text, "| `{}` | {} | {} | {meaning} |", like.name, kind(like), need(like));
+        let _ = writeln!(text, "| `{}` | {} | {meaning} |", like.name, value(like));
     }
     for table in tables {
         if let Some(Need::SameAs(like)) = keys_of(table).first().map(|key| key.need) {

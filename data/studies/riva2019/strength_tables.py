@@ -176,6 +176,17 @@ def table_mesh(length: str, *keys: str) -> str:
     return text
 
 
+def table_halvings(*lengths: str) -> str:
+    """Change of the filling by the last halvings of the cell with some transport lengths."""
+    halvings = ("50 to 25", "25 to 12.5")
+    text = head("length", "disc", *(f"{halving} µm, %" for halving in halvings))
+    for length in lengths:
+        for heights, name in NAMES.items():
+            changes = value(f"mesh/changes/{length}/{heights}")
+            text += row(f"{length} µm", name, *(with_error(changes[halving]["filled"], 100, ".1f") for halving in halvings))
+    return text
+
+
 def table_mesh_acceleration() -> str:
     """What the time acceleration of 100 does."""
     names = {key: heading.split(",")[0] for heading, key, *_ in OF_MESH}
