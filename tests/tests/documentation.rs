@@ -105,7 +105,11 @@ fn plain(key: &Key) -> String {
 }
 
 fn limits(range: Range) -> String {
-    if range == Range::ANY { String::new() } else { format!(", {range}") }
+    match range {
+        Range::ANY => String::new(),
+        Range::FRACTION => ", 0 to 1".into(),
+        _ => format!(", {range}"),
+    }
 }
 
 /// Values of a key, and what holds without it.
@@ -142,7 +146,7 @@ fn absent(key: &Key) -> Option<String> {
                 let (_, key) = choose.key.rsplit_once('.').expect("a key of a table");
                 format!(", but for `{key} = \"{}\"`", choose.value)
             });
-            format!("required [in this way](#mesh){}", but.unwrap_or_default())
+            format!("[required](#mesh){}", but.unwrap_or_default())
         }
         Need::Optional => return None,
     };
