@@ -34,6 +34,7 @@ def one_of(path: str, factor: float, form: str | None) -> str:
 
 def filled_in(template: str) -> str:
     """A template with its numbers."""
+
     def one(match: re.Match) -> str:
         what = match.group(1)
         if what.startswith("table "):
