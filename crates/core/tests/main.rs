@@ -3,6 +3,7 @@
 mod build_up;
 mod closed_forms;
 mod condition;
+mod control;
 mod description;
 mod extension;
 mod extremes;

@@ -16,6 +16,29 @@ use plateau_io::surface::ReadOptions;
 use crate::good_scenes::{good, input, load};
 
 #[test]
+fn a_text_is_a_scene_as_its_file_is() {
+    let set = "operation.normal_force=\"3 N\"";
+    let text = std::fs::read_to_string(good("extending.toml")).unwrap();
+    let found = scene::of_layers(&good("extending.toml"), Some(&text), &[&[set.to_owned()]]).unwrap();
+    let expected = load("extending.toml", &[set]);
+    assert_eq!(found.resolved, expected.resolved);
+    // The text itself is in no file.
+    assert_eq!(found.files, expected.files[1..]);
+    assert_eq!(found.parameters.normal_force, 3.0);
+    let error = scene::of_text(Path::new("mine"), "version = 1\nextends = \"none.toml\"\n").unwrap_err().to_string();
+    assert!(error.starts_with("mine:2:11: extends: cannot read none.toml"), "{error}");
+}
+
+#[test]
+fn a_later_list_of_changes_may_choose_another_alternative() {
+    let sets = ["operation.duration=\"2 s\"", "operation.steps=7"].map(|set| [set.to_owned()]);
+    let path = good("minimal.toml");
+    assert_eq!(scene::of_layers(&path, None, &[&sets[0], &sets[1]]).unwrap().steps, 7);
+    let error = scene::load(&path, &sets.concat()).unwrap_err().to_string();
+    assert!(error.contains("duration and steps are given together"), "{error}");
+}
+
+#[test]
 fn an_extending_scene_overrides_key_by_key_and_removes_the_other_alternatives() {
     let scene = load("extending.toml", &[]);
     assert_eq!(scene.title, "measured");

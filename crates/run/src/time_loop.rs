@@ -6,7 +6,7 @@ use plateau_core::acceleration::scout::Scout;
 use plateau_core::observe::schedule::Moment;
 use plateau_core::observe::{ACCELERATION, Sample, Snapshot};
 use plateau_core::observe::{CYCLE, ROAD};
-use plateau_core::simulation::{Simulation, SimulationError};
+use plateau_core::simulation::{Course, Simulation, SimulationError};
 
 use crate::assembly::Assembly;
 
@@ -99,6 +99,15 @@ impl Assembly {
             sink.rest(self)?;
         }
         Ok(self.simulation.check_heights()?)
+    }
+
+    /// The sample of the step just done, with all series that a run file of the scene has.
+    ///
+    /// # Errors
+    /// As [`Simulation::sample_at`].
+    pub fn last_sample(&mut self) -> Result<Sample, SimulationError> {
+        let Course { steps, time, .. } = self.simulation.course();
+        self.sample(&Moment { step: steps, time, ..Moment::default() })
     }
 
     /// What is reported of the step just done, or of a pause before or after its end.

@@ -121,3 +121,29 @@ fn a_run_without_a_file_has_the_same_samples() {
     Assembly::new(&scene, surfaces, Execution::default()).unwrap().run_to_end(&mut areas).unwrap();
     assert_eq!(areas.0, contact_areas(&file));
 }
+
+#[test]
+fn the_last_sample_is_the_row_of_its_step() {
+    let scene = quick();
+    let assembly = || Assembly::new(&scene, surface::load(&scene).unwrap().surfaces, Execution::default()).unwrap();
+    let mut rows = Rows::default();
+    assembly().run_to_end(&mut rows).unwrap();
+    let mut stepwise = assembly();
+    for expected in [&rows.0[0], &rows.0[9]] {
+        stepwise.simulation.advance_to(expected.step).unwrap();
+        assert_eq!(stepwise.last_sample().unwrap(), *expected);
+    }
+}
+
+/// Keeps every sample.
+#[derive(Default)]
+struct Rows(Vec<Sample>);
+
+impl Sink for Rows {
+    type Error = SimulationError;
+
+    fn sample(&mut self, sample: Sample) -> Result<(), SimulationError> {
+        self.0.push(sample);
+        Ok(())
+    }
+}

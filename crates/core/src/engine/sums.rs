@@ -33,6 +33,8 @@ pub struct RowWeights {
     pub volume: Unit,
     /// Of which raw losses of pairs are multiples that begin to touch within a bracket.
     pub raw: Unit,
+    /// What no load of a step may be above, N.
+    pub largest_load: f64,
     /// How far the initial heights of pin and disc are apart from the lowest to the highest of each, m.
     pub relief: f64,
     pub needs: Needs,
@@ -48,7 +50,8 @@ impl RowWeights {
         let losses = coefficients.pair_losses().map(|loss| loss.per_load);
         let area = mesh.area().iter().copied().fold(0.0, f64::max);
         // About the largest volume that a step wears off, m³: what a cell loses that carries all the load.
-        let worn = losses.into_iter().fold(0.0, f64::max) * parameters.largest_load() * area;
+        let largest_load = parameters.largest_load();
+        let worn = losses.into_iter().fold(0.0, f64::max) * largest_load * area;
         let finest = if worn > 0.0 { FINEST_VOLUME.min(libm::ilogb(worn) - RAW_BITS) } else { FINEST_VOLUME };
         let by_area = |table: &Table| table.each_ref().map(|rows| Weights::new(&times_area(rows, mesh)));
         Self {
@@ -56,6 +59,7 @@ impl RowWeights {
             largest_stiffness: coefficients.stiffness.each_ref().map(|rows| rows.iter().copied().fold(0.0, f64::max)),
             volume: Unit::new(FINEST_VOLUME, mesh.pin_area() * (relief + parameters.materials.wear_height) + worn),
             raw: Unit::new(finest, worn),
+            largest_load,
             relief,
             area: Weights::new(mesh.area()),
             pin_loss: by_area(&coefficients.pin),

@@ -23,6 +23,8 @@ enum Order {
     AdvanceTo(u64, bool),
     /// Change the acceleration.
     Accelerate(f64),
+    /// Change load and speed.
+    Operate(f64, f64),
     /// Take over a state.
     Restore(Arc<(Heights, Memory, EngineMemory)>),
     /// Tell what all workers know alike.
@@ -105,6 +107,11 @@ impl WorkerThreads {
     /// Changes the acceleration of the coming steps.
     pub fn accelerate(&mut self, acceleration: f64) -> Result<(), SimulationError> {
         self.go(&Order::Accelerate(acceleration))
+    }
+
+    /// Changes load (N, or N m) and speed (rad/s) of the coming steps.
+    pub fn operate(&mut self, load: f64, angular_velocity: f64) -> Result<(), SimulationError> {
+        self.go(&Order::Operate(load, angular_velocity))
     }
 
     fn go(&mut self, order: &Order) -> Result<(), SimulationError> {
@@ -195,6 +202,7 @@ fn follow<C: Communicator>(worker: &mut Worker<C>, order: &Order) -> Result<Answ
     match order {
         Order::AdvanceTo(step, watched) => worker.advance_to(*step, *watched).map(|()| Answer::Course(worker.course())),
         Order::Accelerate(acceleration) => worker.accelerate(*acceleration).map(|()| Answer::Course(worker.course())),
+        Order::Operate(load, speed) => worker.operate(*load, *speed).map(|()| Answer::Course(worker.course())),
         Order::Restore(state) => {
             let (heights, memory, engine) = &**state;
             worker.restore(heights, memory, engine).map(|()| Answer::Course(worker.course()))

@@ -88,6 +88,31 @@ pub enum SimulationError {
         /// The last step.
         step: u64,
     },
+    /// Load or speed that no step can have.
+    #[error("the {what} is {found}, expected a finite number of more than 0")]
+    Operation {
+        /// Load or speed.
+        what: &'static str,
+        /// What was given.
+        found: f64,
+    },
+    /// Load and speed are set where a cycle gives them.
+    #[error("load and speed are those of the scene's cycle: leave out [operation.cycle] to set them between steps")]
+    OfCycle,
+    /// A height is set that no cell can have.
+    #[error("{field} at (column {column}, row {row}) is {found}, expected {expected}")]
+    Cell {
+        /// Which field of heights.
+        field: &'static str,
+        /// Column of the cell.
+        column: usize,
+        /// Row of the cell.
+        row: usize,
+        /// The height, m.
+        found: f64,
+        /// What it should be.
+        expected: String,
+    },
     /// A checkpoint is of another mesh.
     #[error(transparent)]
     Checkpoint(#[from] WrongMesh),

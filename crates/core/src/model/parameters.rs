@@ -90,6 +90,8 @@ pub struct Parameters {
     pub angular_velocity: f64,
     /// Load and speed that change with time (model 9).
     pub cycle: Option<Arc<Cycle>>,
+    /// Whether load and speed are set anew between steps ([`Simulation::operate`](crate::simulation::Simulation::operate)).
+    pub is_controlled: bool,
     /// h, m: height of the elastic foundation.
     pub foundation_height: f64,
     /// Properties by (body, status).
@@ -112,6 +114,11 @@ impl Parameters {
     /// The same with the wear rates of the pin's plateaus multiplied by f_κ (model 11, feedback).
     pub fn with_wear_rate_factor(&self, factor: f64) -> Self {
         Self { materials: self.materials.with_wear_rate_factor(factor), ..self.clone() }
+    }
+
+    /// The same under another load (N; N m where it is a braking torque) and at another rotational speed (rad/s).
+    pub fn under(&self, load: f64, angular_velocity: f64) -> Self {
+        Self { normal_force: load, angular_velocity, is_controlled: true, ..self.clone() }
     }
 
     /// Π with the wear rates of the temperature with which a run begins.
@@ -203,7 +210,8 @@ impl Parameters {
     /// The angle that so many steps turned, which end at a time (s), rad.
     pub fn angle_turned(&self, steps: u64, time: f64) -> f64 {
         // The time of constant operation knows steps of another acceleration, too.
-        if self.cycle.is_some() { steps as f64 * self.step_angle() } else { time * self.angular_velocity }
+        let changes = self.cycle.is_some() || self.is_controlled;
+        if changes { steps as f64 * self.step_angle() } else { time * self.angular_velocity }
     }
 
     /// The load of a step, counted from 1, N; or its braking torque, N m.

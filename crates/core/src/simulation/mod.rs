@@ -1,6 +1,7 @@
 //! A pin on a disc, from its first step to its last (model section 4).
 
 pub mod checkpoint;
+mod control;
 mod observation;
 mod plain;
 mod workers;
@@ -17,6 +18,7 @@ use crate::engine::kernel::InstructionSet;
 #[cfg(feature = "mpi")]
 use crate::engine::parts::Needs;
 use crate::model::accounts::Resting;
+use crate::model::clock::Clock;
 pub use crate::model::error::SimulationError;
 pub use crate::model::history::Course;
 use crate::model::mesh::Mesh;
@@ -32,6 +34,7 @@ pub struct Simulation {
     pin_base: Vec<Base>,
     execution: Execution,
     workers: Workers,
+    clock: Clock,
     contact: Option<LastContact>,
     resting: Option<LastMoment>,
 }
@@ -85,7 +88,8 @@ impl Simulation {
         execution.workers = execution.workers.clamp(1, most);
         let (parameters, pin_base) = (Arc::new(parameters), surfaces.pin_base.clone());
         let workers = Workers::start(&parameters, surfaces, execution, columns)?;
-        Ok(Self { parameters, pin_base, execution, workers, contact: None, resting: None })
+        let clock = parameters.clock();
+        Ok(Self { parameters, pin_base, execution, workers, clock, contact: None, resting: None })
     }
 
     /// The same as [`Simulation::new`] on the ranks of an MPI job, of which this process is one (feature `mpi`).
@@ -109,7 +113,8 @@ impl Simulation {
         let parameters = Arc::new(parameters);
         let execution = Execution { workers: communicator.size(), instructions, ..Execution::default() };
         let workers = Workers::on_ranks(&parameters, &surfaces, execution, communicator);
-        Ok(Self { parameters, pin_base: surfaces.pin_base, execution, workers, contact: None, resting: None })
+        let (clock, pin_base) = (parameters.clock(), surfaces.pin_base);
+        Ok(Self { parameters, pin_base, execution, workers, clock, contact: None, resting: None })
     }
 
     /// One step: see the table in [`crate`].
@@ -145,6 +150,7 @@ impl Simulation {
         self.workers.accelerate(acceleration)?;
         self.resting = None;
         Arc::make_mut(&mut self.parameters).time_acceleration = acceleration;
+        self.clock = self.clock.changed(self.steps_done(), self.parameters.step_time());
         Ok(())
     }
 
@@ -166,6 +172,7 @@ impl Simulation {
         }
         self.workers.restore(checkpoint)?;
         self.resting = None;
+        self.clock = checkpoint.clock();
         self.contact = checkpoint.contact.clone();
         Arc::make_mut(&mut self.parameters).time_acceleration = checkpoint.memory.time_acceleration;
         Ok(())
@@ -194,6 +201,15 @@ impl Simulation {
     /// Steps done.
     pub fn steps_done(&self) -> u64 {
         self.course().steps
+    }
+
+    /// Steps that are done when t is at least `time` (s) for the first time, with what the coming steps are told now; of a cycle, the
+    /// last that ends no later.
+    pub fn steps_until(&self, time: f64) -> u64 {
+        match &self.parameters.cycle {
+            Some(cycle) => cycle.steps_done(time, self.parameters.step_angle()),
+            None => self.clock.steps_until(time),
+        }
     }
 
     /// t, s.

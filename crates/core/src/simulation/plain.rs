@@ -95,7 +95,15 @@ impl Plain {
 
     /// Has the coming steps stand for `acceleration` revolutions each (model 4.6).
     pub fn accelerate(&mut self, acceleration: f64) -> Result<(), SimulationError> {
-        let parameters = Parameters { time_acceleration: acceleration, ..Parameters::clone(&self.parameters) };
+        self.go_on_with(Parameters { time_acceleration: acceleration, ..Parameters::clone(&self.parameters) })
+    }
+
+    /// Has the coming steps taken under another load (N, or N m) and at another speed (rad/s).
+    pub fn operate(&mut self, load: f64, angular_velocity: f64) -> Result<(), SimulationError> {
+        self.go_on_with(self.parameters.under(load, angular_velocity))
+    }
+
+    fn go_on_with(&mut self, parameters: Parameters) -> Result<(), SimulationError> {
         self.clock = self.clock.changed(self.course.steps, parameters.step_time());
         self.parameters = Arc::new(parameters);
         self.wear_as_accounted();

@@ -105,6 +105,11 @@ impl Workers {
         call!(self, worker => worker.accelerate(acceleration))
     }
 
+    /// Has the coming steps taken under another load (N, or N m) and at another speed (rad/s).
+    pub fn operate(&mut self, load: f64, angular_velocity: f64) -> Result<(), SimulationError> {
+        call!(self, worker => worker.operate(load, angular_velocity))
+    }
+
     /// What is kept beside the surfaces.
     pub fn memory(&mut self) -> Result<(Memory, Option<EngineMemory>), SimulationError> {
         let (memory, engine) = match self {

@@ -32,37 +32,32 @@ pub(super) struct Layered {
     pub(super) replaced: Vec<Warning>,
 }
 
-/// Reads a scene, what it extends and the `--set` arguments.
+/// Reads a scene, or takes its text, what it extends and the `--set` arguments, each list of which is laid over those before.
 ///
 /// Tables are laid over each other key by key, inline tables too. The error is for files that cannot be read as scenes
 /// of this version.
-pub(super) fn read(path: &Path, sets: &[String]) -> Result<Layered, SceneError> {
+pub(super) fn read(path: &Path, text: Option<&str>, sets: &[&[String]]) -> Result<Layered, SceneError> {
     let mut problems = Vec::new();
-    let (files, layers) = read_chain(path, &mut problems)?;
+    let (files, layers) = read_chain(path, text, &mut problems)?;
     lay_all(files, layers, sets, problems)
-}
-
-/// As [`read`], of the text that a scene which extends no other will have at `path`.
-pub(super) fn of_text(path: &Path, text: &str) -> Result<Layered, SceneError> {
-    let mut problems = Vec::new();
-    let entries = document::read(&path.into(), text, &mut problems)?;
-    lay_all(vec![(path.to_owned(), sha256_of(text.as_bytes()))], vec![entries], &[], problems)
 }
 
 /// Lays the scenes, from the top down, and the `--set` arguments over each other.
 fn lay_all(
     files: Files,
     mut layers: Vec<Entries>,
-    sets: &[String],
+    sets: &[&[String]],
     mut problems: Vec<Problem>,
 ) -> Result<Layered, SceneError> {
-    let mut set = Entries::new();
-    for argument in sets {
-        let entries = document::read_set(argument, &mut problems);
-        refuse_newer_version(&entries)?;
-        lay_over(&mut set, entries);
+    for arguments in sets {
+        let mut set = Entries::new();
+        for argument in *arguments {
+            let entries = document::read_set(argument, &mut problems);
+            refuse_newer_version(&entries)?;
+            lay_over(&mut set, entries);
+        }
+        layers.insert(0, set);
     }
-    layers.insert(0, set);
     for layer in &layers {
         refuse_two_of_a_group(layer, &mut problems);
         refuse_two_ways(layer, &mut problems);
@@ -72,9 +67,9 @@ fn lay_all(
     let mut replaced = Vec::new();
     while let Some(mut layer) = layers.pop() {
         take_out_steps(&mut layer, &mut entries);
-        if layers.is_empty() {
-            // The last one is that of `--set`.
-            replaced = steps_replaced(&entries, &layer);
+        if layers.len() < sets.len() {
+            // The last ones are those of `--set`.
+            replaced.extend(steps_replaced(&entries, &layer));
         }
         for group in schema::GROUPS {
             let chosen = members(group, &layer).next();
@@ -96,8 +91,12 @@ fn lay_all(
     Ok(Layered { entries, files, problems, replaced })
 }
 
-/// Reads the scene and, one after the other, the scenes it extends.
-fn read_chain(path: &Path, problems: &mut Vec<Problem>) -> Result<(Files, Vec<Entries>), SceneError> {
+/// Reads the scene, unless its text is given, and, one after the other, the scenes it extends.
+fn read_chain(
+    path: &Path,
+    mut text: Option<&str>,
+    problems: &mut Vec<Problem>,
+) -> Result<(Files, Vec<Entries>), SceneError> {
     let (mut names, mut files, mut layers, mut identities) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
     let mut next = Some((path.to_path_buf(), None));
     while let Some((path, named)) = next.take() {
@@ -109,25 +108,30 @@ fn read_chain(path: &Path, problems: &mut Vec<Problem>) -> Result<(Files, Vec<En
             };
             Problem { system: error.raw_os_error(), ..problem }
         };
-        let identity = path.canonicalize().map_err(|error| unreadable(input::not_there(&path, error)))?;
-        names.push(path.clone());
-        if let (Some(first), Some(origin)) = (identities.iter().position(|known| *known == identity), &named) {
-            let chain: Vec<_> = names[first..].iter().map(|file| file.display().to_string()).collect();
-            let message = format!("scenes extend each other in a circle: {}", text::list(chain, " -> "));
-            return Err(Problem::new(origin, "extends", message).into());
-        }
-        identities.push(identity);
-        if identities.len() > limits::LAYERS {
-            let message = limits::more("more", limits::LAYERS, "scenes that extend each other");
-            return Err(match &named {
-                Some(origin) => Problem::new(origin, "extends", message),
-                None => Problem::without_key(&Origin::File(file), message),
+        let text = match text.take() {
+            Some(text) => text.to_owned(),
+            None => {
+                let identity = path.canonicalize().map_err(|error| unreadable(input::not_there(&path, error)))?;
+                names.push(path.clone());
+                if let (Some(first), Some(origin)) = (identities.iter().position(|known| *known == identity), &named) {
+                    let chain: Vec<_> = names[first..].iter().map(|file| file.display().to_string()).collect();
+                    let message = format!("scenes extend each other in a circle: {}", text::list(chain, " -> "));
+                    return Err(Problem::new(origin, "extends", message).into());
+                }
+                identities.push(identity);
+                if identities.len() > limits::LAYERS {
+                    let message = limits::more("more", limits::LAYERS, "scenes that extend each other");
+                    return Err(match &named {
+                        Some(origin) => Problem::new(origin, "extends", message),
+                        None => Problem::without_key(&Origin::File(file), message),
+                    }
+                    .into());
+                }
+                let text = read_text(&path).map_err(unreadable)?;
+                files.push((path.clone(), sha256_of(text.as_bytes())));
+                text
             }
-            .into());
-        }
-
-        let text = read_text(&path).map_err(unreadable)?;
-        files.push((path.clone(), sha256_of(text.as_bytes())));
+        };
         let entries = document::read(&file, &text, problems).map_err(|problem| {
             let earlier = std::mem::take(problems);
             SceneError::new(earlier.into_iter().chain([problem]).collect())

@@ -36,12 +36,18 @@ pub use resolved::{Difference, differences, values};
 /// Reads the scene at `path`, lays it over the scenes it extends, applies the arguments of `--set` (`key.path=value`)
 /// and checks everything that can be checked without reading surfaces.
 pub fn load(path: &Path, sets: &[String]) -> Result<Scene, SceneError> {
-    checked(layers::read(path, sets)?, path)
+    checked(layers::read(path, None, &[sets])?, path)
 }
 
-/// As [`load`], of the text that a scene which extends no other will have at `path`: it can be looked at before it is written.
+/// As [`load`], of the text of a scene that is in no file: what it names is looked for as if it were at `path`.
 pub fn of_text(path: &Path, text: &str) -> Result<Scene, SceneError> {
-    checked(layers::of_text(path, text)?, path)
+    of_layers(path, Some(text), &[])
+}
+
+/// As [`load`], or of a text as [`of_text`], with lists of changes that are laid over each other, as scenes are that extend others: a
+/// later one may choose another alternative.
+pub fn of_layers(path: &Path, text: Option<&str>, sets: &[&[String]]) -> Result<Scene, SceneError> {
+    checked(layers::read(path, text, sets)?, path)
 }
 
 fn checked(layers: layers::Layered, path: &Path) -> Result<Scene, SceneError> {

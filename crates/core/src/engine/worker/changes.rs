@@ -1,4 +1,4 @@
-//! What changes the coefficients between two steps: another time acceleration, and wear rates that follow the temperature.
+//! What changes between two steps: time acceleration, load and speed, and wear rates that follow the temperature.
 
 use std::sync::Arc;
 
@@ -34,6 +34,18 @@ impl<C: Communicator> Worker<C> {
         self.clock = self.clock.changed(self.course.steps, parameters.step_time());
         self.accept_coefficients(&parameters);
         // The sums of the coming step were taken with the weights of before.
+        self.bracket.map_or(Ok(()), |bracket| self.read_columns(&bracket))
+    }
+
+    /// Has the coming steps taken under another load (N, or N m) and at another speed (rad/s).
+    pub fn operate(&mut self, load: f64, angular_velocity: f64) -> Result<(), SimulationError> {
+        let parameters = self.parameters.under(load, angular_velocity);
+        self.clock = self.clock.changed(self.course.steps, parameters.step_time());
+        if parameters.largest_load() <= self.weights.largest_load {
+            self.parameters = Arc::new(parameters);
+            return Ok(());
+        }
+        self.accept_coefficients(&parameters);
         self.bracket.map_or(Ok(()), |bracket| self.read_columns(&bracket))
     }
 

@@ -1,0 +1,92 @@
+//! What is changed from outside between two steps: load and speed, and heights.
+
+use std::sync::Arc;
+
+use super::Simulation;
+use crate::engine::parts::Needs;
+use crate::model::error::SimulationError;
+use crate::model::memory::Heights;
+
+impl Simulation {
+    /// Has the coming steps taken under another load, N (N m where the scene gives a braking torque), and at another rotational
+    /// speed, rad/s.
+    ///
+    /// # Errors
+    /// [`SimulationError::Operation`] unless both are finite and above 0, [`SimulationError::OfCycle`] where a cycle gives them,
+    /// [`SimulationError::Worker`] when a worker failed.
+    pub fn operate(&mut self, load: f64, angular_velocity: f64) -> Result<(), SimulationError> {
+        if self.parameters.cycle.is_some() {
+            return Err(SimulationError::OfCycle);
+        }
+        let load_name = if self.parameters.by_torque { "braking torque" } else { "normal force" };
+        for (what, found) in [(load_name, load), ("rotational speed", angular_velocity)] {
+            if !(found.is_finite() && found > 0.0) {
+                return Err(SimulationError::Operation { what, found });
+            }
+        }
+        self.workers.operate(load, angular_velocity)?;
+        self.resting = None;
+        self.parameters = Arc::new(self.parameters.under(load, angular_velocity));
+        self.clock = self.clock.changed(self.steps_done(), self.parameters.step_time());
+        Ok(())
+    }
+
+    /// Takes over other heights; statuses follow from them. Volumes that are reported count what steps moved, so that
+    /// `balance_residual` shows what was changed here. Pressures of the last step are kept only after
+    /// [`Simulation::keep_contact`].
+    ///
+    /// # Errors
+    /// [`SimulationError::Checkpoint`] where the sizes are not those of the mesh, [`SimulationError::Cell`] for a height that is no
+    /// finite number or on the wrong side of its substrate, [`SimulationError::Worker`] when a worker failed.
+    pub fn set_heights(&mut self, mut heights: Heights) -> Result<(), SimulationError> {
+        for cell in self.parameters.mesh.absent_cells() {
+            for field in [&mut heights.pin_height, &mut heights.pin_substrate] {
+                // Of no meaning, and not to be refused.
+                field.get_mut(cell).into_iter().for_each(|height| *height = 0.0);
+            }
+        }
+        let mut state = self.checkpoint()?;
+        state.heights = heights;
+        state.check(&self.parameters.mesh)?;
+        self.check_cells(&state.heights)?;
+        self.restore(&state)
+    }
+
+    /// Refuses heights that no cell can have.
+    fn check_cells(&self, heights: &Heights) -> Result<(), SimulationError> {
+        let Heights { disc_height, disc_substrate, pin_height, pin_substrate } = heights;
+        let rows = self.parameters.mesh.rows();
+        let error = |field, cell: usize, found, expected| {
+            Err(SimulationError::Cell { field, column: cell / rows, row: cell % rows, found, expected })
+        };
+        let fields = [
+            ("disc_height", disc_height),
+            ("disc_substrate", disc_substrate),
+            ("pin_height", pin_height),
+            ("pin_substrate", pin_substrate),
+        ];
+        for (name, values) in fields {
+            if let Some(cell) = values.iter().position(|height| !height.is_finite()) {
+                return error(name, cell, values[cell], "a finite number, in m".to_owned());
+            }
+        }
+        let forms = Needs::of(&self.parameters).forms;
+        let bodies =
+            [("disc_height", disc_height, disc_substrate, 1.0), ("pin_height", pin_height, pin_substrate, -1.0)];
+        for (name, height, substrate, sign) in bodies {
+            let is_wrong = |cell: &usize| {
+                let build_up = sign * (height[*cell] - substrate[*cell]);
+                build_up < 0.0 || (!forms && build_up > 0.0)
+            };
+            if let Some(cell) = (0..height.len()).find(is_wrong) {
+                let side = match (forms, sign > 0.0) {
+                    (false, _) => "its substrate, for no plateaus form in this scene:",
+                    (true, true) => "at least its substrate,",
+                    (true, false) => "at most its substrate,",
+                };
+                return error(name, cell, height[cell], format!("{side} {} m; set both", substrate[cell]));
+            }
+        }
+        Ok(())
+    }
+}

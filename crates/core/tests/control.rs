@@ -1,0 +1,110 @@
+//! Load, speed and heights that are set between steps: the same bits for any number of workers, the plain model's results, and what is
+//! refused.
+
+use plateau_core::model::memory::Heights;
+use plateau_core::model::parameters::{DebrisRule, Parameters};
+use plateau_core::simulation::checkpoint::Checkpoint;
+use plateau_core::simulation::{Engine, Execution, Simulation, SimulationError};
+
+use crate::scenes::{few_or_all, random_scene, random_surfaces};
+
+/// Steps between two changes.
+const STEPS: u64 = 7;
+
+fn start(parameters: &Parameters, seed: u64, execution: Execution) -> Simulation {
+    let surfaces = random_surfaces(&parameters.mesh, seed);
+    Simulation::with_execution(parameters.clone(), surfaces, execution).expect("surfaces that fit")
+}
+
+fn heights(simulation: &mut Simulation) -> Heights {
+    let (disc, pin) = (simulation.disc().expect("the disc"), simulation.pin().expect("the pin"));
+    Heights {
+        disc_height: disc.height,
+        disc_substrate: disc.substrate,
+        pin_height: pin.height,
+        pin_substrate: pin.substrate,
+    }
+}
+
+/// Steps under loads up and down, above the first one too, and with a pin that is lowered in part; the displacement of each part.
+fn controlled(parameters: &Parameters, seed: u64, execution: Execution) -> (Vec<f64>, Checkpoint) {
+    let mut simulation = start(parameters, seed, execution);
+    let (load, speed) = (parameters.normal_force, parameters.angular_velocity);
+    let mut displacements = Vec::new();
+    for (part, [of_load, of_speed]) in [[1.0, 1.0], [0.3, 2.0], [8.0, 0.5], [2.0, 0.1]].into_iter().enumerate() {
+        simulation.operate(of_load * load, of_speed * speed).expect("a load");
+        let mut moved = heights(&mut simulation);
+        for cell in (part..moved.pin_height.len()).step_by(3) {
+            moved.pin_height[cell] -= 1e-7;
+            moved.pin_substrate[cell] -= 1e-7;
+        }
+        simulation.set_heights(moved).expect("heights");
+        simulation.advance_to(simulation.steps_done() + STEPS).expect("steps");
+        displacements.push(simulation.sample().expect("a sample").displacement);
+    }
+    (displacements, simulation.checkpoint().expect("a state"))
+}
+
+#[test]
+fn what_is_set_between_steps_has_the_same_bits_for_any_workers_and_the_plain_models_results() {
+    for seed in 0..few_or_all(8, 300) {
+        let parameters = random_scene(seed, DebrisRule::Local);
+        if parameters.cycle.is_some() {
+            continue;
+        }
+        let (expected, state) = controlled(&parameters, seed, Execution::default());
+        for workers in [2, 3] {
+            let (found, other) = controlled(&parameters, seed, Execution { workers, ..Execution::default() });
+            assert_eq!(found, expected, "scene {seed}, {workers} workers");
+            assert_eq!(other.heights, state.heights, "scene {seed}, {workers} workers");
+        }
+        let (plain, _) = controlled(&parameters, seed, Execution { engine: Engine::Plain, ..Execution::default() });
+        for (fast, plain) in expected.iter().zip(&plain) {
+            assert!((fast - plain).abs() < 1e-12, "scene {seed}: {fast:e}, plain {plain:e}");
+        }
+    }
+}
+
+#[test]
+fn time_and_distance_go_by_the_speed_that_is_set() {
+    let parameters = Parameters { cycle: None, ..random_scene(1, DebrisRule::Local) };
+    let mut simulation = start(&parameters, 1, Execution::default());
+    let mut expected = 0.0;
+    for speed in [10.0, 40.0, 5.0] {
+        simulation.operate(parameters.normal_force, speed).expect("a speed");
+        // The first step that ends no earlier than half a step after the fourth.
+        let step = parameters.step_angle() / speed;
+        assert_eq!(simulation.steps_until(expected + 4.5 * step) - simulation.steps_done(), 5);
+        simulation.advance_to(simulation.steps_done() + 4).expect("steps");
+        expected += 4.0 * step;
+        assert!((simulation.time() / expected - 1.0).abs() < 1e-14);
+    }
+    let distance = 12.0 * parameters.step_angle() * parameters.mesh.mean_radius();
+    assert!((simulation.sample().expect("a sample").sliding_distance / distance - 1.0).abs() < 1e-14);
+}
+
+#[test]
+fn what_cannot_be_is_refused_and_changes_nothing() {
+    let parameters = Parameters { cycle: None, ..random_scene(2, DebrisRule::Local) };
+    let mut simulation = start(&parameters, 2, Execution::default());
+    simulation.advance_to(3).expect("steps");
+    let before = heights(&mut simulation);
+    for wrong in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        assert!(matches!(simulation.operate(wrong, 1.0), Err(SimulationError::Operation { .. })));
+        assert!(matches!(simulation.operate(1.0, wrong), Err(SimulationError::Operation { .. })));
+    }
+    let wrong: [fn(&mut Heights); 3] = [
+        |heights| heights.disc_height[1] = f64::NAN,
+        |heights| heights.disc_height[1] = heights.disc_substrate[1] - 1e-6,
+        |heights| heights.pin_height[1] = heights.pin_substrate[1] + 1e-6,
+    ];
+    for change in wrong {
+        let mut heights = before.clone();
+        change(&mut heights);
+        let refused = simulation.set_heights(heights);
+        assert!(matches!(refused, Err(SimulationError::Cell { column: 0, row: 1, .. })), "{refused:?}");
+    }
+    let short = Heights { disc_height: Vec::new(), ..before.clone() };
+    assert!(matches!(simulation.set_heights(short), Err(SimulationError::Checkpoint(_))));
+    assert_eq!(heights(&mut simulation), before);
+}
