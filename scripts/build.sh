@@ -13,10 +13,10 @@ build() {
     mark=$stamp.$$
     printf '%s\n' "$stamp_key" >"$mark" || exit 1
     [ -x "$program" ] || say "building the program; the first time takes 3 to 5 minutes on two cores"
-    # With the tests among the packages, of which nothing is built: libraries then have the features that they have in tests,
-    # and cargo does not build them, and the crates above them, a second time for those.
+    # The module of the Python package comes with it, which needs no Python to be built. With the tests among the packages libraries
+    # have the features that they have in tests, and cargo does not build them, and the crates above them, a second time for those.
     # shellcheck disable=SC2086
-    if ! (cd "$root" && cargo build --release --locked -p plateau -p plateau-tests --bin plateau --target-dir "$target" \
+    if ! (cd "$root" && cargo build --release --locked -p plateau -p plateau-python -p plateau-tests --bin plateau --lib --target-dir "$target" \
         $feature_options); then
         rm -f "$mark"
         die "the program could not be built, see above"

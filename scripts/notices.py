@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Write the licences and copyright notices of everything that is compiled into the program, on standard output.
+"""Write the licences and copyright notices of everything that is compiled into the program and the Python module, on standard output.
 
 Whoever gives the program away puts them beside it:
 
@@ -26,8 +26,8 @@ def cargo(*arguments):
 
 
 def built_in(options):
-    """Names and versions of the crates in the program, without those that only help to build it."""
-    tree = cargo("tree", "-p", "plateau", "-e", "normal,no-proc-macro", "--prefix", "none", "--format", "{p}", *options)
+    """Names and versions of the crates in the program and the module, without those that only help to build it."""
+    tree = cargo("tree", "-p", "plateau", "-p", "plateau-python", "-e", "normal,no-proc-macro", "--prefix", "none", "--format", "{p}", *options)
     return {tuple(line.split()[:2]) for line in tree.splitlines() if line}
 
 

@@ -135,7 +135,7 @@ run
 a scene.toml"
 expect 'the status of the program' $status 7
 expect 'first use builds once, locked' "$(cat "$calls")" \
-    "cargo CMAKE= CMAKE_GENERATOR= build --release --locked -p plateau -p plateau-tests --bin plateau --target-dir $checkout/target"
+    "cargo CMAKE= CMAKE_GENERATOR= build --release --locked -p plateau -p plateau-python -p plateau-tests --bin plateau --lib --target-dir $checkout/target"
 launch "$checkout/plateau"
 expect 'second use does not build' "$(builds)" 1
 expect 'second use is silent' "$(cat "$sandbox/err")" ''
@@ -185,7 +185,7 @@ expect 'other compiler flags build, once' "$(builds)" 6
 PLATEAU_FEATURES=system-hdf5 fake_cmake=3.25.1 launch "$checkout/plateau"
 expect 'other features build' "$(builds)" 7
 expect 'the installed HDF5 needs no cmake' "$(tail -n 1 "$calls")" \
-    "cargo CMAKE= CMAKE_GENERATOR= build --release --locked -p plateau -p plateau-tests --bin plateau --target-dir $checkout/target --no-default-features --features system-hdf5"
+    "cargo CMAKE= CMAKE_GENERATOR= build --release --locked -p plateau -p plateau-python -p plateau-tests --bin plateau --lib --target-dir $checkout/target --no-default-features --features system-hdf5"
 PLATEAU_FEATURES=mpi launch "$checkout/plateau"
 expect_message 'no MPI' "the compiler 'mpicc' is missing: install libopenmpi-dev and libclang-dev"
 expect 'without MPI nothing is built' "$(builds)" 7

@@ -1,0 +1,151 @@
+//! Work on a thread of its own. Meanwhile the thread that called looks at signals, which Python handles on no other, shows progress and
+//! gives warnings.
+
+use std::fmt::Display;
+use std::mem;
+use std::path::Path;
+use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
+use std::sync::{Mutex, PoisonError};
+use std::thread;
+use std::time::Duration;
+
+use plateau_core::simulation::Simulation;
+use plateau_run::Observer;
+use plateau_run::sweep::SweepObserver;
+use pyo3::prelude::*;
+
+use crate::failure::Failure;
+
+/// Time between two looks at signals.
+const LOOK: Duration = Duration::from_millis(50);
+/// Number of the signal of Ctrl-C.
+const INTERRUPT: u8 = 2;
+
+/// What the work says, and is told.
+#[derive(Debug, Default)]
+pub struct Post {
+    is_asked_to_stop: AtomicBool,
+    said: Mutex<Vec<(&'static str, String)>>,
+    /// Physical time that a run has come to and its end, s, as bits; of several runs steps.
+    progress: [AtomicU64; 2],
+    /// Runs that ended, and failed.
+    ended: [AtomicUsize; 2],
+}
+
+impl Post {
+    fn say(&self, kind: &'static str, message: &dyn Display) {
+        self.said.lock().unwrap_or_else(PoisonError::into_inner).push((kind, message.to_string()));
+    }
+
+    fn signal(&self) -> Option<u8> {
+        self.is_asked_to_stop.load(Ordering::Relaxed).then_some(INTERRUPT)
+    }
+
+    /// Sets the end of what [`Observer::progress`] tells.
+    pub fn set_end(&self, end: f64) {
+        self.progress[1].store(end.to_bits(), Ordering::Relaxed);
+    }
+
+    /// Hands on what was said, to a function of Python that takes a word and a text, and progress as three numbers.
+    fn deliver(&self, tell: &Bound<'_, PyAny>) -> PyResult<()> {
+        let said = mem::take(&mut *self.said.lock().unwrap_or_else(PoisonError::into_inner));
+        for (kind, message) in said {
+            tell.call1((kind, message))?;
+        }
+        let [done, end] = self.progress.each_ref().map(|part| f64::from_bits(part.load(Ordering::Relaxed)));
+        if end > 0.0 {
+            tell.call1(("progress", (done, end, self.ended.each_ref().map(|count| count.load(Ordering::Relaxed)))))?;
+        }
+        Ok(())
+    }
+}
+
+/// Follows a run by its post.
+pub struct Correspondent<'a>(pub &'a Post);
+
+impl Observer for Correspondent<'_> {
+    fn warning(&mut self, message: &dyn Display) {
+        self.0.say("warning", message);
+    }
+
+    fn note(&mut self, message: &dyn Display) {
+        self.0.say("note", message);
+    }
+
+    fn starts(&mut self, _name: &str, duration: f64) {
+        self.0.set_end(duration);
+    }
+
+    fn progress(&mut self, simulation: &Simulation) {
+        self.0.progress[0].store(simulation.time().to_bits(), Ordering::Relaxed);
+    }
+
+    fn asked_to_stop(&mut self) -> Option<u8> {
+        self.0.signal()
+    }
+}
+
+impl SweepObserver for Post {
+    fn warning(&self, message: &dyn Display) {
+        self.say("warning", message);
+    }
+
+    fn note(&self, message: &dyn Display) {
+        self.say("note", message);
+    }
+
+    fn steps(&self, count: u64) {
+        let add = |bits| Some((f64::from_bits(bits) + count as f64).to_bits());
+        let _ = self.progress[0].fetch_update(Ordering::Relaxed, Ordering::Relaxed, add);
+    }
+
+    fn run_ended(&self, failed: bool) {
+        self.ended[0].fetch_add(1, Ordering::Relaxed);
+        self.ended[1].fetch_add(failed.into(), Ordering::Relaxed);
+    }
+
+    fn asked_to_stop(&self) -> Option<u8> {
+        self.signal()
+    }
+
+    fn retry_advice(&self, study: &Path) -> String {
+        format!("`plateau sweep run {} --retry` makes them again", study.display())
+    }
+}
+
+/// Does `work` on a thread and gives what comes of it. An exception in this thread, such as that of Ctrl-C, asks the work to stop, and is
+/// raised when it has.
+///
+/// Surfaces are made on threads that go with the work: those of a pool for the whole process would be missing after a fork.
+pub fn in_background<T: Send>(
+    py: Python<'_>,
+    tell: &Bound<'_, PyAny>,
+    about: &[&str],
+    work: impl FnOnce(&Post) -> Result<T, Failure> + Send,
+) -> PyResult<T> {
+    let (post, caller) = (Post::default(), thread::current());
+    let mut raised = None;
+    let done = thread::scope(|scope| {
+        let job = || {
+            let pool = rayon::ThreadPoolBuilder::new().build().map_err(Failure::failed);
+            let done = pool.and_then(|pool| pool.install(|| work(&post)));
+            caller.unpark();
+            done
+        };
+        let thread = thread::Builder::new().name("plateau".into()).spawn_scoped(scope, job).map_err(Failure::failed)?;
+        while !thread.is_finished() {
+            py.detach(|| thread::park_timeout(LOOK));
+            if raised.is_none() {
+                raised = py.check_signals().and_then(|()| post.deliver(tell)).err();
+                post.is_asked_to_stop.store(raised.is_some(), Ordering::Relaxed);
+            }
+        }
+        thread.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))
+    });
+    // What is said last is worth knowing also where it was stopped, but no exception takes the place of the first.
+    let delivered = post.deliver(tell);
+    match (raised, done) {
+        (Some(raised), _) => Err(raised),
+        (None, done) => done.map_err(|failure| failure.raise(py, about)).and_then(|done| delivered.map(|()| done)),
+    }
+}

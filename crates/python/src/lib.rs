@@ -1,0 +1,51 @@
+//! Plateau as a module of Python, `plateau._native`: scenes, simulations, runs and studies in the process of Python. What the package
+//! `plateau` shows of it is in python/plateau (`scenes.py`, `simulation.py`, `runs.py`), with the types in `_native.pyi`.
+//!
+//! | file | content |
+//! |---|---|
+//! | `scene.rs` | a scene, read, checked and resolved; its table of keys |
+//! | `simulation.rs` | a simulation between two steps |
+//! | `fields.rs` | its fields as memory of Python's own |
+//! | `state.rs` | its state in a file |
+//! | `runs.rs` | runs and studies that write their files |
+//! | `background.rs` | work on a thread, while Python looks at signals and shows progress |
+//! | `failure.rs` | exceptions of the package |
+
+mod background;
+mod failure;
+mod fields;
+mod runs;
+mod scene;
+mod simulation;
+mod state;
+
+use plateau_run::Program;
+use pyo3::prelude::*;
+
+/// This library, as run files name it: as the program that was built of the same source, so that each goes on with runs of the
+/// other.
+fn program() -> Program {
+    Program { name: format!("plateau {}", env!("CARGO_PKG_VERSION")), revision: env!("PLATEAU_REVISION").into() }
+}
+
+/// What the package `plateau` has in Rust.
+#[pymodule(name = "_native")]
+mod native {
+    #[pymodule_export]
+    use super::runs::{make_runs, run};
+    #[pymodule_export]
+    use super::scene::{Scene, keys};
+    #[pymodule_export]
+    use super::simulation::Simulation;
+
+    use pyo3::prelude::*;
+    use pyo3::types::IntoPyDict as _;
+
+    #[pymodule_init]
+    fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
+        let forked = pyo3::wrap_pyfunction!(super::simulation::forked, module)?;
+        let options = [("after_in_child", forked)].into_py_dict(module.py())?;
+        module.py().import("os")?.call_method("register_at_fork", (), Some(&options))?;
+        module.add("program", super::program().build())
+    }
+}

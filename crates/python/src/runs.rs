@@ -1,0 +1,88 @@
+//! Runs and studies that write their files as those of the program do.
+
+use std::path::PathBuf;
+
+use plateau_io::number;
+use plateau_run::sweep::{self, Sweep, SweepOptions};
+use plateau_run::{ExecutionOptions, Job, RunOptions, StartMode, execution};
+use pyo3::prelude::*;
+
+use crate::background::{Correspondent, Post, in_background};
+use crate::failure::Failure;
+use crate::program;
+use crate::scene::Scene;
+use crate::simulation::engine_of;
+
+/// Runs a scene, and gives the summary as JSON; nothing where the run was finished before. `mode` is `new`, `resume` or `extend`.
+#[pyfunction]
+pub fn run(
+    py: Python<'_>,
+    scene: &Scene,
+    output: Option<PathBuf>,
+    replace: bool,
+    mode: &str,
+    engine: &str,
+    tell: &Bound<'_, PyAny>,
+) -> PyResult<Option<String>> {
+    let scene = scene.0.clone();
+    let about = scene.path.to_string_lossy().into_owned();
+    let work = |post: &Post| {
+        let options = RunOptions {
+            output,
+            replace,
+            mode: match mode {
+                "resume" => StartMode::Resume,
+                "extend" => StartMode::Extend,
+                _ => StartMode::New,
+            },
+            execution: ExecutionOptions { engine: engine_of(engine)?, ..ExecutionOptions::default() },
+            program: program(),
+        };
+        let mut job = Job::start().map_err(Failure::failed)?;
+        let done = plateau_run::run(scene, &options, &mut job, &mut Correspondent(post))?;
+        job.finish();
+        done.map(|summary| serde_json::to_string(&summary).map_err(Failure::failed)).transpose()
+    };
+    in_background(py, tell, &[&about], work)
+}
+
+/// Makes the runs of a study that are not there yet.
+#[pyfunction]
+pub fn make_runs(
+    py: Python<'_>,
+    study: PathBuf,
+    jobs: Option<usize>,
+    workers: Option<usize>,
+    most_failures: Option<usize>,
+    retry: bool,
+    tell: &Bound<'_, PyAny>,
+) -> PyResult<()> {
+    let about = study.to_string_lossy().into_owned();
+    let work = |post: &Post| {
+        let plan = sweep::load(&study)?;
+        let workers = workers.unwrap_or(1);
+        let jobs = jobs.unwrap_or_else(|| (execution::cores() / workers).max(1));
+        let options = SweepOptions { retry, part: None, jobs, workers, most_failures, program: program() };
+        let mut job = Job::start().map_err(Failure::failed)?;
+        let sweep = Sweep::prepare(&plan, options, &job, post)?;
+        post.set_end(sweep.steps() as f64);
+        let summary = sweep.run(&mut job, post)?;
+        job.finish();
+        if let Some(signal) = summary.signal {
+            return Err(Failure::stopped(
+                signal,
+                format_args!("{} runs are left, the same call goes on", summary.left),
+            ));
+        }
+        match summary.failed + summary.failed_elsewhere + summary.failed_before {
+            0 => Ok(()),
+            failed => {
+                let runs = number::count(summary.runs, "run");
+                Err(Failure::failed(format_args!(
+                    "{failed} of {runs} failed; `plateau sweep collect` lists their errors, --retry makes them again"
+                )))
+            }
+        }
+    };
+    in_background(py, tell, &[&about], work)
+}

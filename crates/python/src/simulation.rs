@@ -1,0 +1,315 @@
+//! A simulation as an object of Python, between two steps.
+
+use std::mem;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Mutex, MutexGuard, PoisonError, TryLockError};
+use std::time::{Duration, Instant};
+
+use plateau_core::observe::quantities;
+use plateau_core::simulation::{Engine, SimulationError};
+use plateau_io::{plausibility, scene as scenes, surface};
+use plateau_run::{Assembly, ExecutionOptions, Observer, execution, stiffness_warning};
+use pyo3::prelude::*;
+use pyo3::types::{PyByteArray, PyDict};
+
+use crate::background::{Correspondent, Post, in_background};
+use crate::failure::Failure;
+use crate::fields;
+use crate::scene::Scene;
+use crate::state::State;
+
+/// Time between two looks at signals while steps are taken.
+const LOOK: Duration = Duration::from_millis(100);
+
+/// A simulation.
+#[pyclass(frozen, module = "plateau._native")]
+pub struct Simulation {
+    inner: Mutex<Option<Inner>>,
+    /// Forks that this process comes of. Where there were more since, the threads are missing.
+    forks: u64,
+}
+
+/// Forks that this process comes of.
+static FORKS: AtomicU64 = AtomicU64::new(0);
+
+/// Counts a fork, in the process that comes of it.
+#[pyfunction]
+pub fn forked() {
+    FORKS.fetch_add(1, Ordering::Relaxed);
+}
+
+struct Inner {
+    scene: scenes::Scene,
+    assembly: Assembly,
+    /// Surface files that were read, with their SHA-256.
+    inputs: Vec<(PathBuf, String)>,
+    /// Load, speed and the largest load so far, where they were set between steps.
+    operation: Option<[f64; 3]>,
+}
+
+impl Inner {
+    fn new(scene: scenes::Scene, engine: Engine, post: &Post) -> Result<Self, Failure> {
+        if scene.adaptive.is_some() {
+            let message =
+                "numerics.time_acceleration: a simulation that is taken step by step does not choose it, give a number";
+            return Err(Failure::input(message));
+        }
+        let mut observer = Correspondent(post);
+        stiffness_warning(&scene.parameters).iter().for_each(|warning| observer.warning(warning));
+        let loaded = surface::load(&scene)?;
+        loaded.warnings().for_each(|warning| observer.warning(&warning));
+        plausibility::of_surfaces(&scene, &loaded).iter().for_each(|warning| observer.warning(warning));
+        let options = ExecutionOptions { engine, ..ExecutionOptions::default() };
+        let execution = execution::decide(&scene, 1, &options, &loaded.surfaces, &mut observer)?;
+        let assembly = Assembly::new(&scene, loaded.surfaces, execution)?;
+        Ok(Self { scene, assembly, inputs: loaded.inputs, operation: None })
+    }
+
+    fn operate(&mut self, load: f64, speed: f64, largest: f64) -> Result<(), SimulationError> {
+        let largest = self.operation.map_or(largest, |[.., before]| largest.max(before));
+        let simulation = &mut self.assembly.simulation;
+        simulation.operate(load, speed)?;
+        self.operation = Some([load, speed, largest]);
+        Ok(())
+    }
+
+    /// Goes on from a state.
+    fn restore(&mut self, state: &State) -> Result<(), Failure> {
+        state.compare(&self.inputs)?;
+        if let Some([load, speed, largest]) = state.operation {
+            // What sums are multiples of goes by the largest load.
+            self.operate(largest, speed, largest)?;
+            self.assembly.restore(&state.simulation)?;
+            self.operate(load, speed, largest)?;
+            return Ok(());
+        }
+        Ok(self.assembly.restore(&state.simulation)?)
+    }
+
+    /// Takes so many steps, a tenth of a second's worth at a time; if the last is `watched`, the last of each is, so that
+    /// a sample may follow wherever it is stopped.
+    fn advance(&mut self, py: Python<'_>, steps: u64, watched: bool, tell: Option<&Bound<'_, PyAny>>) -> PyResult<()> {
+        let simulation = &mut self.assembly.simulation;
+        let last = simulation.steps_done().saturating_add(steps);
+        let mut count = 1;
+        while simulation.steps_done() < last {
+            let next = last.min(simulation.steps_done().saturating_add(count));
+            let start = Instant::now();
+            let taken = py.detach(|| if watched { simulation.advance_to(next) } else { simulation.pass_to(next) });
+            taken.map_err(|error| Failure::from(error).raise(py, &[]))?;
+            py.check_signals()?;
+            if let Some(tell) = tell {
+                tell.call1((steps + simulation.steps_done() - last, steps))?;
+            }
+            count = if start.elapsed() > LOOK { (count / 2).max(1) } else { count.saturating_mul(2) };
+        }
+        Ok(())
+    }
+}
+
+impl Simulation {
+    fn of(inner: Inner) -> Self {
+        Self { inner: Mutex::new(Some(inner)), forks: FORKS.load(Ordering::Relaxed) }
+    }
+
+    /// Gives the simulation to `work`, unless another thread or process has it.
+    fn with<T>(&self, py: Python<'_>, work: impl FnOnce(&mut Inner) -> Result<T, Failure>) -> PyResult<T> {
+        let mut guard = self.lock().map_err(|failure| failure.raise(py, &[]))?;
+        let inner = guard.as_mut().ok_or_else(|| Failure::failed("the simulation has ended").raise(py, &[]))?;
+        work(inner).map_err(|failure| failure.raise(py, &[]))
+    }
+
+    fn is_forked(&self) -> bool {
+        FORKS.load(Ordering::Relaxed) != self.forks
+    }
+
+    fn lock(&self) -> Result<MutexGuard<'_, Option<Inner>>, Failure> {
+        if self.is_forked() {
+            let message = "this simulation is of another process, whose threads a fork does not have: save its state there, load it here";
+            return Err(Failure::input(message));
+        }
+        match self.inner.try_lock() {
+            Ok(guard) => Ok(guard),
+            Err(TryLockError::Poisoned(poisoned)) => Ok(poisoned.into_inner()),
+            Err(TryLockError::WouldBlock) => Err(Failure::input(
+                "another thread uses this simulation: wait until it is done, or make one for each thread",
+            )),
+        }
+    }
+}
+
+impl Drop for Simulation {
+    fn drop(&mut self) {
+        // In a process that was forked nobody answers.
+        if self.is_forked() {
+            mem::forget(self.inner.get_mut().unwrap_or_else(PoisonError::into_inner).take());
+        }
+    }
+}
+
+#[pymethods]
+impl Simulation {
+    /// The state at t = 0.
+    #[new]
+    fn new(py: Python<'_>, scene: &Scene, engine: &str, tell: &Bound<'_, PyAny>) -> PyResult<Self> {
+        let engine = engine_of(engine).map_err(|failure| failure.raise(py, &[]))?;
+        let scene = scene.0.clone();
+        in_background(py, tell, &[], move |post| Inner::new(scene, engine, post)).map(Self::of)
+    }
+
+    /// Goes on from a saved state, with as many workers as asked for.
+    #[staticmethod]
+    fn load(py: Python<'_>, path: PathBuf, workers: Option<&str>, tell: &Bound<'_, PyAny>) -> PyResult<Self> {
+        let about = path.to_string_lossy().into_owned();
+        let sets: Vec<_> = workers.iter().map(|workers| format!("numerics.workers={workers}")).collect();
+        let work = move |post: &Post| {
+            let state = State::read(&path)?;
+            let scene = scenes::of_layers(Path::new("scene"), Some(&state.scene), &[&sets])?;
+            let mut inner = Inner::new(scene, state.simulation.run.engine(), post)?;
+            inner.restore(&state).map(|()| inner)
+        };
+        in_background(py, tell, &[&about], work).map(Self::of)
+    }
+
+    /// Writes the state to a file.
+    fn save(&self, py: Python<'_>, path: PathBuf) -> PyResult<()> {
+        self.with(py, |inner| {
+            if inner.assembly.simulation.steps_done() > 0 {
+                inner.assembly.simulation.keep_contact()?;
+            }
+            let state = inner.assembly.checkpoint()?;
+            State::new(&inner.scene, &inner.inputs, inner.operation, state).write(&path)
+        })
+    }
+
+    /// Takes so many steps; pressures of the last are kept if it is watched.
+    #[pyo3(signature = (steps, watch=true, tell=None))]
+    fn advance(&self, py: Python<'_>, steps: u64, watch: bool, tell: Option<&Bound<'_, PyAny>>) -> PyResult<()> {
+        let mut guard = self.lock().map_err(|failure| failure.raise(py, &[]))?;
+        guard.as_mut().map_or(Ok(()), |inner| inner.advance(py, steps, watch, tell))
+    }
+
+    /// Steps that are done when a time (s) is reached.
+    fn steps_until(&self, py: Python<'_>, time: f64) -> PyResult<u64> {
+        self.with(py, |inner| Ok(inner.assembly.simulation.steps_until(time)))
+    }
+
+    /// Steps done.
+    #[getter]
+    fn steps(&self, py: Python<'_>) -> PyResult<u64> {
+        self.with(py, |inner| Ok(inner.assembly.simulation.steps_done()))
+    }
+
+    /// t, s.
+    #[getter]
+    fn time(&self, py: Python<'_>) -> PyResult<f64> {
+        self.with(py, |inner| Ok(inner.assembly.simulation.time()))
+    }
+
+    /// Load (N, or N m), rotational speed (rad/s), and whether the load is a braking torque.
+    #[getter]
+    fn operation(&self, py: Python<'_>) -> PyResult<(f64, f64, bool)> {
+        self.with(py, |inner| {
+            let parameters = inner.assembly.simulation.parameters();
+            Ok((parameters.normal_force, parameters.angular_velocity, parameters.by_torque))
+        })
+    }
+
+    /// Sets load and speed of the coming steps.
+    fn operate(&self, py: Python<'_>, load: f64, speed: f64) -> PyResult<()> {
+        self.with(py, |inner| {
+            let first = inner.assembly.simulation.parameters().normal_force;
+            Ok(inner.operate(load, speed, load.max(first))?)
+        })
+    }
+
+    /// Rows, disc columns, pin columns, the angle of a column (rad), and the disc column under pin column 0 in the coming step.
+    #[getter]
+    fn mesh(&self, py: Python<'_>) -> PyResult<(usize, usize, usize, f64, usize)> {
+        self.with(py, |inner| {
+            let simulation = &inner.assembly.simulation;
+            let mesh = &simulation.parameters().mesh;
+            let first = mesh.disc_column(0, simulation.steps_done());
+            Ok((mesh.rows(), mesh.disc_columns(), mesh.pin_columns(), mesh.column_angle(), first))
+        })
+    }
+
+    /// Radius (m) and area of a cell (m²) of every row.
+    #[getter]
+    fn rows(&self, py: Python<'_>) -> PyResult<(Vec<f64>, Vec<f64>)> {
+        self.with(py, |inner| {
+            let mesh = &inner.assembly.simulation.parameters().mesh;
+            Ok((mesh.radius().to_vec(), mesh.area().to_vec()))
+        })
+    }
+
+    /// Engine and number of workers.
+    #[getter]
+    fn execution(&self, py: Python<'_>) -> PyResult<(&'static str, usize)> {
+        self.with(py, |inner| {
+            let execution = inner.assembly.simulation.execution();
+            Ok((execution.engine.name(), execution.workers))
+        })
+    }
+
+    /// The resolved scene.
+    #[getter]
+    fn scene(&self, py: Python<'_>) -> PyResult<Scene> {
+        self.with(py, |inner| Ok(Scene(inner.scene.clone())))
+    }
+
+    /// The series after the last step, by name.
+    fn sample<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let (sample, quantities) = self.with(py, |inner| {
+            let extras = inner.scene.extras(false);
+            Ok((inner.assembly.last_sample()?, quantities(&extras).collect::<Vec<_>>()))
+        })?;
+        let row = PyDict::new(py);
+        row.set_item("step", sample.step)?;
+        row.set_item("time", sample.time)?;
+        for quantity in quantities {
+            row.set_item(quantity.name, quantity.value(&sample))?;
+        }
+        Ok(row)
+    }
+
+    /// Name, unit and meaning of each series.
+    fn quantities(&self, py: Python<'_>) -> PyResult<Vec<(&'static str, &'static str, &'static str)>> {
+        self.with(py, |inner| {
+            let extras = inner.scene.extras(false);
+            Ok(quantities(&extras).map(|quantity| (quantity.name, quantity.unit, quantity.long_name)).collect())
+        })
+    }
+
+    /// Bytes of a field, which are Python's own.
+    fn field<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyByteArray>> {
+        let bytes = self.with(py, |inner| py.detach(|| fields::bytes(&mut inner.assembly.simulation, name)))?;
+        Ok(PyByteArray::new(py, &bytes))
+    }
+
+    /// Takes over heights, m: of disc and its substrate, of pin and its substrate, each unless None.
+    fn set_heights(&self, py: Python<'_>, given: [Option<Bound<'_, PyAny>>; 4]) -> PyResult<()> {
+        let mut numbers = [const { None }; 4];
+        for (place, array) in numbers.iter_mut().zip(&given) {
+            *place = array.as_ref().map(fields::numbers).transpose()?;
+        }
+        self.with(py, |inner| {
+            py.detach(|| {
+                let simulation = &mut inner.assembly.simulation;
+                // A sample and pressures are those of the last step, until there is another one.
+                if simulation.steps_done() > 0 {
+                    simulation.keep_contact()?;
+                }
+                let heights = fields::heights(simulation, numbers)?;
+                Ok(simulation.set_heights(heights)?)
+            })
+        })
+    }
+}
+
+/// The engine of a name.
+pub fn engine_of(name: &str) -> Result<Engine, Failure> {
+    let found = [Engine::Fast, Engine::Plain].into_iter().find(|engine| engine.name() == name);
+    found.ok_or_else(|| Failure::input(format!("engine {name:?}: expected \"fast\" or \"plain\"")))
+}
