@@ -31,7 +31,7 @@ except ModuleNotFoundError as error:
     raise MissingPackageError(missing) from error
 
 from plateau import study
-from plateau.commands import check, collect, command, run, sweep
+from plateau.commands import check, collect, command
 from plateau.errors import (
     InputError,
     InputTypeError,
@@ -52,6 +52,9 @@ from plateau.program import find_program
 from plateau.run_accessor import RunAccessor
 from plateau.run_file import open_run
 from plateau.run_report import report
+from plateau.runs import run, sweep
+from plateau.scenes import Scene
+from plateau.simulation import Simulation
 from plateau.study import Study, open_study
 
 try:
@@ -71,6 +74,8 @@ __all__ = [
     "RunAccessor",
     "RunFailed",
     "RunStopped",
+    "Scene",
+    "Simulation",
     "Study",
     "UnknownNameError",
     "check",

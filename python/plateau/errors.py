@@ -72,7 +72,7 @@ class MissingPackageError(PlateauError, ImportError):
 
 
 class UnknownNameError(InputError, KeyError):
-    """A run has no series, map or status of this name."""
+    """A run has no series, map or status of this name, or scenes have no such key."""
 
 
 class InputTypeError(InputError, TypeError):
@@ -124,10 +124,11 @@ def not_installed(name: str | None) -> str:
     return f"{name} is not installed: pip install 'plateau-brake[all]'"
 
 
-def error_of(message: str, command: Sequence[str], status: int) -> PlateauError:
-    """The exception for an exit status."""
+def error_of(message: str, command: Sequence[str], status: int, files: Sequence[str] = ()) -> PlateauError:
+    """The exception for an exit status of a command, or of what this process did with these files in its place."""
     # Messages begin with the file that they are about.
-    if status == 2 and any(message.startswith((f"{word}: ", f"cannot read {word}: ")) and not os.path.exists(word) for word in command[1:]):
+    named = (*command[1:], *files)
+    if status == 2 and any(message.startswith((f"{word}: ", f"cannot read {word}: ")) and not os.path.exists(word) for word in named):
         return MissingFileError(message, command, status)
     if status == 2:
         return InputError(message, command, status)

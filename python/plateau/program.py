@@ -7,14 +7,12 @@ import shutil
 import signal
 import subprocess
 import sysconfig
-import tempfile
 import warnings
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
 from plateau.errors import InputError, InputTypeError, PlateauError, PlateauWarning, error_of
-from plateau.progress import Follow, follow_pipe, follow_terminal, shower
 
 # The beginning of every message of the program.
 BEGIN = re.compile(r"^plateau: ", re.MULTILINE)
@@ -70,9 +68,9 @@ def _scheme(key: Any) -> str:
     return sysconfig.get_preferred_scheme(key)
 
 
-def call(arguments: Sequence[str | os.PathLike[str]], progress: bool | None = None) -> Any:
+def call(arguments: Sequence[str | os.PathLike[str]]) -> Any:
     """Calls the program with ``--json``, as `listen` does, and returns the document; None if nothing was to be done."""
-    document = listen([*arguments, "--json"], progress, 4)
+    document = listen([*arguments, "--json"], 4)
     try:
         return json.loads(document) if document.strip() else None
     except ValueError as error:
@@ -94,10 +92,10 @@ def file_name(path: str | os.PathLike[str], what: str) -> str:
     return os.path.join(".", name) if name.startswith("-") else name
 
 
-def listen(arguments: Sequence[str | os.PathLike[str]], progress: bool | None = None, stacklevel: int = 3) -> str:
+def listen(arguments: Sequence[str | os.PathLike[str]], stacklevel: int = 3) -> str:
     """Calls the program and returns its standard output; its errors are `PlateauError`, its warnings `PlateauWarning`.
 
-    Progress is shown in notebooks and terminals unless told; `stacklevel` is the caller whose line is named in warnings.
+    `stacklevel` is the caller whose line is named in warnings.
     """
     try:
         command = [find_program(), *[os.fspath(argument) for argument in arguments]]
@@ -106,11 +104,7 @@ def listen(arguments: Sequence[str | os.PathLike[str]], progress: bool | None = 
     for argument in command:
         if (b"\0" if isinstance(argument, bytes) else "\0") in argument:
             raise InputError(f"{argument!r} has a character 0, which no argument of a program can have: take it out")
-    show = shower(progress)
-    with tempfile.TemporaryFile() as output:
-        status, said = _wait(command, output, follow_pipe if show is None else follow_terminal, show)
-        output.seek(0)
-        printed = output.read().decode(errors="replace")
+    status, printed, said = _answer(command)
     messages = [message.strip() for message in BEGIN.split(said)]
     errors = [message for message in messages if message and not message.startswith("warning: ")]
     for message in messages:
@@ -121,30 +115,20 @@ def listen(arguments: Sequence[str | os.PathLike[str]], progress: bool | None = 
     return printed
 
 
-def _wait(command: list[str], output: Any, follow: Follow, show: Callable[[str], None] | None) -> tuple[int, str]:
-    """Exit status and messages of a command."""
-    process: subprocess.Popen[bytes] | None = None
+def _answer(command: list[str]) -> tuple[int, str, str]:
+    """Exit status, standard output and messages of a command."""
     environment = dict(os.environ)
-    # There is no bar on a terminal of the type "dumb".
-    if show is not None:
-        environment["TERM"] = "xterm"
     # In a checkout, the program finds there the words that this package answers.
     words = Path(__file__).resolve().parents[1] / "bin"
     if (words / "plateau-sweep").is_file():
         environment["PATH"] = os.pathsep.join([str(words), environment.get("PATH", os.defpath)])
-
-    def start(error: int) -> subprocess.Popen[bytes]:
-        nonlocal process
-        process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=output, stderr=error, env=environment)
-        return process
-
-    try:
-        said = follow(start, show)
-        assert process is not None
-        return process.wait(), said
-    except BaseException:
-        # Ctrl-C in a notebook may reach this process alone. The run file is closed cleanly before this process continues.
-        if process is not None and process.poll() is None:
+    pipe = subprocess.PIPE
+    with subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=pipe, stderr=pipe, env=environment) as process:
+        try:
+            printed, said = process.communicate()
+        except BaseException:
+            # Ctrl-C in a notebook may reach this process alone. What is written is closed cleanly before this process continues.
             process.send_signal(signal.SIGINT)
             process.wait()
-        raise
+            raise
+    return process.returncode, printed.decode(errors="replace"), said.decode(errors="replace")

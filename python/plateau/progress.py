@@ -1,27 +1,61 @@
-"""Progress of the program in notebooks and terminals: the program's own line, which it writes only to a terminal."""
+"""Progress of what takes long, as one line in a notebook or a terminal."""
 
-import codecs
-import fcntl
-import os
-import pty
-import re
-import struct
-import subprocess
 import sys
-import termios
-import tty
+import time
+import warnings
 from collections.abc import Callable
 from typing import Any
 
-# Starts the program with this file descriptor as its standard error.
-Start = Callable[[int], "subprocess.Popen[bytes]"]
-# Returns the standard error of the program, without the lines of its bar.
-Follow = Callable[[Start, Callable[[str], None] | None], str]
+from plateau.errors import PlateauWarning
 
-# Largest length of a line of the bar, characters.
-COLUMNS = 120
-ESCAPES = re.compile(r"\x1b\[[0-9;?]*[A-Za-z]")
-BAR = re.compile(r"\d+ %.* left$")
+# Characters of the bar, and seconds before it is shown and between two of its lines.
+WIDTH, PATIENCE = 28, 0.2
+
+
+class Progress:
+    """Warns, and shows progress; `tell` is what the module in Rust calls.
+
+    Parameters
+    ----------
+    wanted : bool, optional
+        Whether progress is shown; by default in notebooks and terminals.
+    stacklevel : int
+        The caller whose line is named in warnings, from `tell` on.
+    """
+
+    def __init__(self, wanted: bool | None, stacklevel: int = 3) -> None:
+        self._show, self._stacklevel = shower(wanted), stacklevel
+        self._start = self._last = time.monotonic()
+
+    def tell(self, kind: str, said: Any) -> None:
+        """Takes a warning, a note or how far all is."""
+        if kind == "warning":
+            warnings.warn(said, PlateauWarning, stacklevel=self._stacklevel)
+        elif kind == "progress":
+            done, end, (ended, failed) = said
+            more = f"{ended} runs" + (f", {failed} failed" if failed else "") if ended else f"{done:.4g} of {end:.4g}"
+            self.show(done / end, more)
+
+    def steps(self, done: int, last: int) -> None:
+        """Shows how many steps are taken."""
+        self.show(done / last, f"step {done} of {last}")
+
+    def show(self, part: float, words: str) -> None:
+        """Shows a part of all, not too often."""
+        now = time.monotonic()
+        if self._show is None or now - self._last < PATIENCE:
+            return
+        self._last = now
+        filled = round(WIDTH * min(part, 1.0))
+        left = f"{(now - self._start) * (1.0 / part - 1.0):.0f} s" if part > 0.0 else "?"
+        self._show(f"{'#' * filled}{'.' * (WIDTH - filled)} {100.0 * part:3.0f} %  {words}  {left} left")
+
+    def __enter__(self) -> "Progress":
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        if self._show is not None and self._last > self._start:
+            self._show("")
 
 
 def shower(wanted: bool | None) -> Callable[[str], None] | None:
@@ -33,65 +67,6 @@ def shower(wanted: bool | None) -> Callable[[str], None] | None:
     if wanted or sys.stderr.isatty():
         return _on_terminal
     return None
-
-
-def follow_pipe(start: Start, show: Callable[[str], None] | None) -> str:
-    """Starts the program and reads its messages to their end. There is no bar."""
-    ours, theirs = os.pipe()
-    with os.fdopen(ours, "rb") as stream:
-        try:
-            start(theirs)
-        finally:
-            os.close(theirs)
-        return stream.read().decode(errors="replace")
-
-
-def follow_terminal(start: Start, show: Callable[[str], None] | None) -> str:
-    """The same with a terminal of its own, so that the program draws its bar; every line of that is shown."""
-    ours, theirs = pty.openpty()
-    try:
-        tty.setraw(theirs)
-        fcntl.ioctl(theirs, termios.TIOCSWINSZ, struct.pack("HHHH", 24, COLUMNS, 0, 0))
-        try:
-            start(theirs)
-        finally:
-            os.close(theirs)
-        said, rest = "", ""
-        for text in _pieces(ours):
-            *lines, rest = re.split(r"(?<=[\r\n])", rest + text)
-            said += _messages(lines, show)
-        return said + _messages([rest], show)
-    finally:
-        os.close(ours)
-        if show is not None:
-            show("")
-
-
-def _pieces(descriptor: int) -> Any:
-    """What comes from a terminal, until nobody has its other end any more."""
-    # A character may arrive in two pieces.
-    decoder = codecs.getincrementaldecoder("utf-8")(errors="replace")
-    while True:
-        try:
-            piece = os.read(descriptor, 65536)
-        except OSError:  # Linux says so
-            return
-        if not piece:
-            return
-        yield decoder.decode(piece)
-
-
-def _messages(lines: list[str], show: Callable[[str], None] | None) -> str:
-    """The lines that are messages; those of the bar are shown."""
-    messages = ""
-    for line in lines:
-        text = ESCAPES.sub("", line)
-        if BAR.search(text.rstrip()):
-            if show is not None:
-                show(text.strip())
-        elif text.strip():
-            messages += text.replace("\r", "\n")
-    return messages
 
 
 def _on_terminal(line: str) -> None:

@@ -104,7 +104,7 @@ class Told:
         self.summary, self.without = dict[str, Any](), ""
         try:
             with warnings.catch_warnings(action="ignore", category=PlateauWarning):
-                self.summary = program.call(["summary", program.file_name(source(run), "a run file")], progress=False) or {}
+                self.summary = program.call(["summary", program.file_name(source(run), "a run file")]) or {}
         except PlateauError as error:
             self.without = f"Running in and time acceleration are left out, the program did not tell: {str(error).splitlines()[0]}."
         self.window = run.plateau.mean("contact_area") if len(self.series) and "contact_area" in self.series else NOTHING

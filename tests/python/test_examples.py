@@ -64,9 +64,16 @@ class Examples(unittest.TestCase):
         self.assertGreater(different, 0.005, name)
         self.assertGreater(min(pixels.shape[:2]), 200, name)
 
-    def test_the_notebook_shows_what_its_cells_say(self):
-        cells = [cell for cell in json.loads((ROOT / "examples/studies.ipynb").read_text())["cells"] if cell["cell_type"] == "code"]
-        folder = self.folder / "notebook"
+    def test_notebooks_show_what_their_cells_say(self):
+        notebooks = sorted((ROOT / "examples").glob("*.ipynb"))
+        self.assertGreater(len(notebooks), 2)
+        for notebook in notebooks:
+            with self.subTest(notebook.name):
+                self.check_notebook(notebook)
+
+    def check_notebook(self, notebook):
+        cells = [cell for cell in json.loads(notebook.read_text())["cells"] if cell["cell_type"] == "code"]
+        folder = self.folder / notebook.stem
         folder.mkdir()
         (folder / "data").symlink_to(ROOT / "data")
         # The part of a cell that a notebook alone knows is left out; between cells there is a line that nothing prints.
@@ -82,6 +89,14 @@ class Examples(unittest.TestCase):
             # Digits that are printed may round the other way on another machine.
             self.assertTrue((abs(found - expected) <= 0.06 * abs(expected) + 0.0021 * (abs(expected) > 1e-3)).all(), said)
         self.assertTrue(any("image/png" in output.get("data", {}) for cell in cells for output in cell["outputs"]))
+
+    def test_numpy_step(self):
+        """The plain model of the program is the other implementation."""
+        for scene in (ROOT / "data/scenes/quick.toml", ROOT / "tests/vectors/local/scene.toml"):
+            [line] = self.example("numpy_step.py", str(scene), "--steps", "300")
+            steps, displacements, heights, _ = numbers(line)
+            self.assertEqual(steps, 300)
+            self.assertLess(max(displacements, heights), 1e-15)
 
     def test_every_example_is_tested(self):
         found = {path.stem for path in (ROOT / "examples").glob("*.py")}

@@ -1,4 +1,4 @@
-"""The Python package calls the program and opens what it writes. Numbers are found another way: by h5py and NumPy, by hand, or are
+"""The Python package makes runs, calls the program and opens what both write. Numbers are found another way: by h5py and NumPy, by hand, or are
 those that the program itself prints."""
 
 import csv
@@ -25,7 +25,8 @@ import pandas
 from package_scenes import QUICK, ROOT, SHORT, STUDY, InFolder
 
 import plateau
-from plateau import commands, program
+from plateau import program
+from plateau.toml_text import toml_of
 from plateau.units import quantity
 
 
@@ -83,7 +84,6 @@ class Runs(InFolder):
         with self.assertRaisesRegex(plateau.InputError, "short.h5 exists; give force=True to replace it, .* with output=FILE") as caught:
             plateau.run("quick.toml", "short.h5", set=SHORT)
         self.assertEqual(caught.exception.status, 2)
-        self.assertEqual(caught.exception.command[1:3], ["run", "quick.toml"])
         plateau.run("quick.toml", "short.h5", set=SHORT | {"operation.duration": "10 s"}, force=True)
         self.assertEqual(len(plateau.open_run("short.h5")["map_time"]), 2)
         again = plateau.run("quick.toml", "short.h5", set=SHORT | {"operation.duration": "10 s"}, resume=True)
@@ -107,12 +107,12 @@ class Runs(InFolder):
         values = ["5 N", 'a "quoted" \\ text', "µm", True, False, 7, 5e-14, 2.5, ["0 s", "10 s"], {"tolerance": 0.01, "max": 100}]
         for value in [*values, [{"a b": 1}, [True]], (1, 2)]:
             expected = list(value) if isinstance(value, tuple) else value
-            found = tomllib.loads(f"value = {commands.toml_of(value)}")["value"]
+            found = tomllib.loads(f"value = {toml_of(value)}")["value"]
             self.assertEqual((type(found), found), (type(expected), expected))
-        self.assertEqual(tomllib.loads(f"value = {commands.toml_of(np.array([1.5, 2.0]))}")["value"], [1.5, 2.0])
-        self.assertEqual(commands.toml_of(np.float64(0.1)), "0.1")
+        self.assertEqual(tomllib.loads(f"value = {toml_of(np.array([1.5, 2.0]))}")["value"], [1.5, 2.0])
+        self.assertEqual(toml_of(np.float64(0.1)), "0.1")
         with self.assertRaisesRegex(TypeError, "not a value of a scene") as caught:
-            commands.toml_of(object())
+            toml_of(object())
         self.assertIsInstance(caught.exception, plateau.PlateauError)
 
     def test_arguments_of_a_wrong_type(self):
@@ -126,14 +126,12 @@ class Runs(InFolder):
         kinds = {1: plateau.RunFailed, 2: plateau.InputError, 143: plateau.RunStopped, 7: plateau.PlateauError}
         for status, kind in kinds.items():
             said = f"printf 'plateau: warning: beware\\nplateau: a note\\nplateau: what happened\\n  and where\\n' >&2; exit {status}"
-            for progress in (False, True):
-                with stand_in(said), self.assertWarnsRegex(plateau.PlateauWarning, "^beware$"):
-                    with unittest.mock.patch("sys.stderr", io.StringIO()), self.assertRaises(kind) as caught:
-                        program.call(["run"], progress)
-                self.assertIs(type(caught.exception), kind)
-                self.assertEqual((str(caught.exception), caught.exception.status), ("what happened\n  and where", status))
+            with stand_in(said), self.assertWarnsRegex(plateau.PlateauWarning, "^beware$"), self.assertRaises(kind) as caught:
+                program.call(["run"])
+            self.assertIs(type(caught.exception), kind)
+            self.assertEqual((str(caught.exception), caught.exception.status), ("what happened\n  and where", status))
         with stand_in("kill -KILL $$"), self.assertRaisesRegex(plateau.PlateauError, "ended with status -9"):
-            program.call(["run"], False)
+            program.call(["run"])
 
     def test_a_file_that_is_not_there_is_told_as_such(self):
         calls = [lambda path: plateau.run(path), lambda path: plateau.run(path, resume=True), plateau.check, plateau.sweep, plateau.collect,
@@ -153,7 +151,8 @@ class Runs(InFolder):
     def test_what_is_no_path_and_what_is_no_key(self):
         for call in (plateau.run, plateau.check, plateau.sweep, plateau.collect, plateau.study.effects, plateau.open_study, plateau.open_run):
             for wrong in (None, 3, {}):
-                if (call, wrong) != (plateau.open_run, 3):  # the number of an open file
+                # The number of an open file, and a scene without keys.
+                if (call, wrong) not in [(plateau.open_run, 3), (plateau.run, {})]:
                     self.assertRaises(plateau.InputTypeError, call, wrong)
         with self.assertRaisesRegex(plateau.InputError, "is empty"):
             plateau.open_run("")
@@ -196,7 +195,7 @@ class Runs(InFolder):
         }
         for message, expected in said.items():
             with stand_in(f"echo 'plateau: {message}' >&2; exit 2"), self.assertRaises(plateau.InputError) as caught:
-                program.call(["run"], False)
+                program.call(["run"])
             self.assertEqual(str(caught.exception), expected)
 
     def test_times(self):
@@ -212,31 +211,22 @@ class Runs(InFolder):
             self.assertEqual((type(again), str(again), again.command, again.status), (kind, "what happened", ["run"], 2))
 
     def test_progress_is_shown_and_taken_away(self):
-        said = "printf '\\r\\033[2K##..   50 %%  1.0 of 2.0 s  1s left' >&2; printf '\\r\\033[2K' >&2; test -t 2 && echo '[1]'"
-        with stand_in(said), unittest.mock.patch("sys.stderr", io.StringIO()) as shown:
-            self.assertEqual(program.call(["run"], True), [1])
-        self.assertEqual(shown.getvalue(), "\r\x1b[2K##..   50 %  1.0 of 2.0 s  1s left\r\x1b[2K")
-        with stand_in(said + "; echo 1"), unittest.mock.patch("sys.stderr", io.StringIO()) as shown:
-            self.assertEqual(program.call(["run"], False), 1)
-        self.assertEqual(shown.getvalue(), "")
-
-    def test_letters_that_come_in_pieces(self):
-        # µ is two bytes.
-        said = "printf 'plateau: warning: 5 \\302' >&2; sleep 0.3; printf '\\265m\\n' >&2; echo 1"
-        with stand_in(said), unittest.mock.patch("sys.stderr", io.StringIO()), self.assertWarnsRegex(plateau.PlateauWarning, "^5 µm$"):
-            program.call(["run"], True)
+        with unittest.mock.patch("plateau.progress.PATIENCE", 0.0), unittest.mock.patch("sys.stderr", io.StringIO()) as shown:
+            plateau.run("quick.toml", "seen.h5", set={"operation.duration": "200 s"}, progress=True)
+            plateau.run("quick.toml", "unseen.h5", set={"operation.duration": "2 s"}, progress=False)
+        self.assertRegex(shown.getvalue(), r"^(\r\x1b\[2K#*\.* +\d+ %  [\d.]+ of 200  (\d+ s|\?) left)+\r\x1b\[2K$")
 
     def test_a_notebook_shows_progress_in_the_cell(self):
         # The least of IPython that is used: a kernel, and a place in the output that is updated.
         display, handle = unittest.mock.MagicMock(), unittest.mock.MagicMock()
         display.display.return_value = handle
         display.Pretty = str
-        notebook = unittest.mock.MagicMock()
-        said = "printf '\\r##..   50 %%  1.0 of 2.0 s  1s left\\r' >&2; echo 1"
-        modules = {"IPython": notebook, "IPython.display": display}
-        with stand_in(said), unittest.mock.patch.dict(sys.modules, modules):
-            program.call(["run"])
-        self.assertEqual([call.args[0] for call in handle.update.call_args_list], ["##..   50 %  1.0 of 2.0 s  1s left", ""])
+        modules = {"IPython": unittest.mock.MagicMock(), "IPython.display": display}
+        with unittest.mock.patch.dict(sys.modules, modules), unittest.mock.patch("plateau.progress.PATIENCE", 0.0):
+            plateau.Simulation("quick.toml").advance(20000)
+        *lines, last = [call.args[0] for call in handle.update.call_args_list]
+        self.assertEqual(last, "")
+        self.assertRegex(lines[-1], r"^#{28} 100 %  step 20000 of 20000  0 s left$")
 
     def test_an_interrupt_of_python_alone_closes_the_run_file(self):
         text = (

@@ -10,7 +10,7 @@ import warnings
 
 import numpy as np
 from plateau.errors import InputError
-from plateau.study.scene_comparison import _response, _seed_keys, compare, difference
+from plateau.study.scene_comparison import _seed_keys, compare, difference, response_of
 from scipy import stats
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
@@ -68,13 +68,13 @@ class Differences(unittest.TestCase):
 
 class Words(unittest.TestCase):
     def test_responses(self):
-        self.assertEqual(_response("", "worn_pin"), {"name": "worn pin", "dataset": "/series/worn_pin", "at": "end"})
-        self.assertEqual(_response("", "/series/contact_area")["mean"], "last tenth")
-        self.assertEqual(_response("x", "pool:mean 1 s..2 s")["mean"], ["1 s", "2 s"])
-        self.assertEqual(_response("x", "contact_area:reaches .8")["reaches"], 0.8)
-        self.assertEqual(_response("x", "/event/temperature:3"), {"name": "x", "dataset": "/event/temperature", "event": 3})
+        self.assertEqual(response_of("", "worn_pin"), {"name": "worn pin", "dataset": "/series/worn_pin", "at": "end"})
+        self.assertEqual(response_of("", "/series/contact_area")["mean"], "last tenth")
+        self.assertEqual(response_of("x", "pool:mean 1 s..2 s")["mean"], ["1 s", "2 s"])
+        self.assertEqual(response_of("x", "contact_area:reaches .8")["reaches"], 0.8)
+        self.assertEqual(response_of("x", "/event/temperature:3"), {"name": "x", "dataset": "/event/temperature", "event": 3})
         with self.assertRaisesRegex(InputError, "expected a fraction"):
-            _response("x", "contact_area:reaches 90 %")
+            response_of("x", "contact_area:reaches 90 %")
 
     def test_seeds_of_a_scene(self):
         scene = {"disc": {"surface": {"synthetic": {"seed": 1}}}, "pin": {"base": {"file": "a"}, "surface": {"synthetic": {"seed": 3}}}}

@@ -20,7 +20,7 @@ import unittest.mock
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 sys.path.insert(0, str(ROOT / "python"))
 from plateau.errors import InputError, RunFailed, in_python  # noqa: E402
-from plateau import command_line, output_folder, program, style  # noqa: E402
+from plateau import command_line, output_folder, progress, style  # noqa: E402
 from plateau.command_line import main, shown  # noqa: E402
 from plateau.output_folder import HEAD, LIST, all_or_none, put, write  # noqa: E402
 from plateau.study import words  # noqa: E402
@@ -277,7 +277,7 @@ class Words(unittest.TestCase):
         self.assertEqual([term["label"] for term in document["responses"][0]["terms"]], ["replicate", "load"])
         _, err = self.call("sweep", "predict", "study.toml", "--at", "load=7 N")
         self.assertRegex(err, "^plateau: warning: load: the runs have two values of it")
-        with unittest.mock.patch.object(program, "shower", wraps=program.shower) as shower:
+        with unittest.mock.patch.object(progress, "shower", wraps=progress.shower) as shower:
             [place] = self.document("sweep", "predict", "study.toml", "--at", "load=7 N", "--confirm")["places"]
         # Quiet, also in a terminal.
         self.assertEqual({call.args for call in shower.call_args_list}, {(False,)})

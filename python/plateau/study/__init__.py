@@ -1,7 +1,7 @@
 """Studies: their results, and what these tell.
 
 ``open_study`` opens what was collected; ``effects``, ``levels``, ``seeds_needed``, ``predict``, ``optimize``, ``sensitivity``, ``fit`` and
-``compare`` answer. They need the packages of ``pip install 'plateau-brake[all]'``, which are imported when they are called.
+``compare`` answer, and ``of_scenes`` makes a study of scenes. They need the packages of ``pip install 'plateau-brake[all]'``, which are imported when they are called.
 """
 
 from typing import TYPE_CHECKING, Any
@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from plateau.study.fit_of_study import fit
     from plateau.study.level_differences import levels
     from plateau.study.imports import import_values
+    from plateau.study.of_scenes import of_scenes
     from plateau.study.optimum import optimize
     from plateau.study.prediction import predict
     from plateau.study.scene_comparison import compare
@@ -26,6 +27,7 @@ ANSWERS = {
     "levels": "level_differences",
     "seeds_needed": "seed_counts",
     "predict": "prediction",
+    "of_scenes": "of_scenes",
     "optimize": "optimum",
     "sensitivity": "variance_parts",
     "fit": "fit_of_study",
@@ -33,8 +35,8 @@ ANSWERS = {
     "compare": "scene_comparison",
 }
 
-__all__ = ["Factor", "Response", "Study", "compare", "effects", "fit", "import_values", "levels", "open_study", "optimize", "predict"]
-__all__ += ["seeds_needed", "sensitivity"]
+__all__ = ["Factor", "Response", "Study", "compare", "effects", "fit", "import_values", "levels", "of_scenes", "open_study"]
+__all__ += ["optimize", "predict", "seeds_needed", "sensitivity"]
 
 
 def __getattr__(name: str) -> Any:

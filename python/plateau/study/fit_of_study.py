@@ -205,7 +205,7 @@ def plan(study: Study | str | os.PathLike[str]) -> Plan:
     target, most, _ = _task(opened)
     first, time, memory = len(opened.runs), math.nan, 0
     if opened.path is not None and "base" in opened.document:
-        estimate = call(["sweep", "plan", opened.path], progress=False)
+        estimate = call(["sweep", "plan", opened.path])
         jobs, mean = estimate["jobs"], float(np.mean(estimate["run_time"]))
         time, memory = mean * max(most, first) / jobs, estimate["memory"] // jobs
     return Plan(opened, target, first, max(most, first), time, memory)

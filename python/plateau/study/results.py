@@ -63,7 +63,7 @@ def analysed(study: "Study | str | os.PathLike[str]") -> Study:
     if path.is_dir():
         return open_study(path)
     with tempfile.TemporaryDirectory() as folder:
-        call(["sweep", "collect", path, "--output", folder], progress=False)
+        call(["sweep", "collect", path, "--output", folder])
         return _opened(Path(folder), path, path.parent / _directory(path))
 
 

@@ -11,11 +11,12 @@ from typing import Any
 
 import pandas
 
-from plateau.commands import toml_document
 from plateau.errors import InputError, PlateauError, PlateauWarning, RunFailed
-from plateau.program import call
+from plateau.native import native
+from plateau.progress import Progress
 from plateau.study.data import Factor, Study
 from plateau.study.results import analysed
+from plateau.toml_text import toml_document
 
 # Keys of a study file that say where its points are, and the settings of a fit.
 OF_DESIGNS = {"resolution", "generators", "points", "trajectories", "levels", "alpha", "centre_points", "seed", "fit"}
@@ -65,13 +66,12 @@ def made_study(study: Study, points: pandas.DataFrame, progress: bool | None, re
 
 def finished(path: Path, progress: bool | None, retry: bool = False, **options: int | None) -> Study:
     """Makes the missing runs of a study file and opens it; warns of runs that fail, unless all of them do."""
-    flags = [f"--{name}={value}" for name, value in options.items() if value is not None]
     failure = ""
     try:
         with warnings.catch_warnings():
             # That a run does not give a response is said of all runs below.
             warnings.filterwarnings("ignore", ".*has no value", PlateauWarning)
-            call(["sweep", "run", path, *flags, *(["--retry"] if retry else [])], progress)
+            make_missing(path, progress, retry, stacklevel=5, **options)
     except RunFailed as error:
         failure = str(error)
     made = analysed(path)
@@ -83,6 +83,21 @@ def finished(path: Path, progress: bool | None, retry: bool = False, **options: 
             raise RunFailed(message)
         warnings.warn(message, PlateauWarning, stacklevel=4)
     return made
+
+
+def make_missing(
+    path: str | os.PathLike[str],
+    progress: bool | None,
+    retry: bool = False,
+    *,
+    stacklevel: int = 4,
+    jobs: int | None = None,
+    workers: int | None = None,
+    max_failures: int | None = None,
+) -> None:
+    """Makes the missing runs of a study file in this process."""
+    with Progress(progress, stacklevel) as shown:
+        native().make_runs(path, jobs, workers, max_failures, retry, shown.tell)
 
 
 def _document(study: Study) -> dict[str, Any]:

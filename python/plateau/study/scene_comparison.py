@@ -13,7 +13,6 @@ import numpy as np
 import pandas
 from scipy import stats
 
-from plateau.commands import toml_document, toml_of
 from plateau.errors import InputError, PlateauWarning
 from plateau.program import call, file_name
 from plateau.quantities import series_of
@@ -21,6 +20,7 @@ from plateau.study.data import Numbers, Response, Study
 from plateau.output_folder import plain
 from plateau.study.runs import finished
 from plateau.study.text_tables import listed
+from plateau.toml_text import toml_document, toml_of
 from plateau.style import DASHES, LINES, NARROW, QUIET, Figures, in_style, labelled, new, wrapped
 from plateau.units import unit_for, unit_of, with_minus
 
@@ -160,9 +160,9 @@ def compare(
     with warnings.catch_warnings():
         # They are given when the scenes are run.
         warnings.simplefilter("ignore", PlateauWarning)
-        resolved = [tomllib.loads(call(["check", file, *flags], progress=False)["scene"]) for file in files]
+        resolved = [tomllib.loads(call(["check", file, *flags])["scene"]) for file in files]
     usual = [(name, asked) for name, asked, table in USUAL if not table or all(table in scene for scene in resolved)]
-    tables = [_response(name, asked) for name, asked in ([("", asked) for asked in responses] or usual)]
+    tables = [response_of(name, asked) for name, asked in ([("", asked) for asked in responses] or usual)]
     directory, made, cautions = Path(output), {}, []
     for name, file, scene in zip(names, files, resolved, strict=True):
         keys = _seed_keys(scene)
@@ -298,7 +298,7 @@ def _seed_keys(table: Mapping[str, Any], path: str = "") -> list[str]:
     return deeper + ([f"{path}seed"] if path.endswith("synthetic.") and "seed" in table else [])
 
 
-def _response(name: str, asked: str) -> dict[str, Any]:
+def response_of(name: str, asked: str) -> dict[str, Any]:
     """The table of a response in a study file."""
     dataset, _, question = (part.strip() for part in asked.partition(":"))
     dataset = dataset if dataset.startswith("/") else f"/series/{dataset}"
