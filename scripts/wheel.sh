@@ -1,5 +1,5 @@
 #!/bin/sh
-# Build the wheel: the Python package with the program in it, for Linux with glibc 2.28 or newer, and check what is in it. What it
+# Build the wheel: the Python package with its module in Rust and the program in it, for Linux with glibc 2.28 or newer, and check what is in it. What it
 # needs besides Rust (maturin, zig as the C compiler and linker, cmake, ninja, auditwheel) comes with pip into .venv-wheel.
 #
 # usage: scripts/wheel.sh [FOLDER], the folder for the wheel, dist in the checkout unless given
@@ -21,7 +21,8 @@ glibc=2_28
 build() {
     # Of the works of others in the program; they go into the wheel, and not into the checkout.
     python3 "$root/scripts/notices.py" >"$root/THIRD-PARTY-NOTICES" || die "the notices could not be collected, see above"
-    (cd "$root" && maturin build --release --locked --zig --compatibility "manylinux_$glibc" --target-dir "$target" --out "$folder") ||
+    set -- --zig --compatibility "manylinux_$glibc" --target-dir "$target"
+    (cd "$root" && python packaging/backend/wheel_backend.py "$@" && maturin build --release --locked "$@" --out "$folder") ||
         die "the wheel could not be built, see above"
 }
 

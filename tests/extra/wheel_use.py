@@ -20,6 +20,11 @@ assert plateau.__version__ == subprocess.check_output([program, "--version"], te
 assert shutil.which("cargo") is None and shutil.which("rustc") is None
 assert plateau.check("quick.toml", set={"output.file": "checked.h5"})["steps"] == 29325
 
+simulation = plateau.Simulation("quick.toml", workers=2)
+assert sys.prefix in sys.modules["plateau._native"].__file__
+simulation.advance(690)
+assert simulation.pin_height.shape == (40, 20) and simulation.sample()["contact_area"] > 0
+
 begun = time.monotonic()
 made = plateau.run("quick.toml", "quick.h5", workers=2, force=True)
 ran = time.monotonic()

@@ -45,7 +45,7 @@ printf '# Changelog\n\n## 1.2.3 (unreleased)\n\n- New.\n\nUse:\n\n- Old.\n\n## 1
 # The wheel: a program that is a script, its notices, and a list of components.
 cat >"$checkout/scripts/wheel.sh" <<'END'
 #!/bin/sh
-python3 - "$1/plateau_brake-1.2.3-py3-none-manylinux_2_28_x86_64.whl" <<'PYTHON'
+python3 - "$1/plateau_brake-1.2.3-cp311-abi3-manylinux_2_28_x86_64.whl" <<'PYTHON'
 import sys, zipfile
 program = '''#!/bin/sh
 case $1 in
@@ -82,7 +82,7 @@ git -C "$checkout" checkout -q CITATION.cff
 dist=$sandbox/dist
 sh "$checkout/scripts/release.sh" v1.2.3 "$dist" 2>"$sandbox/said" || { cat "$sandbox/said" && exit 1; }
 expect 'the files' "$(cd "$dist" && echo ./*)" "./NOTES.md ./SHA256SUMS ./plateau-1.2.3-$(uname -m)-linux.tar.gz \
-./plateau-1.2.3.cdx.json ./plateau_brake-1.2.3-py3-none-manylinux_2_28_x86_64.whl"
+./plateau-1.2.3.cdx.json ./plateau_brake-1.2.3-cp311-abi3-manylinux_2_28_x86_64.whl"
 expect 'the checksums' "$(cd "$dist" && sha256sum --check --quiet SHA256SUMS 2>&1)" ''
 expect 'files with checksums' "$(wc -l <"$dist/SHA256SUMS")" 3
 expect 'the notes' "$(cat "$dist/NOTES.md")" '- New.
