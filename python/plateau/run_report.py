@@ -4,7 +4,6 @@ import functools
 import math
 import os
 import re
-import tomllib
 import warnings
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
@@ -94,10 +93,7 @@ class Told:
     def __init__(self, run: xarray.DataTree, label: str) -> None:
         self.run, self.label, self.series = run, label, run.plateau.series
         self.state = str(run.attrs.get("state", UNKNOWN))
-        try:
-            self.scene: dict[str, Any] = tomllib.loads(str(run.attrs.get("scene", "")))
-        except ValueError:
-            self.scene = {}
+        self.scene: dict[str, Any] = run.plateau.scene
         self.dissipates = any(name in self.series for name in ("friction_work", "disc_temperature", "pm10_mass"))
         self.has_cycle = "normal_force" in self.series
         # What only the program computes.
@@ -122,8 +118,7 @@ class Told:
         return float(self.of(name).abs().max())
 
     def setting(self, table: str, key: str) -> str:
-        found = self.scene.get(table, {})
-        return str(found.get(key, UNKNOWN)) if isinstance(found, dict) else UNKNOWN
+        return str(self.scene.get(table, {}).get(key, UNKNOWN))
 
     @property
     def time(self) -> float:
@@ -285,7 +280,7 @@ def report(runs: Run | Sequence[Run], output: str | os.PathLike[str] | None = No
     Parameters
     ----------
     runs : path, xarray.DataTree, or a sequence of them
-        At most eight.
+        At most ten.
     output : path, optional
         The page; by default in the working directory, named like the run file, or ``report.html`` for several.
     force : bool
@@ -322,10 +317,10 @@ def report_page(runs: Sequence[xarray.DataTree]) -> str:
         for said in one.notices():
             of.setdefault(said, []).append(one.label)
     notices = [said if len(labels) == len(told) else f"{', '.join(labels)}: {said}" for said, labels in of.items()]
-    several = len(told) > 1
+    several, five = len(told) > 1, told[0].five
     parts = [
         '<section class="first">',
-        *(_compared(told) if several else _single(told[0])),
+        *(_compared(told) if several else [table([*five], [[*five.values()]]), f'<p class="answer">{escape(". ".join(told[0].answer()))}.</p>']),
         f'<div class="{kind}">{pictures({name: drawn[name] for name in first}, files)}</div>',
         f'<div class="notice">{listed(notices)}</div>' if notices else "",
         "</section>",
@@ -340,24 +335,16 @@ def report_page(runs: Sequence[xarray.DataTree]) -> str:
     return page(f"{len(told)} runs, compared with {told[0].label}" if several else told[0].label, *parts)
 
 
-def _single(told: Told) -> list[str]:
-    """The begin of the page about one run."""
-    return [table(list(told.five), [list(told.five.values())]), f'<p class="answer">{escape(". ".join(told.answer()))}.</p>']
-
-
 def _compared(told: Sequence[Told]) -> list[str]:
     """The begin of the page about several runs."""
     texts = {name: [one.measures[name].text if name in one.measures else UNKNOWN for one in told] for name in ANSWERS}
     texts = {ANSWERS[name]: own for name, own in texts.items() if {*own} != {UNKNOWN}}
-    answers = []
+    parts = [table(["run", *told[0].five], [[one.label, *one.five.values()] for one in told])]
+    parts.append(table(["run", *texts], [[one.label, *row] for one, row in zip(told, zip(*texts.values()), strict=True)]))
     for one in told:
         running = f" Running in: {one.summary['running_in']}." if one.summary.get("running_in") else ""
-        answers.append(f'<p class="answer">{escape(f"{one.label}: contact area {one.area.compared(told[0].area)}.{running}")}</p>')
-    return [
-        table(["run", *told[0].five], [[one.label, *one.five.values()] for one in told]),
-        table(["run", *texts], [[one.label, *row] for one, row in zip(told, zip(*texts.values()), strict=True)]),
-        *answers,
-    ]
+        parts.append(f'<p class="answer">{escape(f"{one.label}: contact area {one.area.compared(told[0].area)}.{running}")}</p>')
+    return parts
 
 
 def _by_run(told: Sequence[Told], rows: dict[str, list[str]], head: str, kind: str = "words") -> str:

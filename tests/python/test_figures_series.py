@@ -151,8 +151,8 @@ class Curves(InFolder):
         run.attrs["state"] = "interrupted"
         with self.assertWarnsRegex(plateau.PlateauWarning, "seed-1.h5 is not finished: its state is interrupted, with 200 samples"):
             plateau.plot(run, "filled")
-        with self.assertRaisesRegex(plateau.InputError, "9 runs: expected 1 to 8"):
-            plateau.plot(["seed-1.h5"] * 9)
+        with self.assertRaisesRegex(plateau.InputError, "11 runs: expected 1 to 10"):
+            plateau.plot(["seed-1.h5"] * 11)
 
     def test_friction(self):
         left, right = plateau.plot("drive.h5", "friction").axes

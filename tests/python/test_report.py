@@ -141,8 +141,8 @@ class Report(unittest.TestCase):
             plateau.report("quick.h5", "a.pdf")
         with self.assertRaisesRegex(plateau.InputError, "is an input"):
             plateau.report("quick.h5", "quick.h5", force=True)
-        with self.assertRaisesRegex(plateau.InputError, "9 runs: expected 1 to 8"):
-            plateau.report(["quick.h5"] * 9)
+        with self.assertRaisesRegex(plateau.InputError, "11 runs: expected 1 to 10"):
+            plateau.report(["quick.h5"] * 11)
         self.assertEqual(os.listdir(), ["quick.h5"])
         pathlib.Path("page.html").write_text("before")
         pathlib.Path("page.html").chmod(0o640)

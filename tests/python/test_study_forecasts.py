@@ -82,7 +82,7 @@ class ProcessTest(unittest.TestCase):
         for seed in range(24):
             random = np.random.default_rng(seed)
             y = random.uniform(-1.0, 1.0, 12)
-            error, _ = Process(random.uniform(-1.0, 1.0, (12, 2)), y).loo()
+            error, _ = Process(random.uniform(-1.0, 1.0, (12, 2)), y).loo
             foretold += (error**2).mean() < 0.9 * y.var()
         self.assertLessEqual(foretold, 3)
 

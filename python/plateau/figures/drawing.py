@@ -13,11 +13,9 @@ from plateau.errors import InputError
 from plateau.opened_runs import labels_of, note
 from plateau.quantities import MAP_KEYS
 from plateau.run_file import array, source
-from plateau.style import DASHES, LINES, NARROW, WIDE, new, noted, plain
+from plateau.style import MARKERS, NARROW, WIDE, look, new, noted, plain
 from plateau.units import Unit, unit_of
 
-# Of several runs each has its own, at other places of its line, so that equal lines are all seen.
-MARKERS = "osD^v<>P"
 # Height of a figure, mm, at most: that of a page.
 HIGHEST = 235.0
 
@@ -59,11 +57,11 @@ class Subject:
     @property
     def line(self) -> dict[str, Any]:
         """Options of its lines."""
-        look = {"color": LINES[self.number], "linestyle": DASHES[self.number]}
-        # In a cycle, marks would look like data.
+        # In a cycle, marks would look like data; else each run has its own, at other places of its line, so that equal lines are all seen.
         if self.is_only or self.has_cycle:
-            return look
-        return look | {"marker": MARKERS[self.number], "markevery": (0.04 + 0.035 * self.number, 0.3), "markersize": 3}
+            return look(self.number)
+        mark = MARKERS[(self.number + self.number // len(MARKERS)) % len(MARKERS)]
+        return look(self.number) | {"marker": mark, "markevery": (0.04 + 0.025 * self.number, 0.3), "markersize": 3}
 
     @property
     def has_cycle(self) -> bool:
@@ -165,8 +163,7 @@ class Drawing:
             # As many columns as the longest label leaves.
             columns = 1 if figure.get_figwidth() * 25.4 < 2 * (12 + 1.5 * max(map(len, labels))) else 2
             named = {"title": self.only.label, "alignment": "left"} if self.only and self.only.label not in labels else {}
-            look = {"loc": "outside upper left", "ncols": columns, "columnspacing": 1.0}
-            figure.legend(handles, labels, **look, **named, **options)
+            figure.legend(handles, labels, loc="outside upper left", ncols=columns, columnspacing=1.0, **named, **options)
         return [figure]
 
 

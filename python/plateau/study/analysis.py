@@ -3,7 +3,7 @@
 import itertools
 import os
 import warnings
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -14,8 +14,7 @@ from plateau.errors import InputError, PlateauWarning, RunFailed, UnknownNameErr
 from plateau.study.data import Response, Study
 from plateau.study.effect_table import COLUMNS, box_cox, effect_table, transform_advice
 from plateau.study.effects_figures import effects_figures
-from plateau.study.effects_text import text_of
-from plateau.study.equations import equations
+from plateau.study.effects_text import effects_page, equations, text_of
 from plateau.study.model import NothingToFit
 from plateau.study.model_choice import cautions, fitted
 from plateau.study.response_effects import ResponseEffects, report_of
@@ -91,6 +90,10 @@ class Effects:
     def figures(self) -> Any:
         """Draws main effects, interactions, sizes of effects and residuals."""
         return effects_figures(self.responses)
+
+    def page(self, figures: Mapping[str, Any], files: Mapping[str, bytes]) -> str:
+        """The page of ``plateau sweep effects`` with figures and their files."""
+        return effects_page(self.study, self.cautions, self.responses, figures, files)
 
 
 def effects(study: Study | str | os.PathLike[str], model: str | None = None, terms: str = "all", confidence: float = 0.95) -> Effects:

@@ -127,7 +127,7 @@ class Fit:
         rows, (means, own, seeds) = [], self._moments
         for at in self.target.singles:
             (number,), one = self._terms(at), self.target.measured[at]
-            error = float(np.sqrt(np.square(self._likelihood.terms[number].process.loo()[0]).mean()))
+            error = float(np.sqrt(np.square(self._likelihood.terms[number].process.loo[0]).mean()))
             deviations = [math.sqrt(own[number]), math.sqrt(seeds[number]), self._scatter(number), error]
             measured = [one.response.name, one.response.unit, one.values[0], one.uncertainties[0], means[number]]
             rows.append([*measured, *deviations, abs(self.target.discrepancies[at] * one.values[0])])

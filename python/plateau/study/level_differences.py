@@ -4,7 +4,6 @@ import itertools
 import os
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import Any
 
 import numpy as np
 import pandas
@@ -39,11 +38,6 @@ class LevelDifferences:
     table: pandas.DataFrame
     method: str
     confidence: float
-
-    def document(self) -> dict[str, Any]:
-        """The table for JSON."""
-        rows = self.table.astype(object).where(self.table.notna(), None).to_dict("records")
-        return {"study": self.study.title, "method": self.method, "confidence": self.confidence, "differences": rows}
 
     def text(self) -> str:
         """The table for people."""

@@ -19,7 +19,7 @@ from plateau.study.improvement import improved, is_run
 from plateau.output_folder import plain
 from plateau.study.prediction import INTERVALS, confirmed_by, confirmed_words, forecast_cells, forecast_table, reported, settings_at
 from plateau.study.results import analysed
-from plateau.study.runs import make_runs
+from plateau.study.runs import made_study
 from plateau.study.settings import beyond_of, ends_of, no_curve, region_of
 from plateau.study.surrogate import Surrogate, surrogates
 from plateau.study.text_tables import listed
@@ -232,7 +232,7 @@ def optimize(
     goals, limits = wanted(study, {"maximize": maximize, "minimize": minimize, "target": target}, limit, limit_on, importance)
 
     def made(points: pandas.DataFrame) -> pandas.DataFrame:
-        return make_runs(study, points, jobs=jobs, workers=workers, retry=confirm, progress=progress)
+        return made_study(study, points, jobs=jobs, workers=workers, retry=confirm, progress=progress).runs
 
     found = {one.response.name: one for one in surrogates(study, model, terms, confidence)}
     for name in [*(goal.response for goal in goals), *(one.response for one in limits)]:

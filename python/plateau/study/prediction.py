@@ -17,6 +17,7 @@ from plateau.study.data import Study
 from plateau.study.kept_values import factor_value
 from plateau.output_folder import plain
 from plateau.study.results import analysed
+from plateau.study.runs import made_study
 from plateau.study.settings import SAME, axis_of, beyond_of, factor_named, held_values, joined, no_curve, region_of, value_of
 from plateau.study.surrogate import Surrogate, surrogates
 from plateau.study.text_tables import listed, read_text_table
@@ -221,9 +222,7 @@ def predict(
         raise InputError(f"{which}{beyond[first]}; the model knows nothing there, give --extrapolate to see what it says nevertheless")
     made = None
     if confirm:
-        from plateau.study.runs import make_runs
-
-        made = make_runs(opened, places, jobs=jobs, workers=workers, progress=progress)
+        made = made_study(opened, places, jobs=jobs, workers=workers, progress=progress).runs
     general = [*together(opened), *no_curve(opened, places)]
     for said in general:
         warnings.warn(said, PlateauWarning, stacklevel=2)

@@ -4,7 +4,6 @@ import os
 import warnings
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import Any
 
 import numpy as np
 import pandas
@@ -49,11 +48,6 @@ class SeedsNeeded:
 
     study: Study
     table: pandas.DataFrame
-
-    def document(self) -> dict[str, Any]:
-        """The table for JSON."""
-        table = self.table.replace([np.inf, -np.inf], np.nan)
-        return {"study": self.study.title, "sets": table.astype(object).where(table.notna(), None).to_dict("records")}
 
     def text(self) -> str:
         """The table for people."""

@@ -50,7 +50,7 @@ class Surrogate:
     def _loo_errors(self) -> list[float]:
         process = np.nan
         if self.process is not None:
-            means, error = self.process.means, self.process.loo()[0]
+            means, error = self.process.means, self.process.loo[0]
             process = float(np.sqrt(np.square(self.response.back(means) - self.response.back(means - error)).mean()))
         return [self.fit.loo_error if self.fit else np.nan, process]
 

@@ -167,7 +167,6 @@ def _inputs(study: "Study", *others: Path | None) -> tuple[Path, ...]:
 def _effects(given: argparse.Namespace) -> str:
     from plateau.study.analysis import effects
     from plateau.style import saved
-    from plateau.study.page import effects_page
 
     study, folder, _ = _opened(given, "effects")
     found = effects(study, **options(given, "model", "terms", "confidence"))
@@ -175,7 +174,7 @@ def _effects(given: argparse.Namespace) -> str:
     drawn = saved(figures)
     columns = [*EFFECTS.split(), *(name for name in table if name not in EFFECTS.split() and name != "factors")]
     files = {"effects.csv": csv_of(table.reindex(columns=columns)), "residuals.csv": csv_of(found.residuals)}
-    files |= {"effects.html": effects_page(found, figures, drawn).encode(), **drawn}
+    files |= {"effects.html": found.page(figures, drawn).encode(), **drawn}
     return _told(given, found, folder, write(folder, files, force=given.force, inputs=_inputs(study)), study.title)
 
 
@@ -246,7 +245,6 @@ def _fit(given: argparse.Namespace) -> str:
 
 def _compare(given: argparse.Namespace) -> str:
     from plateau.style import saved
-    from plateau.study.page import comparison_page
     from plateau.study.scene_comparison import compare
 
     folder = given.output or Path("comparison")
@@ -256,6 +254,6 @@ def _compare(given: argparse.Namespace) -> str:
     found = compare(given.scenes, given.seeds, responses=given.response, output=folder, **asked, progress=progress(given))
     figures = found.figures()
     drawn = saved(figures)
-    files = {"comparison.html": comparison_page(found, figures, drawn).encode(), "comparison.csv": csv_of(found.table)}
+    files = {"comparison.html": found.page(figures, drawn).encode(), "comparison.csv": csv_of(found.table)}
     files |= {"means.csv": csv_of(found.means), "runs.csv": csv_of(found.runs), "curves.csv": csv_of(found.curves), **drawn}
     return _told(given, found, folder, write(folder, files, of=of, force=given.force, inputs=tuple(given.scenes)))
