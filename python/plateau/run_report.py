@@ -178,7 +178,7 @@ class Told:
         if not self.time:
             yield "There are no samples yet"
         if self.summary.get("running_in"):
-            yield f"Running in: {self.summary['running_in']}"
+            yield f"Running in: {with_minus(self.summary['running_in'])}"
 
     @property
     def over(self) -> str:
@@ -203,8 +203,7 @@ class Told:
                 "Temperatures of cells count pressures as frozen during a pass and have no conduction along the surface: "
                 "on rough discs the hottest may be half of their rise too low."
             )
-        if self.without:
-            yield self.without
+        yield from filter(None, [self.without])
 
     @property
     def told_state(self) -> str:
@@ -259,10 +258,8 @@ class Told:
             "Mesh": f"{sizes['radius']} rows, {sizes['disc_angle']} columns of the disc, {sizes['pin_angle']} of the pin",
             "Wall time": unit_for("s", wall).text(wall),
             "Workers": f"{self.run.attrs.get('workers', UNKNOWN)}, {self.run.attrs.get('instruction_set', UNKNOWN)}",
-            "Program": str(self.run.attrs.get("program", UNKNOWN)),
-            "Tolerance of the load balance": self.setting("contact", "load_tolerance"),
             "Mean contact area is taken over": self.over,
-            **{key.capitalize().replace("_", " "): str(self.summary[key]) for key in keys},
+            **{key.capitalize().replace("_", " "): with_minus(str(self.summary[key])) for key in keys},
         }
 
 
@@ -341,10 +338,9 @@ def _compared(told: Sequence[Told]) -> list[str]:
     texts = {ANSWERS[name]: own for name, own in texts.items() if {*own} != {UNKNOWN}}
     parts = [table(["run", *told[0].five], [[one.label, *one.five.values()] for one in told])]
     parts.append(table(["run", *texts], [[one.label, *row] for one, row in zip(told, zip(*texts.values()), strict=True)]))
-    for one in told:
-        running = f" Running in: {one.summary['running_in']}." if one.summary.get("running_in") else ""
-        parts.append(f'<p class="answer">{escape(f"{one.label}: contact area {one.area.compared(told[0].area)}.{running}")}</p>')
-    return parts
+    areas = [told[0].area.text, *(one.area.compared(told[0].area) for one in told[1:])]
+    said = "; ".join(f"{one.label} {area}" for one, area in zip(told, areas, strict=True))
+    return [*parts, f'<p class="answer">{escape(f"The contact area is: {said}")}.</p>']
 
 
 def _by_run(told: Sequence[Told], rows: dict[str, list[str]], head: str, kind: str = "words") -> str:
@@ -398,8 +394,7 @@ def _provenance(told: Told) -> str:
     """The origin of a run."""
     terms = [(name.replace("_", " "), str(told.run.attrs[name])) for name in ORIGIN if name in told.run.attrs]
     files = [[one["path"], one["sha256"]] for one in read_files(told.run)]
-    scene = escape(str(told.run.attrs.get("scene", "")))
     return (
         f"<h3>{escape(told.label)}</h3>{table(['run file', source(told.run)], terms, 'words')}"
-        f"{table(['file that was read', 'SHA-256'], files, 'words') if files else ''}<h4>Resolved scene</h4><pre>{scene}</pre>"
+        f"{table(['file that was read', 'SHA-256'], files, 'words') if files else ''}<h4>Resolved scene</h4><pre>{escape(str(told.run.attrs.get('scene', '')))}</pre>"
     )

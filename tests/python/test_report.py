@@ -115,6 +115,9 @@ class Report(unittest.TestCase):
         self.assertAlmostEqual(float(found[1]), 1e6 * (second.value - first.value), 2)
         self.assertAlmostEqual(float(found[2]), 1e6 * np.hypot(first.error, second.error), 2)
         self.assertAlmostEqual(float(found[3]), 100 * (second.value / first.value - 1), 1)
+        answer = html.unescape(re.search('class="answer">(.*?)</p>', page)[1])
+        self.assertTrue(all(area in answer for area in told["Contact area, mean ± standard error"]))
+        self.assertNotIn("(same)", answer)
         keys = {row[0]: row[1:] for row in rows(page, "<h2>Keys of the scenes that differ")}
         self.assertEqual(keys["operation.normal_force"], ["5 N", "10 N", "5 N"])
         self.assertEqual(keys["numerics.time_acceleration"], ["20.0", "20.0", "2.0"])

@@ -6,10 +6,10 @@ from typing import Any
 
 import numpy as np
 
+from plateau import style
 from plateau.figures.drawing import Drawing, Subject
 from plateau.quantities import MAPS
 from plateau.run_file import array
-from plateau import style
 from plateau.units import unit_of
 
 SECONDARY = 2

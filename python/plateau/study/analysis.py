@@ -12,12 +12,11 @@ import pandas
 
 from plateau.errors import InputError, PlateauWarning, RunFailed, UnknownNameError
 from plateau.study.data import Response, Study
-from plateau.study.effect_table import COLUMNS, box_cox, effect_table, transform_advice
 from plateau.study.effects_figures import effects_figures
 from plateau.study.effects_text import effects_page, equations, text_of
 from plateau.study.model import NothingToFit
 from plateau.study.model_choice import cautions, fitted
-from plateau.study.response_effects import ResponseEffects, report_of
+from plateau.study.response_effects import COLUMNS, ResponseEffects, box_cox, effect_table, report_of, transform_advice
 from plateau.study.results import analysed
 
 # Inflation of variances above which terms are said to be correlated, and shares whose sum differs by more from R² of which it is said.

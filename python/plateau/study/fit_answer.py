@@ -86,11 +86,6 @@ class Fit:
         return pandas.DataFrame(rows)
 
     @property
-    def table(self) -> pandas.DataFrame:
-        """The keys."""
-        return self.keys
-
-    @property
     def profiles(self) -> pandas.DataFrame:
         """How far -2 ln L rises where a key is held at a value, and the threshold of its interval."""
         parts = [pandas.DataFrame({"key": one.name, "value": one.value(at), "rise": rises}) for one, at, rises, _ in self._profiles]

@@ -17,10 +17,10 @@ from scipy import stats
 from plateau import html_page
 from plateau.commands import toml_document, toml_of
 from plateau.errors import InputError, PlateauWarning
+from plateau.output_folder import plain
 from plateau.program import call, file_name
 from plateau.quantities import series_of
 from plateau.study.data import Numbers, Response, Study
-from plateau.output_folder import plain
 from plateau.study.runs import finished
 from plateau.study.text_tables import listed
 from plateau.style import NARROW, QUIET, Figures, in_style, labelled, look, new, wrapped

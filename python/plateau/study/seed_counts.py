@@ -91,7 +91,7 @@ def seeds_needed(
         if isinstance(asked, int | float) and row["unit"] != "1":
             bare[row["response"]] = f'{row["response"]}: half_width = {asked:g} is taken in {row["unit"]}; give text with a unit'
         try:
-            wanted = quantity(asked, row["unit"], needs_unit=False) if isinstance(asked, str) else abs(row["effect"]) if asked is None else float(asked)
+            wanted = abs(row["effect"]) if asked is None else quantity(asked, row["unit"], needs_unit=row["unit"] != "1")
         except InputError as error:
             raise InputError(f'{row["response"]}: {error}; give each response its own, such as {{"contact area": "0.02 mm2"}}') from None
         scatter = row["standard_error"] * np.sqrt(pilot)

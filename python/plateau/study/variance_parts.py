@@ -17,11 +17,11 @@ import pandas
 from scipy import stats
 
 from plateau.errors import PlateauWarning
+from plateau.output_folder import plain
 from plateau.study.analysis import together, usable
 from plateau.study.data import Numbers, Response, Study
 from plateau.study.figure_axes import file_names
 from plateau.study.model import Fitted
-from plateau.output_folder import plain
 from plateau.study.process import Process
 from plateau.study.results import analysed
 from plateau.study.surrogate import Surrogate, surrogates
@@ -73,10 +73,10 @@ class Sensitivity:
             response, rows = surrogate.response, self.table[self.table["response"] == surrogate.response.name]
             indices, effects, seeds = [], [], None
             for row in plain(rows.to_dict("records")):
-                parts = {
-                    name: {"value": row[name], "interval": _pair(row[f"{name}_low"], row[f"{name}_high"])}
-                    for name in ("first_order", "total")
-                }
+                parts = {}
+                for name in ("first_order", "total"):
+                    ends = [row[f"{name}_low"], row[f"{name}_high"]]
+                    parts[name] = {"value": row[name], "interval": None if None in ends else ends}
                 if self.is_morris:
                     effects.append({name: row[name] for name in ["factor", "mean_size", "mean", "deviation", "standard_error", "effects"]})
                 elif row["factor"] == SEEDS:
@@ -221,9 +221,7 @@ def _indices(study: Study, one: Surrogate, confidence: float) -> tuple[pandas.Da
 
 def _values(factor: Any, even: Numbers) -> Any:
     """Values of a factor, even over its range or its levels."""
-    if factor.is_range:
-        return factor.value(2.0 * even - 1.0)
-    return np.array(factor.levels)[(even * len(factor.levels)).astype(int)]
+    return factor.value(2.0 * even - 1.0) if factor.is_range else np.array(factor.levels)[(even * len(factor.levels)).astype(int)]
 
 
 def _drawn(one: Surrogate, places: pandas.DataFrame) -> Numbers:
@@ -302,10 +300,6 @@ def _part(row: pandas.Series, name: str) -> str:
     if np.isnan(low):
         return "" if np.isnan(value) else f"{value:.2f}"
     return f"{value:.2f} ({low:.2f} … {high:.2f})"
-
-
-def _pair(low: float | None, high: float | None) -> list[float] | None:
-    return None if low is None or high is None else [low, high]
 
 
 @in_style
