@@ -92,7 +92,8 @@ class Told:
 
     def __init__(self, run: xarray.DataTree, label: str) -> None:
         self.run, self.label, self.series = run, label, run.plateau.series
-        self.state = str(run.attrs.get("state", UNKNOWN))
+        # The time of the last sample, s.
+        self.time, self.state = float(array(run, "time")[-1:].sum()), str(run.attrs.get("state", UNKNOWN))
         self.scene: dict[str, Any] = run.plateau.scene
         self.dissipates = any(name in self.series for name in ("friction_work", "disc_temperature", "pm10_mass"))
         self.has_cycle = "normal_force" in self.series
@@ -119,11 +120,6 @@ class Told:
 
     def setting(self, table: str, key: str) -> str:
         return str(self.scene.get(table, {}).get(key, UNKNOWN))
-
-    @property
-    def time(self) -> float:
-        """The time of the last sample, s."""
-        return float(array(self.run, "time")[-1:].sum())
 
     @property
     def pin_area(self) -> float:
@@ -311,13 +307,15 @@ def report_page(runs: Sequence[xarray.DataTree]) -> str:
     kind = "pair" if all(drawn[name].get_figwidth() * 25.4 < 1.2 * NARROW for name in first) else "stack"
     of: dict[str, list[str]] = {}
     for one in told:
-        for said in one.notices():
-            of.setdefault(said, []).append(one.label)
-    notices = [said if len(labels) == len(told) else f"{', '.join(labels)}: {said}" for said, labels in of.items()]
+        for notice in one.notices():
+            of.setdefault(notice, []).append(one.label)
+    notices = [notice if len(labels) == len(told) else f"{', '.join(labels)}: {notice}" for notice, labels in of.items()]
     several, five = len(told) > 1, told[0].five
+    tables, said = _compared(told) if several else ([table([*five], [[*five.values()]])], ". ".join(told[0].answer()))
     parts = [
         '<section class="first">',
-        *(_compared(told) if several else [table([*five], [[*five.values()]]), f'<p class="answer">{escape(". ".join(told[0].answer()))}.</p>']),
+        *tables,
+        f'<p class="answer">{escape(said)}.</p>',
         f'<div class="{kind}">{pictures({name: drawn[name] for name in first}, files)}</div>',
         f'<div class="notice">{listed(notices)}</div>' if notices else "",
         "</section>",
@@ -332,15 +330,14 @@ def report_page(runs: Sequence[xarray.DataTree]) -> str:
     return page(f"{len(told)} runs, compared with {told[0].label}" if several else told[0].label, *parts)
 
 
-def _compared(told: Sequence[Told]) -> list[str]:
-    """The begin of the page about several runs."""
+def _compared(told: Sequence[Told]) -> tuple[list[str], str]:
+    """The tables that begin the page about several runs, and the answer."""
     texts = {name: [one.measures[name].text if name in one.measures else UNKNOWN for one in told] for name in ANSWERS}
     texts = {ANSWERS[name]: own for name, own in texts.items() if {*own} != {UNKNOWN}}
-    parts = [table(["run", *told[0].five], [[one.label, *one.five.values()] for one in told])]
-    parts.append(table(["run", *texts], [[one.label, *row] for one, row in zip(told, zip(*texts.values()), strict=True)]))
+    of_scenes = table(["run", *told[0].five], [[one.label, *one.five.values()] for one in told])
+    of_runs = table(["run", *texts], [[one.label, *row] for one, row in zip(told, zip(*texts.values()), strict=True)])
     areas = [told[0].area.text, *(one.area.compared(told[0].area) for one in told[1:])]
-    said = "; ".join(f"{one.label} {area}" for one, area in zip(told, areas, strict=True))
-    return [*parts, f'<p class="answer">{escape(f"The contact area is: {said}")}.</p>']
+    return [of_scenes, of_runs], "The contact area is: " + "; ".join(f"{one.label} {area}" for one, area in zip(told, areas, strict=True))
 
 
 def _by_run(told: Sequence[Told], rows: dict[str, list[str]], head: str, kind: str = "words") -> str:
@@ -396,5 +393,6 @@ def _provenance(told: Told) -> str:
     files = [[one["path"], one["sha256"]] for one in read_files(told.run)]
     return (
         f"<h3>{escape(told.label)}</h3>{table(['run file', source(told.run)], terms, 'words')}"
-        f"{table(['file that was read', 'SHA-256'], files, 'words') if files else ''}<h4>Resolved scene</h4><pre>{escape(str(told.run.attrs.get('scene', '')))}</pre>"
+        f"{table(['file that was read', 'SHA-256'], files, 'words') if files else ''}"
+        f"<h4>Resolved scene</h4><pre>{escape(str(told.run.attrs.get('scene', '')))}</pre>"
     )

@@ -123,7 +123,9 @@ def _words(fit: Fitted, product: Product) -> str:
     return "·".join(words)
 
 
-def effects_page(study: Study, cautions: Sequence[str], responses: Sequence[ResponseEffects], figures: Mapping[str, Any], files: Mapping[str, bytes]) -> str:
+def effects_page(
+    study: Study, cautions: Sequence[str], responses: Sequence[ResponseEffects], figures: Mapping[str, Any], files: Mapping[str, bytes]
+) -> str:
     """The page of ``plateau sweep effects``."""
     factors = []
     for factor in study.factors:
