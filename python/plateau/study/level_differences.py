@@ -15,7 +15,8 @@ from plateau.study.data import Study
 from plateau.study.model import Fitted, NothingToFit
 from plateau.study.model_choice import fitted
 from plateau.study.results import analysed
-from plateau.units import unit_for, with_minus
+from plateau.study.text_tables import listed
+from plateau.units import unit_for, with_digits
 
 
 @dataclass(frozen=True, repr=False)
@@ -43,12 +44,13 @@ class LevelDifferences:
         """The table for people."""
         said = []
         for (response, factor), rows in self.table.groupby(["response", "factor"], sort=False):
-            unit = unit_for(rows["unit"].iloc[0], float(rows["difference"].abs().max()))
-            shown = rows[["level", "other", "difference", "low", "high", "p"]].copy()
-            shown[["difference", "low", "high"]] *= unit.per_si
-            text = shown.to_string(index=False, float_format=lambda value: f"{value:.4g}")
-            said.append(f"{response}: {factor}{f', {unit.symbol}' if unit.symbol else ''}\n{text}\n")
-        return with_minus("\n".join([f"Differences between levels, simultaneous {100 * self.confidence:g} % intervals ({self.method})\n", *said]))
+            unit, cells = unit_for(rows["unit"].iloc[0], float(rows["difference"].abs().max())), []
+            for row in rows.to_dict("records"):
+                width = 0.5 * unit.per_si * (row["high"] - row["low"])
+                numbers = {name: with_digits(unit.per_si * row[name], width) for name in ("difference", "low", "high")}
+                cells.append({"level": row["level"], "other": row["other"], **numbers, "p": with_digits(row["p"])})
+            said += ["", f"{response}: {', '.join(filter(None, [factor, unit.of_differences]))}", *listed(cells)]
+        return "\n".join([f"Differences between levels, simultaneous {100 * self.confidence:g} % intervals ({self.method})", *said, ""])
 
 
 def levels(

@@ -12,7 +12,8 @@ from scipy import stats
 from plateau.errors import InputError, PlateauWarning
 from plateau.study.analysis import Effects, effects
 from plateau.study.data import Numbers, Study
-from plateau.units import quantity, with_minus
+from plateau.study.text_tables import listed
+from plateau.units import quantity, unit_of, with_digits
 
 # Beyond this nobody runs them.
 MOST_SETS = 100_000
@@ -51,8 +52,14 @@ class SeedsNeeded:
 
     def text(self) -> str:
         """The table for people."""
-        pilot = f"{self.study.title}: sets of seeds needed, from the scatter between the {self.study.seeds} of the pilot\n"
-        return pilot + with_minus(self.table.to_string(index=False, float_format=lambda value: f"{value:.4g}")) + "\n"
+        lines, cells = [f"{self.study.title}: sets of seeds needed, from the scatter between the {self.study.seeds} of the pilot"], []
+        for row in self.table.to_dict("records"):
+            unit = unit_of(row["unit"], self.table.loc[self.table["response"] == row["response"], "effect"])
+            names = {"effect": row["effect"], "scatter": row["scatter"], "half width": row["half_width"]}
+            numbers = {name: f"{with_digits(unit.per_si * value)} {unit.of_differences}".strip() for name, value in names.items()}
+            sets = {"sets": f"{row['sets']:.0f}", "safe": f"{row['sets_safe']:.0f}"}
+            cells.append({"response": row["response"], "term": row["term"], **numbers, **sets})
+        return "\n".join([*lines, *listed(cells), ""])
 
 
 def seeds_needed(

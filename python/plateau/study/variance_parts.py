@@ -299,7 +299,8 @@ def _part(row: pandas.Series, name: str) -> str:
     value, low, high = (float(np.clip(row[each], 0.0, 1.0)) for each in (name, f"{name}_low", f"{name}_high"))
     if np.isnan(low):
         return "" if np.isnan(value) else f"{value:.2f}"
-    return f"{value:.2f} ({low:.2f} … {high:.2f})"
+    shown = [with_digits(each, max((high - low) / 2.0, 0.01)) for each in (value, low, high)]
+    return f"{shown[0]} ({shown[1]} … {shown[2]})"
 
 
 @in_style
