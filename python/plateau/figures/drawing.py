@@ -2,6 +2,7 @@
 
 import functools
 import json
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any
@@ -13,11 +14,11 @@ from plateau.errors import InputError
 from plateau.opened_runs import labels_of, note
 from plateau.quantities import MAP_KEYS
 from plateau.run_file import array, source
-from plateau.style import MARKERS, NARROW, WIDE, look, new, noted, plain
+from plateau.style import MARKERS, MM, NARROW, WIDE, look, new, noted, plain
 from plateau.units import Unit, unit_of
 
-# Height of a figure, mm, at most: that of a page.
-HIGHEST = 235.0
+# Height of a figure, mm, at most: that of a page; that of a line of a legend, and lines for which there is room.
+HIGHEST, LINE, MOST_LINES = 235.0, 3.6, 3
 
 
 @dataclass(frozen=True, eq=False)
@@ -161,7 +162,10 @@ class Drawing:
         noted(figure, note)
         if handles:
             # As many columns as the longest label leaves.
-            columns = 1 if figure.get_figwidth() * 25.4 < 2 * (12 + 1.5 * max(map(len, labels))) else 2
+            columns = 1 if figure.get_figwidth() / MM < 2 * (12 + 1.5 * max(map(len, labels))) else 2
+            # A long legend takes no room from the axes.
+            more = LINE * max(math.ceil(len(labels) / columns) - MOST_LINES, 0)
+            figure.set_figheight(min(figure.get_figheight() + more * MM, HIGHEST * MM))
             named = {"title": self.only.label, "alignment": "left"} if self.only and self.only.label not in labels else {}
             figure.legend(handles, labels, loc="outside upper left", ncols=columns, columnspacing=1.0, **named, **options)
         return [figure]

@@ -114,7 +114,7 @@ def in_panels(drawing: Drawing, names: tuple[str, ...], unit: Unit, caption: str
     # Temperatures have peaks that nothing may take away.
     durations = {name: 0.0 if unit is CELSIUS else calm(shown) for name, shown in found.items()}
     count = 1 if drawing.only else len(found)
-    figure, axes = drawing.panels(count, 54 + 4 * len(found) if drawing.only else 48, caption)
+    figure, axes = drawing.panels(count, 62 if drawing.only else 48, caption)
     for number, (name, shown) in enumerate(found.items()):
         axis = axes[number % count]
         title = "valleys of the disc filled" if name == "filled_fraction" else SERIES[name].title

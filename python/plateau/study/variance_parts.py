@@ -32,6 +32,9 @@ from plateau.units import unit_of, with_digits, with_minus
 # Places of the sample, functions that are drawn, and cosines of each.
 ROWS, FUNCTIONS, COSINES = 1024, 100, 200
 SEEDS = "seeds"
+# Columns as they are told.
+EFFECTS = {"mean_size": "mean size μ*", "standard_error": "its error", "mean": "mean", "deviation": "deviation σ"}
+PARTS = {"first_order": "alone (first order)", "total": "with interactions (total)"}
 # Part of the variance that a surrogate may miss at points left out before its smoothness is said to matter.
 MISSED = 0.1
 
@@ -89,34 +92,35 @@ class Sensitivity:
             responses.append(report)
         return {"study": self.study.title, "responses": responses, "cautions": self.cautions, "files": files or []}
 
+    def ranked(self, response: str) -> pandas.DataFrame:
+        """The rows of a response, the largest part or effect first and the seeds last."""
+        rows = self.table[self.table["response"] == response]
+        is_seeds = rows["factor"] == SEEDS
+        largest_first = rows[~is_seeds].sort_values("mean_size" if self.is_morris else "total", ascending=False, kind="stable")
+        return pandas.concat([largest_first, rows[is_seeds]])
+
     def text(self) -> str:
         """What ``plateau sweep sensitivity`` prints."""
         lines = []
         for surrogate in self.surrogates:
-            response, rows = surrogate.response, self.table[self.table["response"] == surrogate.response.name]
-            if surrogate.error or rows.empty:
+            response, rows = surrogate.response, self.ranked(surrogate.response.name).to_dict("records")
+            if surrogate.error or not rows:
                 lines += [response.name, f"  {surrogate.error or 'the surrogate has the same value everywhere: no factor has a part'}", ""]
                 continue
-            unit = unit_of(response.unit, self.study.runs[response.name])
-            is_seeds = rows["factor"] == SEEDS
-            rows = pandas.concat([rows[~is_seeds].sort_values("mean_size" if self.is_morris else "total", ascending=False), rows[is_seeds]])
-            if self.is_morris:
-                lines.append(f"{', '.join(filter(None, [response.name, unit.symbol]))}: elementary effects per whole range")
-                names = {"mean_size": "mean size μ*", "standard_error": "its error", "mean": "mean", "deviation": "deviation σ"}
-                error = rows["standard_error"].to_numpy() * unit.per_si
-                cells = {
-                    said: [with_digits(v * unit.per_si, e) for v, e in zip(rows[name], error, strict=True)] for name, said in names.items()
-                }
-                shown = pandas.DataFrame({"factor": rows["factor"], **cells, "effects": rows["effects"]})
-            else:
+            unit, cells = unit_of(response.unit, self.study.runs[response.name]), [{"factor": row["factor"]} for row in rows]
+            for cell, row in zip(cells, rows, strict=True):
+                if self.is_morris:
+                    error = row["standard_error"] * unit.per_si
+                    cell |= {said: with_digits(row[name] * unit.per_si, error) for name, said in EFFECTS.items()}
+                    cell["effects"] = str(row["effects"])
+                else:
+                    cell |= {said: _part(row, name) for name, said in PARTS.items()}
+                    cell["factor"] += " (of single runs)" if row["factor"] == SEEDS else ""
+            said = [f"{', '.join(filter(None, [response.name, unit.symbol]))}: elementary effects per whole range"]
+            if not self.is_morris:
                 of = f"intervals of {100 * self.confidence:g} % are for what the runs leave open of the function"
-                lines += [f"{response.name}: parts of the variance", f"  of the {surrogate.words}; {surrogate.reason}", f"  {of}"]
-                heads = {"first_order": "alone (first order)", "total": "with interactions (total)"}
-                shown = pandas.DataFrame(
-                    {"factor": rows["factor"], **{said: [_part(row, name) for _, row in rows.iterrows()] for name, said in heads.items()}}
-                )
-                shown["factor"] = shown["factor"].where(shown["factor"] != SEEDS, "seeds (of single runs)")
-            lines += [*listed(shown.astype(str).to_dict("records")), ""]
+                said = [f"{response.name}: parts of the variance", f"  of the {surrogate.words}; {surrogate.reason}", f"  {of}"]
+            lines += [*said, *listed(cells), ""]
         return with_minus("\n".join([*lines, *(f"caution: {caution}" for caution in self.cautions), ""]))
 
     def figures(self) -> Any:
@@ -310,7 +314,7 @@ def sensitivity_figures(found: Sensitivity) -> Figures:
     draws, kind = (_drawn_elementary, "elementary-effects") if found.is_morris else (_drawn_indices, "indices")
     names = [surrogate.response.name for surrogate in found.surrogates]
     for surrogate, stem in zip(found.surrogates, file_names(names), strict=True):
-        table = found.table[found.table["response"] == surrogate.response.name]
+        table = found.ranked(surrogate.response.name)
         if not surrogate.error and len(table):
             figures[f"{stem}-{kind}"] = draws(found, surrogate.response, table)
     return figures
@@ -319,21 +323,14 @@ def sensitivity_figures(found: Sensitivity) -> Figures:
 def _drawn_indices(found: Sensitivity, response: Response, table: pandas.DataFrame) -> Any:
     """Parts alone and with interactions, with their intervals, the largest on top and the seeds below."""
     level = f"{100 * found.confidence:g} %"
-    is_seeds = (table["factor"] == "seeds") & table["first_order"].isna()
-    table = pandas.concat([table[~is_seeds].sort_values("total", ascending=False, kind="stable"), table[is_seeds]])
-    note = f"Bars: {level} intervals of what the runs leave open" + (
-        "; seeds: part of the variance of single runs" if is_seeds.any() else ""
-    )
+    of_seeds = "; seeds: part of the variance of single runs" if SEEDS in set(table["factor"]) else ""
+    note = f"Bars: {level} intervals of what the runs leave open{of_seeds}"
     figure, axes = new(NARROW, 30 + 7 * len(table), f"{response.name}: parts of the variance, with {level} intervals", note=note)
     axis, places = axes[0, 0], np.arange(len(table))
-    for kind, label, aside, colour, mark in (
-        ("first_order", "alone (first order)", -0.15, LINES[0], "o"),
-        ("total", "with interactions (total)", 0.15, LINES[1], "s"),
-    ):
+    for (kind, label), aside, colour, mark in zip(PARTS.items(), (-0.15, 0.15), LINES[:2], "os", strict=True):
         middle, low, high = (np.clip(table[f"{kind}{end}"].to_numpy(float), 0.0, 1.0) for end in ("", "_low", "_high"))
-        axis.errorbar(
-            middle, places + aside, xerr=[middle - low, high - middle], fmt=mark, color=colour, elinewidth=1.4, capsize=2, label=label
-        )
+        bars = {"xerr": [middle - low, high - middle], "elinewidth": 1.4, "capsize": 2}
+        axis.errorbar(middle, places + aside, fmt=mark, color=colour, label=label, **bars)
     axis.set(xlabel=labelled(f"part of the variance of {response.name}", ""), xlim=(-0.02, 1.02))
     axis.set_yticks(places, [wrapped(str(name)) for name in table["factor"]])
     axis.invert_yaxis()
