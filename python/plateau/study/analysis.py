@@ -25,14 +25,7 @@ MOST_INFLATION, SHARES_DIFFER = 10.0, 0.02
 
 @dataclass(frozen=True, repr=False)
 class Effects:
-    """What the factors of a study do to its responses.
-
-    Attributes
-    ----------
-    study : Study
-    responses : list of ResponseEffects
-    confidence : float
-    """
+    """What the factors of a study do to its responses, of which ``found["NAME"]`` has one."""
 
     study: Study
     responses: list[ResponseEffects]

@@ -42,9 +42,6 @@ class Fit:
     ----------
     study : Study
         As it was after the first runs.
-    target : Target
-    outcome : Outcome
-    confidence : float
     most : int
         Runs at most.
     runs : pandas.DataFrame

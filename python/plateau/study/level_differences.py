@@ -25,14 +25,12 @@ class LevelDifferences:
 
     Attributes
     ----------
-    study : Study
     table : pandas.DataFrame
         A row for each pair of levels of each factor: ``response``, ``factor``, ``level``, ``other``, ``difference`` (level less other, over
         all levels of the other factors), ``standard_error``, ``freedom``, ``low``, ``high``, ``p`` and ``unit``. Intervals hold for all
         pairs of a factor together at the confidence level, and p is for all of them.
     method : str
         ``"Tukey"`` for all pairs, ``"Dunnett"`` against one level.
-    confidence : float
     """
 
     study: Study

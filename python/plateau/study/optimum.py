@@ -63,7 +63,6 @@ class Optimum:
         that mean ``is_within`` the interval of runs. SI units.
     desirability : float
         The mean of all goals; 0 if a limit is missed.
-    keeps_limits : bool
     at_ends : list of str
         Factors that are at an end of their range.
     canonical : list of dict
@@ -71,7 +70,6 @@ class Optimum:
         factor: ``value``, SI, ``coded``, ``is_within`` its range), ``eigenvalues`` and their ``directions`` in coded units of the factors.
     rounds : pandas.DataFrame
         The points that were run on the way: ``round``, factors, ``expected_improvement`` (part of the way of the goal), means of the responses.
-    cautions : list of str
     problem : Problem
         Goals, limits, and the study with the runs that were made on the way.
     looked_for : int

@@ -34,7 +34,6 @@ class Prediction:
 
     Attributes
     ----------
-    study : Study
     places : pandas.DataFrame
         A column for each factor, SI units or words.
     given : list of str
@@ -43,9 +42,6 @@ class Prediction:
         A row for each place and response: ``place`` (from 1), factors, ``response``, ``unit``, ``value``, ``mean_low``, ``mean_high`` (of the mean
         over all seeds), ``run_low``, ``run_high`` (of one more run), ``leverage``, ``beyond`` (factors outside the runs), ``cautions``, and of
         runs there ``confirmed``, ``confirmed_error``, ``confirmed_runs``, ``is_within`` the interval of runs. SI units.
-    surrogates : list of Surrogate
-    confidence : float
-    cautions : list of str
     """
 
     study: Study

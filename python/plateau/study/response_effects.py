@@ -34,7 +34,6 @@ class ResponseEffects:
 
     Attributes
     ----------
-    response : Response
     fit : Fitted or None
         None where nothing could be fitted.
     error : str
@@ -51,7 +50,6 @@ class ResponseEffects:
         What that says of the transform; empty where there is nothing to say.
     equations : dict
         By ``"coded"`` and ``"of the study"``, the ``variables`` of each product and its ``coefficient``.
-    cautions : list of str
     """
 
     response: Response

@@ -40,7 +40,6 @@ class SeedsNeeded:
 
     Attributes
     ----------
-    study : Study
     table : pandas.DataFrame
         A row for each effect: ``response``, ``term``, ``effect``, ``scatter`` (its standard deviation between the sets of the pilot),
         ``half_width`` (the wanted one), ``unit``, ``sets``, and ``sets_safe``, which are enough with 90 % probability although the pilot

@@ -45,16 +45,12 @@ class Sensitivity:
 
     Attributes
     ----------
-    study : Study
     table : pandas.DataFrame
         A row for each response and factor. Of indices ``first_order`` and ``total`` with ends ``_low`` and ``_high``, parts from 0 to 1, with
         a row `seeds` for the part that seeds have in the variance of single runs. Of Morris designs ``mean_size``, ``mean``, ``deviation``,
         ``standard_error`` and ``effects`` (their number), per whole range in ``unit``.
-    surrogates : list of Surrogate
     variances : dict of float
         Variance of what is expected of each response over all ranges, SI.
-    confidence : float
-    cautions : list of str
     """
 
     study: Study
