@@ -245,11 +245,12 @@ def _mean(values: Numbers, confidence: float, comparisons: int) -> tuple[float, 
     """Mean, ends of its interval, p."""
     if len(values) < 2:
         return (float(values[0]) if len(values) else np.nan), np.nan, np.nan, np.nan
-    mean, error, freedom = float(values.mean()), float(stats.sem(values)), len(values) - 1
-    if error == 0.0:
+    mean = float(values.mean())
+    if np.ptp(values) == 0.0:
         return mean, mean, mean, float(mean == 0.0)
-    half = error * float(stats.t.isf((1.0 - confidence) / comparisons / 2.0, freedom))
-    return mean, mean - half, mean + half, min(1.0, comparisons * 2.0 * float(stats.t.sf(abs(mean) / error, freedom)))
+    test = stats.ttest_1samp(values, 0.0)
+    low, high = test.confidence_interval(1.0 - (1.0 - confidence) / comparisons)
+    return mean, float(low), float(high), min(1.0, comparisons * float(test.pvalue))
 
 
 def _words(of: str, si: str, found: dict[str, float], confidence: float) -> str:

@@ -1,8 +1,8 @@
 """Sensitivity: which part of a response's variance each factor has, over the whole of all ranges.
 
 Sobol's indices of functions that may be true: of drawn coefficients or drawn processes, so that intervals carry what the surrogate does not
-know. I. M. Sobol', Math. Comput. Simul. 55, 271-280 (2001); estimators: first order of A. Saltelli et al., Comput. Phys. Commun. 181, 259-270
-(2010), total of M. J. W. Jansen, ibid. 117, 35-43 (1999); drawn processes: A. G. Journel, C. J. Huijbregts, Mining Geostatistics (1978),
+know. I. M. Sobol', Math. Comput. Simul. 55, 271-280 (2001); estimators of A. Saltelli et al., Comput. Phys. Commun. 181, 259-270 (2010), and of M.
+J. W. Jansen, ibid. 117, 35-43 (1999), in SciPy; drawn processes: A. G. Journel, C. J. Huijbregts, Mining Geostatistics (1978),
 VII. Elementary effects of Morris designs: M. D. Morris, Technometrics 33, 161-174 (1991); F. Campolongo et al., Environ. Model. Softw. 22,
 1509-1518 (2007).
 """
@@ -175,19 +175,6 @@ def sensitivity(study: Study | str | os.PathLike[str], confidence: float = 0.95)
     return Sensitivity(opened, whole.reindex(columns=columns), known, variances, confidence, cautions)
 
 
-def sobol(a: Numbers, b: Numbers, mixed: Numbers) -> tuple[Numbers, Numbers, Numbers]:
-    """Indices of first order and total, and variances, of functions from their values at two samples, and at the first with one factor of
-    the second: shapes (functions, rows) and (functions, factors, rows).
-    """
-    both = np.concatenate([a, b], axis=-1)
-    centre = np.concatenate([both, mixed.reshape(len(mixed), -1)], axis=-1).mean(-1)[:, None, None]
-    variance = both.var(-1)
-    with np.errstate(invalid="ignore", divide="ignore"):
-        first = ((b[:, None] - centre) * (mixed - a[:, None])).mean(-1) / variance[:, None]
-        total = ((mixed - a[:, None]) ** 2).mean(-1) / (2.0 * variance[:, None])
-    return first, total, variance
-
-
 def _indices(study: Study, one: Surrogate, confidence: float) -> tuple[pandas.DataFrame, float]:
     """Indices of what may be true of a response, and the variance of what is expected."""
     count, names = len(study.factors), [factor.name for factor in study.factors]
@@ -199,11 +186,13 @@ def _indices(study: Study, one: Surrogate, confidence: float) -> tuple[pandas.Da
     places = pandas.concat([a, b, *(a.assign(**{name: b[name]}) for name in names)], ignore_index=True)
     drawn = _drawn(one, places)
     values = one.response.back(drawn).reshape(-1, count + 2, ROWS)
-    first, total, variance = sobol(values[:, 0], values[:, 1], values[:, 2:])
-    tail = 50.0 * (1.0 - confidence)
+    variance, tail = values[:, :2].reshape(len(values), -1).var(axis=1), 50.0 * (1.0 - confidence)
+    found = stats.sobol_indices(func={"f_A": values[:, 0], "f_B": values[:, 1], "f_AB": values[:, 2:].swapaxes(0, 1)}, n=ROWS)
     rows: dict[str, Numbers] = {}
-    for name, found in (("first_order", first), ("total", total)):
-        low, middle, high = np.nanpercentile(found, [tail, 50.0, 100.0 - tail], axis=0)
+    for name, indices in (("first_order", found.first_order), ("total", found.total_order)):
+        # What is the same everywhere has no parts.
+        parts = np.where(variance[:, None] > 0.0, indices.reshape(-1, count), np.nan)
+        low, middle, high = np.nanpercentile(parts, [tail, 50.0, 100.0 - tail], axis=0)
         rows |= {name: middle, f"{name}_low": low, f"{name}_high": high}
     table = pandas.DataFrame({"factor": names, **rows})
     if len(drawn) == 1:
