@@ -246,7 +246,8 @@ def _mean(values: Numbers, confidence: float, comparisons: int) -> tuple[float, 
     if len(values) < 2:
         return (float(values[0]) if len(values) else np.nan), np.nan, np.nan, np.nan
     mean = float(values.mean())
-    if np.ptp(values) == 0.0:
+    # What differs by rounding alone is the same.
+    if np.ptp(values) <= 1e-14 * np.abs(values).max():
         return mean, mean, mean, float(mean == 0.0)
     test = stats.ttest_1samp(values, 0.0)
     low, high = test.confidence_interval(1.0 - (1.0 - confidence) / comparisons)
