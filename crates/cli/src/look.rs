@@ -159,5 +159,5 @@ impl Pace {
 }
 
 #[cfg(test)]
-#[path = "../../tests/unit/watch/look.rs"]
+#[path = "../tests/unit/look.rs"]
 mod tests;
