@@ -20,7 +20,7 @@
 //! | simulation, scout and schedule of a scene, put together once for all who run one | [`Assembly`] |
 //! | the time loop, and what takes its samples and maps | [`Assembly::run_to_end`], [`Sink`] |
 //! | machine, number of workers, instruction set | [`execution`] |
-//! | start or continuation, from which checkpoint, and writing those | `start`, `resume`, `checkpointer` |
+//! | start or continuation, from which checkpoint, and writing those | `start`, `checkpointer` |
 //! | accuracy of a scene's runs for their time | [`accuracy`] |
 //! | the runs of a study | [`sweep`] |
 //! | the processes that take the steps together | [`job`] |
@@ -33,7 +33,6 @@ pub mod execution;
 pub mod job;
 mod options;
 mod recorder;
-mod resume;
 mod run;
 mod start;
 mod summary;
