@@ -11,8 +11,7 @@ use plateau_io::scene::{Scene, memory_estimate};
 use plateau_io::study::Study;
 use plateau_io::study::plan::Plan;
 use plateau_io::study::record::{Digests, Identity, dataset_of};
-use plateau_io::study::response::{Question, Response};
-use plateau_io::study::response_series::lacking;
+use plateau_io::study::response::{Question, Response, lacking};
 use plateau_io::{input, number, surface, text};
 use rayon::prelude::*;
 
