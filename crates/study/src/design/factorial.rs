@@ -4,10 +4,10 @@
 //! R. L. Plackett, J. P. Burman, The design of optimum multifactorial experiments, Biometrika 33, 305–325 (1946),
 //! doi:10.1093/biomet/33.4.305.
 
-use super::aliases::aliases;
 use super::definition::{Design, DesignError, Factor, Fraction, Setting, only_ends, room};
 use super::generators::{Generator, can_be_named, columns, parse};
 use super::minimum_aberration::{COMPLETE, minimum_aberration};
+use crate::design::generators::aliases;
 
 /// The fraction, in standard order: the first factor changes fastest.
 pub(super) fn fractional_factorial(fraction: &Fraction, factors: &[Factor]) -> Result<Design, DesignError> {
@@ -119,13 +119,5 @@ fn signs(row: &str) -> Vec<i8> {
 }
 
 #[cfg(test)]
-#[path = "../../tests/unit/design/fractional_factorial.rs"]
+#[path = "../../tests/unit/design/factorial.rs"]
 mod tests;
-
-#[cfg(test)]
-#[path = "../../tests/unit/design/full_factorial.rs"]
-mod full_factorial_tests;
-
-#[cfg(test)]
-#[path = "../../tests/unit/design/plackett_burman.rs"]
-mod plackett_burman_tests;

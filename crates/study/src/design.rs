@@ -2,7 +2,6 @@
 //!
 //! [`design`] makes them all. Two-level designs are in standard order: the first factor changes fastest.
 
-mod aliases;
 mod definition;
 mod direction_numbers;
 mod factorial;
@@ -54,5 +53,5 @@ fn of_kind(kind: &Kind, factors: &[Factor]) -> Result<Design, DesignError> {
 }
 
 #[cfg(test)]
-#[path = "../../tests/unit/design.rs"]
+#[path = "../tests/unit/design.rs"]
 mod tests;
