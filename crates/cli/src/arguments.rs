@@ -19,14 +19,14 @@ use plateau_run::accuracy::{COMPARED, Ladder};
 use plateau_run::execution::cores;
 
 use crate::failure::Failure;
-use crate::version;
+use crate::program;
 
 pub use surface::{ReadArguments, SurfaceArguments, SurfaceWord, as_options};
 pub use sweep::{CollectArguments, PlanArguments, SlurmArguments, SweepCommand, SweepRunArguments};
 
 /// How a pin of friction material and a rough, coated brake disc wear into each other.
 #[derive(Debug, Parser)]
-#[command(name = "plateau", version = version::WITH_REVISION, max_term_width = 100, arg_required_else_help = true)]
+#[command(name = "plateau", version = program::WITH_REVISION, max_term_width = 100, arg_required_else_help = true)]
 pub struct Arguments {
     /// What to do.
     #[command(subcommand)]

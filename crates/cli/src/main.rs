@@ -8,10 +8,8 @@ mod invocation;
 mod look;
 mod message;
 mod output;
-mod startup;
-mod table;
+mod program;
 mod terminal;
-mod version;
 
 use std::process::ExitCode;
 
@@ -24,12 +22,12 @@ use failure::Failure;
 use hand_over::hand_over;
 
 fn main() -> ExitCode {
-    startup::fit_environment();
+    program::fit_environment();
     terminal::Interrupt::pass_over_saves();
-    if let Err(failure) = startup::refuse_little_memory() {
+    if let Err(failure) = program::refuse_little_memory() {
         return failure.report();
     }
-    startup::catch_panics(answer)
+    program::catch_panics(answer)
 }
 
 /// Hands a first word that is none of this program's to the program of its name, if there is one.

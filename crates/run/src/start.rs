@@ -16,10 +16,10 @@ use plateau_io::scene::schema::{self, Role};
 use plateau_io::temporary::Temporary;
 use plateau_io::text::{self, shown_title};
 
-use crate::checkpointer::RunIdentity;
 use crate::error::{InputError, RunError};
 use crate::job::Job;
 use crate::options::{Observer, RunOptions, StartMode};
+use crate::recorder::RunIdentity;
 
 /// Request, and its run.
 pub struct Request<'a> {

@@ -5,8 +5,6 @@
 mod definition;
 mod direction_numbers;
 mod factorial;
-mod generators;
-mod minimum_aberration;
 mod response_surface;
 mod sampled;
 

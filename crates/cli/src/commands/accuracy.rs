@@ -20,9 +20,9 @@ use serde_json::{Map, Value, json};
 use crate::arguments::AccuracyArguments;
 use crate::commands::run::{load_scene, sets};
 use crate::failure::Failure;
-use crate::table::{columns, csv_table, list, print, table};
+use crate::output::{columns, csv_table, list, print, table};
 use crate::terminal::{Messages, Terminal};
-use crate::{hand_over, message, output, version};
+use crate::{hand_over, message, output, program};
 
 /// Ladders unless others are asked for.
 const USUAL: [Ladder; 3] = [Ladder::TimeAcceleration, Ladder::Mesh, Ladder::Tolerance];
@@ -78,7 +78,7 @@ fn measure_into(
         tolerance: arguments.tolerance,
         budget: arguments.budget,
         reference,
-        program: version::this(),
+        program: program::this(),
     };
     let mut terminal = Terminal::listen(true).map_err(Failure::run)?;
     let Found { report, stopped } = measure(wish, &loaded.surfaces, execution, &mut terminal).map_err(failure)?;
@@ -352,8 +352,8 @@ fn json(report: &Report, making: &Making, state: &str) -> String {
         "tolerance": report.tolerance,
         "advice": advice(report),
         "notes": report.notes,
-        "program": version::program(),
-        "source_revision": version::REVISION,
+        "program": program::name(),
+        "source_revision": program::REVISION,
         "host": execution::host(),
         "processor": execution::processor(),
         "workers": making.workers,

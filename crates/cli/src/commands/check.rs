@@ -4,15 +4,13 @@ use std::env;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-use plateau_core::acceleration::scout::Idle;
-use plateau_core::acceleration::smoothness::Smoothness;
+use plateau_core::acceleration::scout::{Idle, Smoothness};
 use plateau_core::engine::parts::{ACCELERATION, Part, parts};
 use plateau_core::model::cycle::Cycle;
-use plateau_core::model::mesh::Mesh;
-use plateau_core::model::outline::Outline;
+use plateau_core::model::mesh::{Mesh, Outline};
 use plateau_core::model::parameters::Parameters;
 use plateau_core::model::state::Base;
-use plateau_core::observe::drift::pulse_time;
+use plateau_core::observe::running_in::pulse_time;
 use plateau_core::observe::window_mean::LEAST_REVOLUTIONS;
 use plateau_core::simulation::{Execution, Simulation};
 use plateau_io::claim::lock_of;
@@ -27,7 +25,7 @@ use serde::Serialize;
 use crate::arguments::CheckArguments;
 use crate::commands::run::load_scene;
 use crate::failure::Failure;
-use crate::table::{list, print, print_json, table};
+use crate::output::{list, print, print_json, table};
 use crate::terminal::Messages;
 use crate::{invocation, message};
 

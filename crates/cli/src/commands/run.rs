@@ -9,9 +9,9 @@ use plateau_run::{Job, RunOptions, StartMode};
 use crate::arguments::{RunArguments, SceneArguments};
 use crate::commands::runs;
 use crate::failure::{Failure, in_job};
-use crate::table::{json, print};
+use crate::output::{json, print};
 use crate::terminal::Terminal;
-use crate::{invocation, message, output, version};
+use crate::{invocation, message, output, program};
 
 /// Runs a scene, together with the other processes of the job if there are any.
 pub fn run(arguments: &RunArguments) -> Result<(), Failure> {
@@ -39,7 +39,7 @@ fn run_scene(arguments: &RunArguments, job: &mut Job) -> Result<(), Failure> {
         replace: arguments.force,
         mode,
         execution: arguments.execution.options(),
-        program: version::this(),
+        program: program::this(),
     };
     let finished = plateau_run::run(scene, &options, job, &mut terminal).map_err(Failure::of)?;
     let Some(summary) = finished else { return Ok(()) };

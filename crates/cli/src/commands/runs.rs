@@ -4,8 +4,7 @@
 use std::path::Path;
 
 use plateau_core::acceleration::Chosen;
-use plateau_core::observe::drift::{Drift, LEAST_PULSES, RUN_IN, Trend};
-use plateau_core::observe::running_in::NotDefined;
+use plateau_core::observe::running_in::{Drift, LEAST_PULSES, NotDefined, RUN_IN, Trend};
 use plateau_core::observe::window_mean::WindowMean;
 use plateau_io::number;
 use plateau_io::run_file::{NoDrift, RunFile, State};
@@ -15,7 +14,7 @@ use serde::Serialize;
 use crate::arguments::SummaryArguments;
 use crate::failure::Failure;
 use crate::message;
-use crate::table::{list, print_json, table};
+use crate::output::{list, print_json, table};
 
 /// Opens a run file; warns when it is not finished.
 fn open_run(path: &Path) -> Result<RunFile, Failure> {

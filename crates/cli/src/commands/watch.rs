@@ -13,7 +13,7 @@ use crate::arguments::WatchArguments;
 use crate::failure::Failure;
 use crate::look::{Look, Pace};
 use crate::message;
-use crate::table::on_one_line;
+use crate::output::on_one_line;
 use crate::terminal::Interrupt;
 
 /// Time between two looks, at least.

@@ -10,8 +10,7 @@ use plateau_core::model::heat::{Coating, Disc, Pin, Substance, Thermal};
 use plateau_core::model::material::{Material, Materials};
 use plateau_core::model::mesh::Mesh;
 use plateau_core::model::parameters::{DebrisRule, Parameters, PlateauRules};
-use plateau_core::observe::dissipation::CONTACT_TEMPERATURE;
-use plateau_core::observe::extra::Extra;
+use plateau_core::observe::extra::{CONTACT_TEMPERATURE, Extra};
 use plateau_core::observe::schedule::SampleEvery;
 use plateau_core::observe::{Map, requested};
 

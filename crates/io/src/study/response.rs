@@ -67,25 +67,16 @@ pub enum WhichEvent {
 
 /// Reason why a run gives no answer.
 #[derive(Debug, Clone, PartialEq, Error)]
+#[allow(missing_docs)] // The messages say what they mean.
 pub enum NoAnswer {
-    /// Its series are not there.
     #[error("its series was not kept")]
     NotKept,
-    /// It comes from elsewhere.
     #[error("it comes from elsewhere")]
     Elsewhere,
-    /// The question is about a time after its end, s.
     #[error("the run ends at {} s, before {} s", number::rounded(*.end, 6), number::rounded(*.asked, 6))]
-    Ended {
-        /// The time that is asked for.
-        asked: f64,
-        /// Time at which it ends.
-        end: f64,
-    },
-    /// There is no number.
+    Ended { asked: f64, end: f64 },
     #[error("there is no number then, as where the pin is lifted")]
     NoNumber,
-    /// There is no such event.
     #[error("it has no such event, or the event has no value")]
     NoEvent,
     /// It has not come there.

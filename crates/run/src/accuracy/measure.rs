@@ -2,7 +2,7 @@
 
 use std::time::Instant;
 
-use plateau_core::acceleration::smoothness::Smoothness;
+use plateau_core::acceleration::scout::Smoothness;
 use plateau_core::model::state::InitialSurfaces;
 use plateau_core::simulation::Execution;
 use plateau_io::dataset_file::now;

@@ -15,11 +15,10 @@ use plateau_io::scene::{Difference, OutputSettings, Scene, differences};
 
 use crate::accuracy::error::{ReferenceError, Unfinished};
 use crate::accuracy::quantity::{COMPARED, Course, Windows, values_of};
-use crate::assembly::Assembly;
+use crate::assembly::{Assembly, Sink};
 use crate::error::{InputError, RunError};
 use crate::execution::time_per_step;
 use crate::options::Observer;
-use crate::time_loop::Sink;
 
 /// Run that every other one is compared with.
 #[derive(Debug, Clone)]

@@ -12,9 +12,9 @@ use plateau_run::{Job, signal_in_words};
 
 use crate::arguments::{SlurmArguments, SweepRunArguments};
 use crate::failure::{Failure, in_job};
-use crate::table::{print, print_json, table};
+use crate::output::{print, print_json, table};
 use crate::terminal::{Interrupt, Messages};
-use crate::{invocation, message, output, version};
+use crate::{invocation, message, output, program};
 
 /// Makes the runs, together with the other processes of the job if there are any.
 pub fn run(arguments: &SweepRunArguments) -> Result<(), Failure> {
@@ -29,7 +29,7 @@ fn run_study(arguments: &SweepRunArguments, job: &mut Job) -> Result<(), Failure
         jobs: arguments.cores.runs_at_a_time(),
         workers: arguments.cores.workers(),
         most_failures: arguments.max_failures.map(|limit| limit as usize),
-        program: version::this(),
+        program: program::this(),
     };
     let sweep = Sweep::prepare(&plan, options, job, &Messages).map_err(Failure::of_sweep)?;
     let interrupt = Interrupt::listen().map_err(Failure::run)?;

@@ -5,19 +5,18 @@
 //! over one round and the number of rounds: nothing is added up step by step, so nothing drifts, and nothing is read off a
 //! time since the start, which many rounds or a long pause leave few digits of.
 
-mod event;
 mod interval;
 mod pause;
 
+use std::f64::consts::TAU;
 use std::iter;
 
 use thiserror::Error;
 
-pub use self::event::Event;
 use self::interval::Interval;
 pub use self::interval::{Kind, Node};
 pub use self::pause::Pause;
-use super::clock::StepOperation;
+use crate::model::clock::StepOperation;
 
 /// Part of a step below which an angle counts as reached: rounding must not put the end of a step behind the pause that begins with
 /// it.
@@ -37,40 +36,19 @@ pub enum Interpolation {
 
 /// Why a table is no cycle. Rows are counted from 0.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
+#[allow(missing_docs)] // The messages say what they mean.
 pub enum CycleError {
-    /// There is nothing between fewer than two rows.
     #[error("fewer than two rows ({rows}), so there is no time between them")]
-    Rows {
-        /// How many there are.
-        rows: usize,
-    },
-    /// The first time is not 0, or a time is before that of the row above.
+    Rows { rows: usize },
     #[error("a time of {time} s after {before} s: times begin with 0 and do not go back")]
-    Time {
-        /// The row.
-        row: usize,
-        /// Its time, s.
-        time: f64,
-        /// The time of the row above, s.
-        before: f64,
-    },
-    /// A load or speed that is negative or no number.
+    Time { row: usize, time: f64, before: f64 },
     #[error("a {quantity} of {value}, expected 0 or more")]
-    Value {
-        /// The row.
-        row: usize,
-        /// Load or speed.
-        quantity: &'static str,
-        /// What it is.
-        value: f64,
-    },
-    /// What is played is more than can be kept an account of.
+    Value { row: usize, quantity: &'static str, value: f64 },
     #[error("{intervals} intervals in all, expected at most {MOST_INTERVALS}: fewer rows, or a smaller repeat")]
     TooMany {
         /// Rows times rounds.
         intervals: u64,
     },
-    /// No step would be taken.
     #[error("nowhere between two rows is there load and speed, so no step would be taken")]
     Inactive,
 }
@@ -360,6 +338,73 @@ fn check(nodes: &[Node]) -> Result<(), CycleError> {
         before = node.time;
     }
     Ok(())
+}
+
+/// Simulated revolutions below which an event is too short for its mean to say much.
+const LEAST_REVOLUTIONS: f64 = 10.0;
+
+/// A maximal stretch of active intervals, such as one stop of a car.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Event {
+    /// When it begins, with F and ω then.
+    pub start: Node,
+    /// When it ends, with F and ω then.
+    pub end: Node,
+    /// ψ at its start, rad.
+    pub start_angle: f64,
+    /// By how much the disc turns in it, rad.
+    pub angle: f64,
+}
+
+impl Cycle {
+    /// The maximal stretches of active intervals until a time (s).
+    pub fn events(&self, until: f64) -> Vec<Event> {
+        let mut events: Vec<Event> = Vec::new();
+        // The round and the angle in it, rad, with which the event begins that goes on.
+        let mut open = None;
+        let places = (0..self.rounds).flat_map(|round| self.intervals.iter().map(move |interval| (round, interval)));
+        for (round, interval) in places {
+            let before = round as f64 * self.period;
+            let (start, rounding) = (before + interval.start.time, Self::rounding(until));
+            if start >= until - rounding {
+                break;
+            }
+            if interval.kind != Kind::Active {
+                open = None;
+                continue;
+            }
+            let is_whole = before + interval.end.time <= until + rounding;
+            let end = if is_whole {
+                Node { time: before + interval.end.time, ..interval.end }
+            } else {
+                Node { time: until, ..interval.after(until - start) }
+            };
+            let first = interval.angle - interval.turned();
+            let (first_round, first) = *open.get_or_insert_with(|| {
+                let start_angle = round as f64 * self.angle + first;
+                events.push(Event { start: Node { time: start, ..interval.start }, end, start_angle, angle: 0.0 });
+                (round, first)
+            });
+            let last = if is_whole { interval.angle } else { interval.angle_after(until - start) };
+            if let Some(event) = events.last_mut() {
+                event.end = end;
+                event.angle = (round - first_round) as f64 * self.angle + (last - first);
+            }
+        }
+        events
+    }
+
+    /// The largest m with which every event until a time (s) has ten simulated revolutions: below 1 none has.
+    pub fn largest_acceleration(&self, until: f64) -> f64 {
+        let angles = self.events(until).into_iter().map(|event| event.angle);
+        angles.fold(f64::INFINITY, f64::min) / (LEAST_REVOLUTIONS * TAU)
+    }
+
+    /// How many of the events until a time (s) have fewer, with an acceleration.
+    pub fn short_events(&self, until: f64, acceleration: f64) -> usize {
+        let least = acceleration * LEAST_REVOLUTIONS * TAU * (1.0 - 1e-9);
+        self.events(until).iter().filter(|event| event.angle < least).count()
+    }
 }
 
 #[cfg(test)]

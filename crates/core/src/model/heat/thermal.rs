@@ -1,6 +1,83 @@
-//! Factors that depend on the temperature of the contact (model 11, feedback).
+//! What heat is told: substances, coating, disc and pin; and factors that depend on the temperature of the contact (model 11, feedback).
 
 use thiserror::Error;
+
+/// What conducts heat.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Substance {
+    /// λ, W/(m K).
+    pub conductivity: f64,
+    /// ρ, kg/m³.
+    pub density: f64,
+    /// c, J/(kg K).
+    pub specific_heat: f64,
+}
+
+impl Substance {
+    /// b = √(λ ρ c), W √s/(m² K).
+    pub fn effusivity(&self) -> f64 {
+        (self.conductivity * self.density * self.specific_heat).sqrt()
+    }
+
+    /// a = λ/(ρ c), m²/s.
+    pub fn diffusivity(&self) -> f64 {
+        self.conductivity / (self.density * self.specific_heat)
+    }
+}
+
+/// A layer on the disc that shows while a cell passes under the pin; the chain leaves it out.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Coating {
+    /// d, m; 0 is none.
+    pub thickness: f64,
+    /// What it is of.
+    pub substance: Substance,
+}
+
+/// The disc as heat sees it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Disc {
+    /// Below the coating.
+    pub substance: Substance,
+    /// A_d, m².
+    pub area: f64,
+    /// m.
+    pub thickness: f64,
+    /// H₀, W/K.
+    pub cooling: f64,
+    /// H₁, J/(K rad).
+    pub cooling_per_speed: f64,
+    /// If it has one.
+    pub coating: Option<Coating>,
+}
+
+/// The pin as heat sees it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Pin {
+    /// All of it.
+    pub substance: Substance,
+    /// A_p, m².
+    pub area: f64,
+    /// m.
+    pub length: f64,
+    /// H_p, W/K.
+    pub cooling: f64,
+}
+
+/// Where the heat of friction goes, and what temperature changes.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Thermal {
+    /// K.
+    pub ambient: f64,
+    /// The disc.
+    pub disc: Disc,
+    /// The pin.
+    pub pin: Pin,
+    /// f_κ of the pin's plateaus.
+    pub wear_rate_factor: Factor,
+    /// f_μ.
+    pub friction_factor: Factor,
+}
 
 /// A factor over temperature: straight lines between points, constant beyond them, 1 without any.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -11,25 +88,12 @@ pub struct Factor {
 
 /// Why points are no factor. They are counted from 0.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
+#[allow(missing_docs)] // The messages say what they mean.
 pub enum FactorError {
-    /// Two points of the same temperature, or in the wrong order.
     #[error("a temperature of {temperature} K after {before} K: temperatures must rise from point to point")]
-    Order {
-        /// The point.
-        point: usize,
-        /// Its temperature, K.
-        temperature: f64,
-        /// That of the point before, K.
-        before: f64,
-    },
-    /// A factor that is negative or no number.
+    Order { point: usize, temperature: f64, before: f64 },
     #[error("a factor of {factor}, expected 0 or more")]
-    Value {
-        /// The point.
-        point: usize,
-        /// Its factor.
-        factor: f64,
-    },
+    Value { point: usize, factor: f64 },
 }
 
 impl Factor {

@@ -1,4 +1,5 @@
-//! Start of the program: the environment that libraries read when a process starts, too little memory, and a panic, told in one line.
+//! The program: which it is; its start, with the environment that libraries read when a process starts, and too little memory; and a panic,
+//! told in one line.
 
 use std::any::Any;
 use std::env;
@@ -9,10 +10,27 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 use plateau_io::memory;
+use plateau_run::Program;
 use signal_hook::consts::SIGABRT;
 
 use crate::failure::Failure;
 use crate::message;
+
+/// Revision of the source that the program was built from.
+pub const REVISION: &str = env!("PLATEAU_REVISION");
+
+/// Version and revision, as `--version` prints them.
+pub const WITH_REVISION: &str = concat!(env!("CARGO_PKG_VERSION"), " (revision ", env!("PLATEAU_REVISION"), ")");
+
+/// This program, as run files name it.
+pub fn this() -> Program {
+    Program { name: name(), revision: REVISION.into() }
+}
+
+/// Name and version.
+pub fn name() -> String {
+    format!("plateau {}", env!("CARGO_PKG_VERSION"))
+}
 
 /// Number of pools of memory that the C library makes at most (mallopt(3)).
 const POOLS: &str = "MALLOC_ARENA_MAX";
@@ -95,5 +113,5 @@ fn payload_text(payload: &(dyn Any + Send)) -> String {
 }
 
 #[cfg(test)]
-#[path = "../tests/unit/startup.rs"]
+#[path = "../tests/unit/program.rs"]
 mod tests;

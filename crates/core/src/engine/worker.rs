@@ -3,42 +3,46 @@
 //! Every worker knows the displacement and all sums, and computes them alike; what differs is which cells it passes over.
 
 mod balance;
-mod changes;
-mod checkpoint;
 mod columns;
-mod gather;
 mod report;
 
 use std::ops::Range;
 use std::sync::Arc;
 
+use serde::{Deserialize, Serialize};
+
 use crate::engine::coefficients::Coefficients;
 use crate::engine::comm::Communicator;
 use crate::engine::contact::Contact;
 use crate::engine::debris::Debris;
-use crate::engine::exact::ExactSum;
+use crate::engine::exact::{ExactSum, Quantum};
 use crate::engine::execution::Execution;
 use crate::engine::filling::{Filling, relief};
 use crate::engine::forecast::Forecast;
 use crate::engine::kernel::{
-    Bracket, Edge, InstructionSet, Moved, Pass, ReachOf, Read, Reading, Rules, WearColumn, pass, reach_of, read,
-    wear_column,
+    Bracket, Edge, InstructionSet, Moved, NearPair, Pass, ReachOf, Read, Reading, Rules, WearColumn, pass, reach_of,
+    read, wear_column,
 };
 use crate::engine::parts::Needs;
-use crate::engine::pin_strips::PinStrips;
-use crate::engine::quantum::Quantum;
 use crate::engine::sector::Partition;
-use crate::engine::strips::{DiscSector, strips};
+use crate::engine::strips::{DiscSector, PinStrips, strips};
 use crate::engine::sums::{RowWeights, Sums};
 use crate::model::accounts::{Accounts, StepFacts};
-use crate::model::clock::Clock;
-use crate::model::clock::StepOperation;
+use crate::model::clock::{Clock, StepOperation};
 use crate::model::error::SimulationError;
-use crate::model::history::{Course, History};
+use crate::model::memory::{Course, Heights, History, Memory};
 use crate::model::parameters::Parameters;
 use crate::model::state::InitialSurfaces;
-
 pub(crate) use columns::{halo_words, waiting_columns};
+
+/// What the engine keeps from step to step.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(crate) struct EngineMemory {
+    pub contact: Contact,
+    pub forecast: Forecast,
+    pub bracket: Option<Bracket>,
+    pub overlap_quantum: Quantum,
+}
 
 /// A worker.
 #[derive(Debug)]
@@ -248,5 +252,164 @@ impl<C: Communicator> Worker<C> {
     /// What the steps so far were like.
     pub fn course(&self) -> Course {
         Course { contact_area_integral: self.history.integral(), ..self.course }
+    }
+
+    /// Has the accounts take the pauses before the coming step, and takes over the wear rates that hold in it.
+    fn begin_accounts(&mut self) -> Result<(), SimulationError> {
+        let Some(accounts) = &mut self.accounts else { return Ok(()) };
+        accounts.begin(self.course.steps + 1, self.parameters.step_angle());
+        if accounts.wear_rate_factor() == self.wear_rate_factor {
+            return Ok(());
+        }
+        self.accept_coefficients(&self.parameters.clone());
+        // The sums of the coming step were taken with the weights of before. No bracket has missed, so this is not
+        // counted; and who goes on from a checkpoint has read them again anyway.
+        let extra_readings = self.course.extra_readings;
+        self.bracket.map_or(Ok(()), |bracket| self.read_columns(&bracket))?;
+        self.course.extra_readings = extra_readings;
+        Ok(())
+    }
+
+    /// Has the coming steps stand for `acceleration` revolutions each, in place of what it was so far (model 4.6).
+    pub fn accelerate(&mut self, acceleration: f64) -> Result<(), SimulationError> {
+        let parameters = Parameters { time_acceleration: acceleration, ..Parameters::clone(&self.parameters) };
+        self.clock = self.clock.changed(self.course.steps, parameters.step_time());
+        self.accept_coefficients(&parameters);
+        // The sums of the coming step were taken with the weights of before.
+        self.bracket.map_or(Ok(()), |bracket| self.read_columns(&bracket))
+    }
+
+    /// Makes everything that depends on the acceleration, and on wear rates that change with temperature, anew.
+    fn accept_coefficients(&mut self, parameters: &Parameters) {
+        self.parameters = Arc::new(parameters.clone());
+        self.wear_rate_factor = self.accounts.as_deref().map_or(1.0, Accounts::wear_rate_factor);
+        let now = match self.wear_rate_factor {
+            1.0 => self.parameters.clone(),
+            factor => Arc::new(parameters.with_wear_rate_factor(factor)),
+        };
+        self.course.largest_stiffness_number = self.course.largest_stiffness_number.max(now.stiffness_number());
+        self.coefficients = Coefficients::new(&now);
+        self.rules = Rules::new(&now, &self.coefficients, self.filling.reference_height(), self.shortcut);
+        self.weights = RowWeights::new(&now, &self.coefficients, self.rows.clone(), self.weights.relief);
+        self.debris.set_coefficients(&self.coefficients);
+    }
+
+    /// What all workers know alike.
+    pub fn memory(&self) -> (Memory, EngineMemory) {
+        let memory = Memory {
+            course: self.course,
+            clock: self.clock,
+            time_acceleration: self.parameters.time_acceleration,
+            account: self.debris.account().clone(),
+            history: self.history.clone(),
+            accounts: self.accounts.as_ref().map(|accounts| accounts.state().clone()),
+        };
+        let engine = EngineMemory {
+            contact: self.contact.clone(),
+            forecast: self.forecast.clone(),
+            bracket: self.bracket,
+            overlap_quantum: self.overlap_quantum,
+        };
+        (memory, engine)
+    }
+
+    /// Takes over the state of a simulation of the same parameters and surfaces.
+    pub fn restore(
+        &mut self,
+        heights: &Heights,
+        memory: &Memory,
+        engine: &EngineMemory,
+    ) -> Result<(), SimulationError> {
+        let Memory { course, clock, time_acceleration, account, history, accounts } = memory.clone();
+        let EngineMemory { contact, forecast, bracket, overlap_quantum } = engine.clone();
+        if let (Some(own), Some(state)) = (&mut self.accounts, accounts) {
+            own.restore(state);
+        }
+        self.accept_coefficients(&Parameters { time_acceleration, ..Parameters::clone(&self.parameters) });
+        let rows = self.parameters.mesh.rows();
+        let own = self.rows.clone();
+        for column in 0..self.parameters.mesh.pin_columns() {
+            let cells = rows * column + own.start..rows * column + own.end;
+            self.pin.set_column(column, &heights.pin_height[cells.clone()], &heights.pin_substrate[cells]);
+        }
+        for sector in self.sectors.iter_mut().flatten() {
+            for column in 0..sector.columns {
+                let start = rows * (sector.first + column);
+                let cells = start + own.start..start + own.end;
+                sector.set_column(column, &heights.disc_height[cells.clone()], &heights.disc_substrate[cells]);
+            }
+        }
+        (self.course, self.clock) = (course, clock);
+        self.filling.measure_all(&self.parameters.mesh, &own, self.sectors.iter().flatten(), course.steps);
+        self.debris.set_account(account);
+        (self.contact, self.history, self.forecast) = (contact, history, forecast);
+        (self.bracket, self.overlap_quantum) = (bracket, overlap_quantum);
+        self.pressure.clear();
+        // What the last pass read of the coming step is read again.
+        self.bracket.map_or(Ok(()), |bracket| self.read_columns(&bracket))?;
+        self.course = course;
+        Ok(())
+    }
+
+    /// The sums over all workers after a pass that read the next step against a bracket.
+    fn gather_pass(&mut self, bracket: &Bracket) -> Result<(), SimulationError> {
+        self.sums.take_reading(&self.weights, &self.reading, bracket);
+        if let Some(taken) = &self.bracket {
+            self.sums.take_moved(&self.weights, &self.moved, taken, self.contact.displacement());
+        }
+        self.exchange(true)
+    }
+
+    /// The sums over all workers after the coming step was read once more.
+    fn gather_reading(&mut self, bracket: &Bracket) -> Result<(), SimulationError> {
+        self.sums.take_reading(&self.weights, &self.reading, bracket);
+        self.exchange(false)
+    }
+
+    /// Adds the sums of the other workers to one's own.
+    fn exchange(&mut self, moved: bool) -> Result<(), SimulationError> {
+        if self.communicator.size() == 1 {
+            return Ok(());
+        }
+        let own = self.communicator.rank();
+        let Self { communicator, message, reading, sums, weights, .. } = self;
+        message.clear();
+        write_near(message, reading);
+        sums.write_reading(weights, message);
+        if moved {
+            sums.write_moved(message);
+        }
+        communicator.all_gather(message, &mut |from, words| {
+            if from != own {
+                let mut words = words.iter().copied();
+                add_near(&mut words, reading);
+                sums.add_reading(weights, &mut words);
+                if moved {
+                    sums.add_moved(&mut words);
+                }
+            }
+        })?;
+        Ok(())
+    }
+}
+
+fn write_near(message: &mut Vec<u64>, reading: &Reading) {
+    message.push(reading.largest().to_bits());
+    message.push(reading.near.len() as u64);
+    for near in &reading.near {
+        message.extend([
+            near.gap.to_bits(),
+            u64::from(near.column) << 40 | u64::from(near.row) << 8 | u64::from(near.pair),
+        ]);
+    }
+}
+
+fn add_near(words: &mut impl Iterator<Item = u64>, reading: &mut Reading) {
+    let mut next = || words.next().unwrap_or(0);
+    reading.largest.0[0] = reading.largest.0[0].max(f64::from_bits(next()));
+    for _ in 0..next() {
+        let (gap, cell) = (next(), next());
+        let (column, row) = ((cell >> 40) as u32, (cell >> 8) as u32);
+        reading.near.push(NearPair { gap: f64::from_bits(gap), row, column, pair: cell as u8 });
     }
 }

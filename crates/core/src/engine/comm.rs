@@ -2,13 +2,7 @@
 
 #[cfg(feature = "mpi")]
 pub mod mpi;
-#[cfg(feature = "mpi")]
-mod mpi_job;
-mod parking;
-pub(crate) mod single;
 pub(crate) mod threads;
-#[cfg(feature = "mpi")]
-mod work_requests;
 
 use thiserror::Error;
 
@@ -16,19 +10,14 @@ use crate::model::error::SimulationError;
 
 /// Why workers cannot go on together.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[allow(missing_docs)] // The messages say what they mean.
 pub enum CommError {
-    /// A worker failed.
     #[error("worker {worker} failed: {message}")]
-    Worker {
-        /// Which.
-        worker: usize,
-        /// What it said.
-        message: String,
-    },
+    Worker { worker: usize, message: String },
     /// MPI.
     #[cfg(feature = "mpi")]
     #[error(transparent)]
-    Mpi(#[from] mpi_job::MpiError),
+    Mpi(#[from] mpi::MpiError),
 }
 
 impl From<CommError> for SimulationError {
@@ -69,4 +58,31 @@ pub trait Communicator {
     /// # Errors
     /// [`CommError`] when a worker failed.
     fn all_gather(&mut self, words: &[u64], each: &mut dyn FnMut(usize, &[u64])) -> Result<(), CommError>;
+}
+
+/// Nobody else to talk to.
+#[derive(Debug, Clone, Copy)]
+pub struct Single;
+
+impl Communicator for Single {
+    fn rank(&self) -> usize {
+        0
+    }
+
+    fn size(&self) -> usize {
+        1
+    }
+
+    fn send_halo(&mut self, _boundary: usize, to: usize, _words: &[u64]) -> Result<(), CommError> {
+        unreachable!("worker {to} of one")
+    }
+
+    fn receive_halo(&mut self, _boundary: usize, from: usize, _words: &mut [u64]) -> Result<(), CommError> {
+        unreachable!("worker {from} of one")
+    }
+
+    fn all_gather(&mut self, words: &[u64], each: &mut dyn FnMut(usize, &[u64])) -> Result<(), CommError> {
+        each(0, words);
+        Ok(())
+    }
 }
