@@ -14,7 +14,7 @@ use plateau_io::{number, plausibility, text};
 
 use crate::arguments::{NewArguments, ReadArguments, as_options};
 use crate::failure::Failure;
-use crate::table::print;
+use crate::output::print;
 use crate::{hand_over, invocation, message, output};
 
 /// The scene with places for what is the user's.

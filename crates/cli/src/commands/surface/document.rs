@@ -6,7 +6,7 @@ use super::comparison::{Comparison, Row};
 use super::describe::{Units, parameters, scale};
 use super::subject::Subject;
 use crate::failure::Failure;
-use crate::table::json;
+use crate::output::json;
 
 /// An object for one surface, an array of such for several.
 pub fn document(subjects: &[Subject]) -> Result<String, Failure> {

@@ -19,7 +19,7 @@ use crate::failure::Failure;
 use crate::hand_over::{self, hand_over};
 use crate::message;
 use crate::output;
-use crate::table::print;
+use crate::output::print;
 use figure_data::FigureData;
 use recorded::NamedHeights;
 use subject::Subject;
