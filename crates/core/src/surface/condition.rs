@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use super::describe::HeightParameters;
+use super::heights::HeightParameters;
 use super::level::{Level, level, rms};
 use super::missing::remove_outliers;
 

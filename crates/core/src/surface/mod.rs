@@ -1,12 +1,11 @@
-//! Surfaces: measured patches and their preparation, synthetic heights, fibre maps, micrographs, and the parameters that
-//! describe them.
+//! Surfaces: measured patches and their preparation, synthetic heights, fibre maps, micrographs.
 
 mod condition;
-pub mod describe;
 mod extend;
 mod fft;
 mod fibre;
 mod gaussian_filter;
+mod heights;
 pub mod implausible;
 mod level;
 pub mod micrograph;
@@ -20,11 +19,13 @@ mod resample;
 mod rotate;
 mod straighten;
 mod synthesis;
+mod texture_direction;
 mod unroll;
 
 pub use condition::{Condition, Spikes};
 pub use extend::Extension;
 pub use fibre::{FibreError, FibreSynthesis, fibre_fraction, set_back_resin};
+pub use heights::HeightParameters;
 pub use level::{Level, level};
 pub use missing::Fill;
 pub use patch::{Body, Length, Patch};
@@ -32,4 +33,5 @@ pub use preparation_error::PreparationError;
 pub use prepare::{Preparation, Prepared, RawHeights};
 pub use straighten::{Crop, Flip};
 pub use synthesis::{HeightSynthesis, SynthesisError, Texture};
+pub use texture_direction::TextureDirection;
 pub use unroll::Unroll;

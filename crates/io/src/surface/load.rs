@@ -4,10 +4,10 @@ use std::path::{Path, PathBuf};
 
 use plateau_core::model::mesh::Mesh;
 use plateau_core::model::state::{Base, InitialSurfaces};
-use plateau_core::surface::describe::HeightParameters;
 use plateau_core::surface::micrograph::{FibreMap, Micrograph};
 use plateau_core::surface::{
-    Body, Extension, HeightSynthesis, Length, Patch, Preparation, RawHeights, Texture, fibre_fraction, set_back_resin,
+    Body, Extension, HeightParameters, HeightSynthesis, Length, Patch, Preparation, RawHeights, Texture,
+    fibre_fraction, set_back_resin,
 };
 
 use super::error::{FileError, SurfaceError};

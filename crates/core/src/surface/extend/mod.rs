@@ -93,7 +93,7 @@ pub(super) fn extend(
         // The preparation warns of it.
         return Ok(vec![mean(&patch.heights); body.columns(mesh) * mesh.rows()]);
     };
-    let mut plane = Plane::new(&grid);
+    let mut plane = Plane::of(&grid);
     let power =
         gaussian_power(correlation, &Translation::of(|x| quantiles.normal(x), QUADRATURE_STEP, 0.0), &mut plane);
     let stream = if body == Body::Disc { Stream::DiscExtension } else { Stream::PinExtension };
@@ -128,7 +128,7 @@ fn statistics_of_patch(
         if long_waves > MUCH { ": measure a larger area" } else { "" }
     ));
     report.extend(few_heights(&cells));
-    let correlation = autocorrelation(spectrum.power, &mut Plane::new(&grid));
+    let correlation = autocorrelation(spectrum.power, &mut Plane::of(&grid));
     report.extend(Reach::of(&correlation, &grid, &cells).remarks(long_waves > MUCH, patch, body, mesh));
     Ok(Some(Statistics { grid, correlation, quantiles }))
 }

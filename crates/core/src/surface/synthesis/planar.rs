@@ -18,7 +18,7 @@ pub(in crate::surface) fn field(
     translation: Option<&Translation>,
     random: &mut Random,
 ) -> Vec<f64> {
-    let mut plane = Plane::new(grid);
+    let mut plane = Plane::of(grid);
     if let Some(translation) = translation {
         distort(&mut power, translation, &mut plane);
     }
@@ -60,9 +60,13 @@ pub(in crate::surface) struct Plane {
 }
 
 impl Plane {
-    pub(in crate::surface) fn new(grid: &Grid) -> Self {
-        let (columns, rows) = (grid.padded_columns, grid.padded_rows);
-        Self { columns, rows, repeats: grid.repeats, along_y: Fft::new(rows), along_x: Fft::new(columns) }
+    /// That of so many columns and rows, along which the field repeats so many times.
+    pub(in crate::surface) fn new(columns: usize, rows: usize, repeats: usize) -> Self {
+        Self { columns, rows, repeats, along_y: Fft::new(rows), along_x: Fft::new(columns) }
+    }
+
+    pub(in crate::surface) fn of(grid: &Grid) -> Self {
+        Self::new(grid.padded_columns, grid.padded_rows, grid.repeats)
     }
 
     /// Columns and rows of the plane.
