@@ -20,7 +20,7 @@ def add(words: Words) -> None:
     made = surface.word("describe", "Describe data of the program: for the program itself; users call plateau surface", _describe)
     made.add_argument("data", type=Path, metavar="DATA", help="Folder of data")
     made.add_argument("--json", action="store_true", help="Print JSON")
-    of_all(made, "Has no meaning")
+    made.set_defaults(quiet=True)
 
 
 def _describe(given: argparse.Namespace) -> str:

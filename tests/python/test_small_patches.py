@@ -24,7 +24,8 @@ def correlation_error(cells):
     shape = (2 * rows, 2 * columns)
     products, pairs = (np.fft.irfft2(np.abs(np.fft.rfft2(one, shape)) ** 2, shape) for one in (cells - cells.mean(), np.ones_like(cells)))
     x, y = np.arange(-(columns // 3), columns // 3 + 1), np.arange(-(rows // 3), rows // 3 + 1)
-    return math.sqrt(((products / pairs)[np.ix_(y, x)] ** 2).sum() / cells.size) / cells.var()
+    places = np.ix_(y, x)
+    return math.sqrt(((products[places] / pairs[places]) ** 2).sum() / cells.size) / cells.var()
 
 
 @unittest.skipIf(SHARED is None, "the shared surfaces are not there")
@@ -39,19 +40,19 @@ class SmallPatches(InFolder):
 
     def test_rings_are_like_their_patches(self):
         for name in SURFACES:
+            with tempfile.TemporaryDirectory() as folder:
+                surface = plateau.command("surface", SHARED / f"{name}.sdf", to=f"{folder}/heights.npy", json=True)
+                heights = np.load(f"{folder}/heights.npy").T
             for track in TRACKS:
                 for way in ("repeat = true", 'extend = "statistics", extend_seed = 1'):
                     with self.subTest(name=name, rows=track[1], way=way):
-                        self.compare(name, *track, way)
+                        self.compare(heights, np.array(surface["pitch"]), *track, way)
 
-    def compare(self, name, cell, rows, columns, side, way):
+    def compare(self, heights, pitch, cell, rows, columns, side, way):
         with tempfile.TemporaryDirectory() as folder, warnings.catch_warnings():
             warnings.simplefilter("ignore")
-            plateau.command("surface", SHARED / f"{name}.sdf", to=f"{folder}/heights.npy")
-            pitch = np.array(plateau.command("surface", SHARED / f"{name}.sdf", json=True)["pitch"])
-            heights = np.load(f"{folder}/heights.npy").T
             # Pixels with the proportions of the file and the size that fits.
-            pitch *= side / min(pitch * heights.shape[::-1])
+            pitch = pitch * side / min(pitch * heights.shape[::-1])
             sdfio.write(f"{folder}/patch.sdf", heights, x_scale=pitch[0], y_scale=pitch[1])
             prepare = f'{{ level = "plane", outliers = 6, fill = "interpolate", cutoff = "none", {way} }}'
             mean, half = cell * columns / math.tau, cell * rows / 2

@@ -167,4 +167,8 @@ fn without_the_package_it_is_said_what_to_install_and_only_then() {
     assert_eq!((outcome.status, outcome.stdout.as_str()), (Some(1), ""), "{}", outcome.stderr);
     assert!(outcome.stderr.contains("pip install 'plateau-brake[all]'") && outcome.stderr.lines().count() == 1);
     refused(&call(&["surface", "absent.sdf"]), "absent.sdf: ");
+    // A file is written all the same.
+    let outcome = call(&["surface", "small.sdf", "--to", "out.sdf"]);
+    assert_eq!((outcome.status, outcome.stdout.as_str()), (Some(0), "wrote out.sdf\n"), "{}", outcome.stderr);
+    assert!(outcome.stderr.contains("pip install 'plateau-brake[all]'") && directory.path("out.sdf").is_file());
 }

@@ -2,6 +2,8 @@
 
 use rayon::prelude::*;
 
+use super::Length;
+
 /// Terms that are summed one after the other.
 const BLOCK: usize = 1 << 14;
 
@@ -59,4 +61,25 @@ fn sums(values: &[f64], terms: impl Fn(f64) -> [f64; 3] + Sync) -> [f64; 3] {
     };
     let blocks: Vec<[f64; 3]> = values.par_chunks(BLOCK).map(of_block).collect();
     blocks.into_iter().fold([0.0; 3], added)
+}
+
+/// Mean of the points that are there; NaN without any.
+pub(super) fn mean(heights: &[f64]) -> f64 {
+    let valid = || heights.iter().filter(|height| !height.is_nan());
+    let count = valid().count() as f64;
+    let first = valid().sum::<f64>() / count;
+    // Rounding of a large offset is taken out by the mean of what is left.
+    first + valid().map(|height| height - first).sum::<f64>() / count
+}
+
+/// Root-mean-square deviation from the mean of the points that are there; NaN without any.
+pub(super) fn rms(heights: &[f64]) -> f64 {
+    let mean = mean(heights);
+    let valid = || heights.iter().filter(|height| !height.is_nan()).map(|height| height - mean);
+    (valid().map(|height| height * height).sum::<f64>() / valid().count() as f64).sqrt()
+}
+
+/// What a step made of the rms height.
+pub(super) fn change(before: f64, heights: &[f64]) -> String {
+    format!("rms {} -> {}", Length(before), Length(rms(heights)))
 }

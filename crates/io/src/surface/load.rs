@@ -11,9 +11,9 @@ use plateau_core::surface::{
 };
 
 use super::error::{FileError, SurfaceError};
+use super::files::{detect, read};
 use super::format::Format;
-use super::options::{Lay, ProfileError, ReadOptions};
-use super::read::{detect, read};
+use super::measured::{Lay, ProfileError, ReadOptions};
 use super::{hdf5, image};
 use crate::input::{self, digested};
 use crate::limits;

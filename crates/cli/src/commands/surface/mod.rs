@@ -179,7 +179,14 @@ fn tell(arguments: &SurfaceArguments, read: &[PathBuf], data: &Data) -> Result<(
         refuse_many(data.count())?;
     }
     let folder = data.finish()?;
-    let described = hand_over::described(folder, arguments.json)?;
+    // Who only writes a file needs no package.
+    let only_writes = arguments.to.is_some() && !arguments.json;
+    let described = if only_writes && hand_over::answering("surface").is_none() {
+        message::warning("the Python package tells the parameters, and is not here: pip install 'plateau-brake[all]'");
+        String::new()
+    } else {
+        hand_over::described(folder, arguments.json)?
+    };
     let mut drawings: Vec<(PathBuf, Vec<u8>)> = Vec::new();
     for (kind, place) in [("surfaces", &arguments.plot), ("fibre-map", &arguments.preview)] {
         let Some(place) = place else { continue };
@@ -205,7 +212,7 @@ fn tell(arguments: &SurfaceArguments, read: &[PathBuf], data: &Data) -> Result<(
         return print(&described);
     }
     let written: String = taken.iter().map(|path| format!("\nwrote {}\n", path.display())).collect();
-    print(&(described + &written))
+    print((described + &written).trim_start_matches('\n'))
 }
 
 /// Where a page of a figure of this kind goes: the first to the named file, further ones beside it with the end of their names.

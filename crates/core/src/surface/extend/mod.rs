@@ -6,19 +6,17 @@
 //! distribution, z = T(g) (Grigoriu 1984, see [`translation`](super::synthesis::translation)). From a profile they come as
 //! those of a surface without a direction ([`line`]).
 
-mod line;
 mod statistics;
 
-use line::Line;
 use rayon::prelude::*;
-use statistics::{Quantiles, Reach, Spectrum};
+use statistics::{Line, Quantiles, Reach, Spectrum};
 
-use super::level::{Level, level, mean, rms};
-use super::preparation_error::PreparationError;
+use super::error::PreparationError;
+use super::heights::{mean, rms};
+use super::level::{Level, level};
 use super::random::{Random, Stream};
 use super::resample::{cell_averages, whole_cells};
-use super::synthesis::planar::{self, Plane};
-use super::synthesis::spectrum::Grid;
+use super::synthesis::planar::{self, Grid, Plane};
 use super::synthesis::translation::Translation;
 use super::{Body, Length, Patch};
 use crate::model::mesh::Mesh;
