@@ -3,7 +3,6 @@
 mod build_up;
 mod closed_forms;
 mod condition;
-mod description;
 mod extension;
 mod extremes;
 mod fibres;
@@ -18,3 +17,4 @@ mod scenes;
 mod synthesis;
 mod synthesis_bits;
 mod synthesis_moments;
+mod texture_direction;
