@@ -150,7 +150,7 @@ fn a_lay_is_told_and_rotate_offered() {
     let (along, across) = ("along sliding, x of the file", "across sliding, along y of the file");
     directory.write("data/empty", "");
     for (degrees, rotate, runs, angle, then) in [
-        (90.0, "90 deg", across, "Std 90 deg", along),
+        (90.0, "90 deg", across, "90 deg)", along),
         (30.0, "-30 deg", "oblique to sliding, x of the file", "Std 30", along),
         (-50.0, "50 deg", "oblique to sliding", "Std \u{2212}", along),
         (0.0, "90 deg", along, "Std 0 deg", across),

@@ -48,9 +48,9 @@ fn the_aspect_ratio_of_a_groove_is_a_bound() {
     // cos(k x) has the autocorrelation cos(k s), which is 0.2 at s = acos(0.2)/k, for ever the same along y: the longest line that
     // stays above 0.2 ends at the edge of the window, half of 64 rows away, beside that place, up to a lag less.
     let waves: Vec<f64> = (0..4000 * 64).map(|point| (TAU * (point / 64) as f64 / 40.0).cos()).collect();
-    let found = TextureDirection::of(&waves, 64, [2e-6, 5e-7]).expect("a lay");
-    let length = 0.2_f64.acos() / TAU * 40.0 * 2e-6;
-    let ratio = length / length.hypot(32.0 * 5e-7);
+    let found = TextureDirection::of(&waves, 64, [5e-7, 2e-6]).expect("a lay");
+    let length = 0.2_f64.acos() / TAU * 40.0 * 5e-7;
+    let ratio = length / length.hypot(32.0 * 2e-6);
     assert!(found.is_bound && (found.aspect_ratio / ratio - 1.0).abs() < 0.06, "{found:?}");
 }
 
