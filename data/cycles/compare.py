@@ -16,9 +16,11 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 import plateau
+from plateau.style import LINES
 
+plt.style.use("plateau.plateau")
 SPANS = 40
-COLOURS = {"drive": "#0072b2", "constant": "#d55e00"}
+COLOURS = {"drive": LINES[0], "constant": LINES[6]}
 
 
 def read(path):
@@ -38,7 +40,7 @@ def main():
     drive, constant, picture = sys.argv[1:]
     runs = {"drive": read(drive), "constant": read(constant)}
     edges = np.linspace(0.0, min(run[0][-1] for run in runs.values()), SPANS + 1)
-    figure, (upper, lower) = plt.subplots(2, 1, figsize=(6.4, 5.2), sharex=True)
+    figure, (upper, lower) = plt.subplots(2, 1, figsize=(5.6, 4.6), sharex=True, layout="constrained")
     found = {}
     for name, (worn, area, filled) in runs.items():
         found[name] = means(worn, area, edges)
@@ -48,9 +50,8 @@ def main():
     upper.set_ylabel("contact area, mm²")
     lower.set_ylabel("disc filled, %")
     lower.set_xlabel("volume worn, mm³")
-    upper.legend(frameon=False)
-    figure.tight_layout()
-    figure.savefig(picture, dpi=150)
+    upper.legend()
+    figure.savefig(picture)
     for name, (worn, _, filled) in runs.items():
         half = [found[name][part].mean() * 1e6 for part in (slice(SPANS // 2), slice(SPANS // 2, None))]
         print(

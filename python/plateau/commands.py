@@ -49,8 +49,8 @@ def collect(study: Path) -> Study:
     Study
         Table and data; runs without result have the state ``missing`` or ``failed``.
     """
-    collected = call(["sweep", "collect", file_name(study, "a study")])
-    return open_study(os.path.dirname(collected["files"][0]))
+    call(["sweep", "collect", file_name(study, "a study")])
+    return open_study(study)
 
 
 def command(*arguments: Any, json: bool = False, **options: Any) -> Any:

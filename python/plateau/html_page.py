@@ -6,10 +6,7 @@ from collections.abc import Mapping, Sequence
 from html import escape
 from pathlib import Path
 from string import Template
-from typing import TYPE_CHECKING, Any
-
-if TYPE_CHECKING:
-    import pandas
+from typing import Any
 
 # Characters that hide, or turn the direction of, what follows them.
 HIDING = re.compile("[\x00-\x08\x0b-\x1f\x7f-\x9f\u061c\u200e\u200f\u2028-\u202e\u2066-\u2069]")
@@ -38,11 +35,6 @@ def table(heads: Sequence[str], rows: Sequence[Sequence[str]], kind: str = "numb
         for of, row in [("th", heads), *(("td", row) for row in rows)]
     ]
     return f'<div class="wide"><table class="{kind}"><thead>{cells[0]}</thead><tbody>{"".join(cells[1:])}</tbody></table></div>'
-
-
-def table_of(frame: "pandas.DataFrame") -> str:
-    """A table of the cells of a DataFrame."""
-    return table(list(frame.columns), frame.to_numpy().tolist())
 
 
 def pictures(figures: Mapping[str, Any], files: Mapping[str, bytes], first: int = 1) -> str:

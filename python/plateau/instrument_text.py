@@ -40,7 +40,7 @@ def read_text(path: Path, content: bytes) -> Read | None:
         reader = _zygo_points
     elif head.startswith("Zygo ASCII Data File"):
         reader = _zygo_phases
-    elif any(re.search(rf'^"?{name}"?[,;\t]', head, re.M) for name in PITCH):
+    elif any(re.search(rf'^"?{name}"?[,;\t]', head, re.MULTILINE) for name in PITCH):
         reader = _keyence
     else:
         return None
@@ -119,7 +119,7 @@ def _zygo_points(lines: list[str]) -> Read:
     facts, blocks = _zygo(lines)
     points = [line.split(maxsplit=2) for line in blocks[0] if line.strip()]
     places = np.array([[int(x), int(y)] for x, y, _ in points])
-    heights = np.array([np.nan if re.match("no data", z, re.I) else float(z) for *_, z in points])
+    heights = np.array([np.nan if re.match("no data", z, re.IGNORECASE) else float(z) for *_, z in points])
     size = np.array(facts["size"])
     for origin in (np.array(facts["origin"]), np.zeros(2, int)):
         # Pixels are counted from the origin, or from that of the camera.

@@ -14,13 +14,13 @@ from plateau.run_file import array, open_run, source
 
 # A path, or an opened run.
 Run = str | os.PathLike[str] | xarray.DataTree
-MOST_RUNS = 8
+MOST_RUNS = 10
 # Part of the last time that a time may be beyond the maps without a word.
 BEYOND = 1e-3
 
 
 def opened(runs: Run | Sequence[Run]) -> list[xarray.DataTree]:
-    """Runs that are shown together, at most eight; warns of those that are not finished, or named twice.
+    """Runs that are shown together, at most ten; warns of those that are not finished, or named twice.
 
     Parameters
     ----------

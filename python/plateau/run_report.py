@@ -4,7 +4,6 @@ import functools
 import math
 import os
 import re
-import tomllib
 import warnings
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
@@ -93,11 +92,9 @@ class Told:
 
     def __init__(self, run: xarray.DataTree, label: str) -> None:
         self.run, self.label, self.series = run, label, run.plateau.series
-        self.state = str(run.attrs.get("state", UNKNOWN))
-        try:
-            self.scene: dict[str, Any] = tomllib.loads(str(run.attrs.get("scene", "")))
-        except ValueError:
-            self.scene = {}
+        # The time of the last sample, s.
+        self.time, self.state = float(array(run, "time")[-1:].sum()), str(run.attrs.get("state", UNKNOWN))
+        self.scene: dict[str, Any] = run.plateau.scene
         self.dissipates = any(name in self.series for name in ("friction_work", "disc_temperature", "pm10_mass"))
         self.has_cycle = "normal_force" in self.series
         # What only the program computes.
@@ -122,13 +119,7 @@ class Told:
         return float(self.of(name).abs().max())
 
     def setting(self, table: str, key: str) -> str:
-        found = self.scene.get(table, {})
-        return str(found.get(key, UNKNOWN)) if isinstance(found, dict) else UNKNOWN
-
-    @property
-    def time(self) -> float:
-        """The time of the last sample, s."""
-        return float(array(self.run, "time")[-1:].sum())
+        return str(self.scene.get(table, {}).get(key, UNKNOWN))
 
     @property
     def pin_area(self) -> float:
@@ -183,7 +174,7 @@ class Told:
         if not self.time:
             yield "There are no samples yet"
         if self.summary.get("running_in"):
-            yield f"Running in: {self.summary['running_in']}"
+            yield f"Running in: {with_minus(self.summary['running_in'])}"
 
     @property
     def over(self) -> str:
@@ -208,8 +199,7 @@ class Told:
                 "Temperatures of cells count pressures as frozen during a pass and have no conduction along the surface: "
                 "on rough discs the hottest may be half of their rise too low."
             )
-        if self.without:
-            yield self.without
+        yield from filter(None, [self.without])
 
     @property
     def told_state(self) -> str:
@@ -264,10 +254,8 @@ class Told:
             "Mesh": f"{sizes['radius']} rows, {sizes['disc_angle']} columns of the disc, {sizes['pin_angle']} of the pin",
             "Wall time": unit_for("s", wall).text(wall),
             "Workers": f"{self.run.attrs.get('workers', UNKNOWN)}, {self.run.attrs.get('instruction_set', UNKNOWN)}",
-            "Program": str(self.run.attrs.get("program", UNKNOWN)),
-            "Tolerance of the load balance": self.setting("contact", "load_tolerance"),
             "Mean contact area is taken over": self.over,
-            **{key.capitalize().replace("_", " "): str(self.summary[key]) for key in keys},
+            **{key.capitalize().replace("_", " "): with_minus(str(self.summary[key])) for key in keys},
         }
 
 
@@ -285,7 +273,7 @@ def report(runs: Run | Sequence[Run], output: str | os.PathLike[str] | None = No
     Parameters
     ----------
     runs : path, xarray.DataTree, or a sequence of them
-        At most eight.
+        At most ten.
     output : path, optional
         The page; by default in the working directory, named like the run file, or ``report.html`` for several.
     force : bool
@@ -319,13 +307,15 @@ def report_page(runs: Sequence[xarray.DataTree]) -> str:
     kind = "pair" if all(drawn[name].get_figwidth() * 25.4 < 1.2 * NARROW for name in first) else "stack"
     of: dict[str, list[str]] = {}
     for one in told:
-        for said in one.notices():
-            of.setdefault(said, []).append(one.label)
-    notices = [said if len(labels) == len(told) else f"{', '.join(labels)}: {said}" for said, labels in of.items()]
-    several = len(told) > 1
+        for notice in one.notices():
+            of.setdefault(notice, []).append(one.label)
+    notices = [notice if len(labels) == len(told) else f"{', '.join(labels)}: {notice}" for notice, labels in of.items()]
+    several, five = len(told) > 1, told[0].five
+    tables, said = _compared(told) if several else ([table([*five], [[*five.values()]])], ". ".join(told[0].answer()))
     parts = [
         '<section class="first">',
-        *(_compared(told) if several else _single(told[0])),
+        *tables,
+        f'<p class="answer">{escape(said)}.</p>',
         f'<div class="{kind}">{pictures({name: drawn[name] for name in first}, files)}</div>',
         f'<div class="notice">{listed(notices)}</div>' if notices else "",
         "</section>",
@@ -340,24 +330,14 @@ def report_page(runs: Sequence[xarray.DataTree]) -> str:
     return page(f"{len(told)} runs, compared with {told[0].label}" if several else told[0].label, *parts)
 
 
-def _single(told: Told) -> list[str]:
-    """The begin of the page about one run."""
-    return [table(list(told.five), [list(told.five.values())]), f'<p class="answer">{escape(". ".join(told.answer()))}.</p>']
-
-
-def _compared(told: Sequence[Told]) -> list[str]:
-    """The begin of the page about several runs."""
+def _compared(told: Sequence[Told]) -> tuple[list[str], str]:
+    """The tables that begin the page about several runs, and the answer."""
     texts = {name: [one.measures[name].text if name in one.measures else UNKNOWN for one in told] for name in ANSWERS}
     texts = {ANSWERS[name]: own for name, own in texts.items() if {*own} != {UNKNOWN}}
-    answers = []
-    for one in told:
-        running = f" Running in: {one.summary['running_in']}." if one.summary.get("running_in") else ""
-        answers.append(f'<p class="answer">{escape(f"{one.label}: contact area {one.area.compared(told[0].area)}.{running}")}</p>')
-    return [
-        table(["run", *told[0].five], [[one.label, *one.five.values()] for one in told]),
-        table(["run", *texts], [[one.label, *row] for one, row in zip(told, zip(*texts.values()), strict=True)]),
-        *answers,
-    ]
+    of_scenes = table(["run", *told[0].five], [[one.label, *one.five.values()] for one in told])
+    of_runs = table(["run", *texts], [[one.label, *row] for one, row in zip(told, zip(*texts.values()), strict=True)])
+    areas = [told[0].area.text, *(one.area.compared(told[0].area) for one in told[1:])]
+    return [of_scenes, of_runs], "The contact area is: " + "; ".join(f"{one.label} {area}" for one, area in zip(told, areas, strict=True))
 
 
 def _by_run(told: Sequence[Told], rows: dict[str, list[str]], head: str, kind: str = "words") -> str:
@@ -411,8 +391,8 @@ def _provenance(told: Told) -> str:
     """The origin of a run."""
     terms = [(name.replace("_", " "), str(told.run.attrs[name])) for name in ORIGIN if name in told.run.attrs]
     files = [[one["path"], one["sha256"]] for one in read_files(told.run)]
-    scene = escape(str(told.run.attrs.get("scene", "")))
     return (
         f"<h3>{escape(told.label)}</h3>{table(['run file', source(told.run)], terms, 'words')}"
-        f"{table(['file that was read', 'SHA-256'], files, 'words') if files else ''}<h4>Resolved scene</h4><pre>{scene}</pre>"
+        f"{table(['file that was read', 'SHA-256'], files, 'words') if files else ''}"
+        f"<h4>Resolved scene</h4><pre>{escape(str(told.run.attrs.get('scene', '')))}</pre>"
     )

@@ -18,7 +18,7 @@ from plateau.units import quantity
 COLOURS = "viridis cividis inferno magma plasma greys".split()
 # Widths that figures can have, m: less has no room for a map and its colour bar.
 LEAST_WIDTH, MOST_WIDTH = 0.06, 1.0
-RUNS = "Run files, also of runs that go on or were stopped; at most 8"
+RUNS = "Run files, also of runs that go on or were stopped; at most 10"
 
 
 def add(words: Words) -> None:

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any, ParamSpec, TypeVar
 
 from plateau.errors import MissingPackageError
+from plateau.units import with_minus
 
 P = ParamSpec("P")
 R = TypeVar("R")
@@ -27,8 +28,14 @@ STATUS_COLOURS = [APART, "#005a9c", "#e69f00", GROUND]
 LINES = [STATUS_COLOURS[1], "#e69f00", "#009e73", "#cc79a7", "#56b4e9", "#000000", "#d55e00", "#8c6d1f"]
 QUIET, CHOSEN = "#6b6b6b", "#d55e00"
 DASHES: list[Any] = ["-", "--", "-.", ":", (0, (4, 1, 1, 1, 1, 1)), (0, (1, 1)), (0, (6, 2)), (0, (3, 1, 1, 1))]
+MARKERS = "osD^v<>P"
 # Letters of a label on one line.
 LETTERS = 24
+
+
+def look(number: int) -> dict[str, Any]:
+    """Options of a line among others: no two of 64 are alike."""
+    return {"color": LINES[number % len(LINES)], "linestyle": DASHES[(number + number // len(LINES)) % len(DASHES)]}
 
 
 def in_style(draws: Callable[P, R]) -> Callable[P, R]:
@@ -97,3 +104,25 @@ def plain(text: str) -> str:
 def labelled(name: str, unit: str) -> str:
     """The label of an axis: what it is, and the unit behind a comma if there is one."""
     return wrapped(", ".join(filter(None, [name, unit])), 36)
+
+
+def logarithmic(axis: Any, way: str) -> None:
+    """A logarithmic scale with few numbers, which do not touch."""
+    from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullFormatter
+
+    own = getattr(axis, f"{way}axis")
+    getattr(axis, f"set_{way}scale")("log")
+    low, high = sorted(own.get_view_interval())
+    steps = LogLocator(subs=(1.0, 2.0, 5.0) if high < 100.0 * low else (1.0,))
+    own.set_major_locator(MaxNLocator(4, steps=[1, 2, 2.5, 5, 10]) if high < 5.0 * low else steps)
+    own.set_major_formatter(FuncFormatter(lambda value, _: number(value)))
+    own.set_minor_formatter(NullFormatter())
+
+
+def number(value: float) -> str:
+    """A number as axes have it, with a power of ten if it is far from 1."""
+    if value == 0.0 or 1e-3 <= abs(value) < 1e5:
+        return with_minus(f"{value:.6g}")
+    digits, power = f"{value:.3e}".split("e")
+    times = "" if float(digits) == 1.0 else rf"{float(digits):g}\times"
+    return rf"${times}10^{{{int(power)}}}$"

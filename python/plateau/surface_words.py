@@ -1,4 +1,4 @@
-"""The word of surfaces that the package answers: ``plateau surface convert``."""
+"""The words of surfaces that the package answers: ``plateau surface convert``, and one by which ``plateau surface`` describes."""
 
 import argparse
 from pathlib import Path
@@ -6,15 +6,25 @@ from pathlib import Path
 from plateau.command_line import Words, of_all
 from plateau.errors import InputError
 from plateau.surface_conversion import convert
+from plateau.surface_description import describe
 
 
 def add(words: Words) -> None:
     """Adds the word to a parser."""
+    surface = words.within("surface")
     about = "Convert files of instruments to HDF5, which scenes and plateau surface read"
-    made = words.within("surface").word("convert", about, _convert, "  plateau surface convert scan.al3d\n  plateau surface scan.h5")
+    made = surface.word("convert", about, _convert, "  plateau surface convert scan.al3d\n  plateau surface scan.h5")
     made.add_argument("files", nargs="+", metavar="FILE", help="Files in any format that SurfaceTopography or surfalize reads")
     made.add_argument("-o", "--output", type=Path, metavar="OUT", help="File to write; unless given, beside the FILE, with the ending .h5")
     of_all(made, "Replace files that exist")
+    made = surface.word("describe", "Describe data of the program: for the program itself; users call plateau surface", _describe)
+    made.add_argument("data", type=Path, metavar="DATA", help="Folder of data")
+    made.add_argument("--json", action="store_true", help="Print JSON")
+    made.set_defaults(quiet=True)
+
+
+def _describe(given: argparse.Namespace) -> str:
+    return describe(given.data, given.json)
 
 
 def _convert(given: argparse.Namespace) -> str:

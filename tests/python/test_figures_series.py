@@ -151,8 +151,19 @@ class Curves(InFolder):
         run.attrs["state"] = "interrupted"
         with self.assertWarnsRegex(plateau.PlateauWarning, "seed-1.h5 is not finished: its state is interrupted, with 200 samples"):
             plateau.plot(run, "filled")
-        with self.assertRaisesRegex(plateau.InputError, "9 runs: expected 1 to 8"):
-            plateau.plot(["seed-1.h5"] * 9)
+        with self.assertRaisesRegex(plateau.InputError, "11 runs: expected 1 to 10"):
+            plateau.plot(["seed-1.h5"] * 11)
+
+    def test_ten_runs_have_lines_and_axes_of_their_own(self):
+        with self.assertWarnsRegex(plateau.PlateauWarning, "named more than once"):
+            ten, one = plateau.plot(["seed-1.h5"] * 10, "contact-area"), plateau.plot("seed-1.h5", "contact-area")
+        looks = {(line.get_color(), str(line.get_linestyle())) for line in ten.axes[0].lines if line.get_label().startswith("Quick")}
+        self.assertEqual(len(looks), 10)
+        high = []
+        for figure in (ten, one):
+            figure.draw_without_rendering()
+            high.append(figure.axes[0].bbox.height / figure.dpi * 25.4)
+        self.assertGreater(high[0], 0.8 * high[1])
 
     def test_friction(self):
         left, right = plateau.plot("drive.h5", "friction").axes

@@ -298,6 +298,8 @@ class Studies(InFolder):
         for study in (made, plateau.open_study("study"), plateau.open_study("study.toml"), plateau.collect("study.toml")):
             self.assertEqual(study.data["contact_area"].dims, ("run", "time"))
             pandas.testing.assert_frame_equal(study.table, made.table)
+        # Answers can make runs of it.
+        self.assertEqual(made.path, pathlib.Path("study.toml"))
         with open("study/results.csv", newline="") as file:
             rows = list(csv.DictReader(file))
         self.assertEqual(list(made.table), list(rows[0]))

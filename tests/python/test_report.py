@@ -115,6 +115,9 @@ class Report(unittest.TestCase):
         self.assertAlmostEqual(float(found[1]), 1e6 * (second.value - first.value), 2)
         self.assertAlmostEqual(float(found[2]), 1e6 * np.hypot(first.error, second.error), 2)
         self.assertAlmostEqual(float(found[3]), 100 * (second.value / first.value - 1), 1)
+        answer = html.unescape(re.search('class="answer">(.*?)</p>', page)[1])
+        self.assertTrue(all(area in answer for area in told["Contact area, mean ± standard error"]))
+        self.assertNotIn("(same)", answer)
         keys = {row[0]: row[1:] for row in rows(page, "<h2>Keys of the scenes that differ")}
         self.assertEqual(keys["operation.normal_force"], ["5 N", "10 N", "5 N"])
         self.assertEqual(keys["numerics.time_acceleration"], ["20.0", "20.0", "2.0"])
@@ -141,8 +144,8 @@ class Report(unittest.TestCase):
             plateau.report("quick.h5", "a.pdf")
         with self.assertRaisesRegex(plateau.InputError, "is an input"):
             plateau.report("quick.h5", "quick.h5", force=True)
-        with self.assertRaisesRegex(plateau.InputError, "9 runs: expected 1 to 8"):
-            plateau.report(["quick.h5"] * 9)
+        with self.assertRaisesRegex(plateau.InputError, "11 runs: expected 1 to 10"):
+            plateau.report(["quick.h5"] * 11)
         self.assertEqual(os.listdir(), ["quick.h5"])
         pathlib.Path("page.html").write_text("before")
         pathlib.Path("page.html").chmod(0o640)

@@ -181,6 +181,9 @@ class Seeds(unittest.TestCase):
         with self.assertWarnsRegex(PlateauWarning, "y: half_width = 0.5 is taken in m2; give text with a unit"):
             bare = seeds_needed(study, 0.5).table
         self.assertEqual(bare["sets"].tolist(), seeds_needed(study, "500000 mm2").table["sets"].tolist())
+        with self.assertRaisesRegex(InputError, 'y: "0.5", expected a number in m2, or text with a unit'):
+            seeds_needed(study, "0.5")
+        self.assertRegex(seeds_needed(study, "5 mm2").text(), r"A +−?[\de+.]+ mm² +[\de+.]+ mm² +5 mm² ")
 
     def test_centre_points_of_an_equation_are_explained(self) -> None:
         runs = pandas.concat([cube(2), pandas.DataFrame({"A": 0.0, "B": 0.0, "C": 0.0, "replicate": [1, 2]})], ignore_index=True)

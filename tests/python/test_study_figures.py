@@ -9,7 +9,8 @@ import numpy as np
 import pandas
 from plateau.output_folder import plain
 from plateau.study.data import Factor
-from plateau.study.figure_axes import number, set_axis
+from plateau.study.figure_axes import set_axis
+from plateau.style import number
 from plateau.study.fit_answer import fit_figures
 from plateau.study.scene_comparison import comparison_figures
 from plateau.style import in_style, new

@@ -20,7 +20,7 @@ from plateau.study.improvement import expected_improvement, improved
 from plateau.study.optimum import canonical, optimize
 from plateau.study.prediction import predict
 from plateau.study.results import analysed
-from plateau.study.runs import make_runs, written
+from plateau.study.runs import made_study, written
 from plateau.units import quantity, unit_for
 from scipy import stats
 
@@ -261,9 +261,9 @@ imported = true
             warnings.simplefilter("ignore")
             given = analysed(self.path)
             points = pandas.DataFrame({"speed": [50.0, given.runs["speed"].iloc[0]], "debris": ["track", "contact"]})
-            made = make_runs(given, points, jobs=2)
+            made = made_study(given, points, jobs=2).runs
             times = {file: file.stat().st_mtime_ns for file in (self.path.parent / "study" / "journal").iterdir()}
-            again = make_runs(given, points)
+            again = made_study(given, points).runs
             self.assertEqual(times, {file: file.stat().st_mtime_ns for file in (self.path.parent / "study" / "journal").iterdir()})
             now = analysed(self.path)
         self.assertEqual(made.to_csv(), again.to_csv())
@@ -285,9 +285,9 @@ imported = true
             (pandas.DataFrame({"speed": [], "debris": []}), "points"),
         ]:
             with self.subTest(message), self.assertRaisesRegex((InputError, RunFailed), message):
-                make_runs(given, points)
+                made_study(given, points)
         with self.assertRaisesRegex(InputError, "without its study file"):
-            make_runs(study_of([span("A")], LIMITS_MEET, responses={}), pandas.DataFrame({"A": [0.0]}))
+            made_study(study_of([span("A")], LIMITS_MEET, responses={}), pandas.DataFrame({"A": [0.0]}))
 
     def test_values_are_written_with_the_digits_that_give_them(self):
         speed = span("speed", unit="rad/s", one=2 * math.pi / 60, study_unit="rpm")
@@ -299,7 +299,7 @@ imported = true
     def test_an_optimum_is_confirmed_by_its_runs(self):
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
-            make_runs(analysed(self.path), analysed(self.path).runs.drop_duplicates("point"))
+            made_study(analysed(self.path), analysed(self.path).runs.drop_duplicates("point"))
             found = optimize(self.path, maximize=["area"], hold=["speed=600 rpm"], confirm=True)
         row = found.table.set_index("response").loc["area"]
         self.assertEqual(row["confirmed_runs"], 2)

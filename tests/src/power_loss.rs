@@ -7,7 +7,7 @@
 //! | of a file: its length | any length that it has had since |
 //! | of a file: what was written | of every page any state that it has had since, or one up to some sector and another behind it |
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::os::unix::fs::MetadataExt;
 use std::path::{Path, PathBuf};
@@ -307,6 +307,8 @@ fn in_directory(directory: &WorkingDirectory, path: &Path) -> Option<String> {
 /// The calls of a journal (`journal.c` says how they are written) that concern the working directory.
 fn calls(directory: &WorkingDirectory, mut journal: &[u8]) -> Vec<Call> {
     let mut calls = Vec::new();
+    // A file elsewhere may have the number of one here that is gone.
+    let mut elsewhere = BTreeSet::new();
     while !journal.is_empty() {
         let end = journal.iter().position(|byte| *byte == b'\n').expect("a whole record");
         let line = std::str::from_utf8(&journal[..end]).expect("a line of words");
@@ -321,7 +323,11 @@ fn calls(directory: &WorkingDirectory, mut journal: &[u8]) -> Vec<Call> {
         };
         let mut name = |length| in_directory(directory, Path::new(std::str::from_utf8(rest(length)).expect("a name")));
         let call = match (what, &numbers[..]) {
-            ("create", [inode, length]) => name(*length).map(|name| Call::Create { inode: *inode as u64, name }),
+            ("create", [inode, length]) => {
+                let name = name(*length);
+                let _ = if name.is_some() { elsewhere.remove(inode) } else { elsewhere.insert(*inode) };
+                name.map(|name| Call::Create { inode: *inode as u64, name })
+            }
             ("sync", [inode, length]) => name(*length).map(|name| Call::Sync { inode: *inode as u64, name }),
             ("unlink", [length]) => name(*length).map(|name| Call::Unlink { name }),
             ("folder", [length]) => name(*length).map(|name| Call::Folder { name }),
@@ -333,9 +339,12 @@ fn calls(directory: &WorkingDirectory, mut journal: &[u8]) -> Vec<Call> {
                 let (old, new) = (name(*one), name(*other));
                 old.zip(new).map(|(old, new)| Call::Link { old, new })
             }
-            ("truncate", [inode, size]) => Some(Call::Truncate { inode: *inode as u64, size: *size }),
+            ("truncate", [inode, size]) => {
+                (!elsewhere.contains(inode)).then_some(Call::Truncate { inode: *inode as u64, size: *size })
+            }
             ("write", [inode, at, length]) => {
-                Some(Call::Write { inode: *inode as u64, at: *at, bytes: rest(*length).to_vec() })
+                let bytes = rest(*length).to_vec();
+                (!elsewhere.contains(inode)).then_some(Call::Write { inode: *inode as u64, at: *at, bytes })
             }
             _ => panic!("no call: {line:?}"),
         };

@@ -8,7 +8,6 @@ use std::path::{Path, PathBuf};
 
 use plateau_core::model::mesh::Mesh;
 use plateau_core::model::parameters::Parameters;
-use plateau_core::surface::describe::MaterialCurve;
 use plateau_core::surface::{Level, level};
 use plateau_io::surface::{ReadOptions, read};
 use plateau_tests::program::repository;
@@ -41,20 +40,36 @@ fn wide_ring(columns: usize) -> Parameters {
 /// By how much areas of cells of the wide ring differ.
 const AREA_SPREAD: f64 = ROWS as f64 * 50e-6 / 1e4;
 
-/// A height between two neighbouring heights of the curve, near the material ratio `ratio`: no point lies on it.
-fn height_between_points(curve: &MaterialCurve, ratio: f64) -> f64 {
-    let upper = curve.height(ratio);
-    let below = curve.descending().partition_point(|height| *height >= upper);
-    0.5 * (upper + curve.descending()[below])
+/// The Abbott-Firestone curve by its definition: heights, m, the highest first.
+struct MaterialCurve(Vec<f64>);
+
+impl MaterialCurve {
+    /// Smr(c): fraction of the points that reach the height `c` or stand above it.
+    fn ratio(&self, c: f64) -> f64 {
+        self.0.iter().filter(|height| **height >= c).count() as f64 / self.0.len() as f64
+    }
+
+    /// Vm(c): volume of material above the height `c` per area, m.
+    fn volume(&self, c: f64) -> f64 {
+        self.0.iter().map(|height| (height - c).max(0.0)).sum::<f64>() / self.0.len() as f64
+    }
+
+    /// A height between two neighbouring heights, near the material ratio `ratio`: no point lies on it.
+    fn height_between_points(&self, ratio: f64) -> f64 {
+        let upper = self.0[(ratio * self.0.len() as f64) as usize];
+        0.5 * (upper + self.0[self.0.partition_point(|height| *height >= upper)])
+    }
 }
 
 fn assert_agrees(path: &Path) {
     let heights = levelled(path);
     let points = heights.len();
-    let curve = MaterialCurve::of(&heights, 0.0);
+    let mut descending = heights.clone();
+    descending.sort_unstable_by(|one, other| other.total_cmp(one));
+    let curve = MaterialCurve(descending);
     for ratio in RATIOS {
-        let c = height_between_points(&curve, ratio);
-        let volume = curve.material_volume(c);
+        let c = curve.height_between_points(ratio);
+        let volume = curve.volume(c);
         let mut parameters = wide_ring(points / ROWS);
         let stiffness = primary_stiffness(&parameters);
         parameters.normal_force = stiffness * volume * parameters.mesh.pin_area();

@@ -9,9 +9,7 @@
 //! ```
 
 mod case;
-mod machine;
 mod peers;
-mod python;
 mod race;
 mod steps;
 mod table;
@@ -119,7 +117,7 @@ impl Options {
 
 /// The numbers asked for, or 1, 2, 4 .. and all cores.
 fn workers(asked: &[u16]) -> Vec<usize> {
-    let cores = machine::cores();
+    let cores = table::cores();
     let powers = std::iter::successors(Some(1), |workers| Some(2 * workers)).take_while(|workers| *workers < cores);
     let mut workers: Vec<usize> = asked.iter().map(|workers| usize::from(*workers)).collect();
     if workers.is_empty() {

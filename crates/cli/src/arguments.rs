@@ -1,36 +1,32 @@
-//! The command line.
+//! The command line; that of studies and of surfaces in files of their own.
 
-mod accuracy;
-mod new;
-mod reading;
-mod run;
 mod surface;
 mod sweep;
 
 use std::ffi::OsString;
+use std::num::NonZeroU64;
 use std::path::PathBuf;
 
-use clap::{Args, Parser, Subcommand};
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
+use plateau_core::engine::kernel::InstructionSet;
+use plateau_core::simulation::Engine;
 use plateau_io::text::{odd_character, shown_on_one_line};
 use plateau_io::units::{self, Dimension};
+use plateau_run::ExecutionOptions;
+use plateau_run::accuracy::{COMPARED, Ladder};
+use plateau_run::execution::cores;
 
 use crate::failure::Failure;
-use crate::version;
+use crate::program;
 
-pub use accuracy::AccuracyArguments;
-pub use new::NewArguments;
-pub use reading::{ReadArguments, as_options};
-pub use run::{
-    CheckArguments, HandedArguments, RepairArguments, RunArguments, SceneArguments, SummaryArguments, VerifyArguments,
-    WatchArguments,
-};
-pub use surface::{SurfaceArguments, SurfaceWord};
+pub use surface::{ReadArguments, SurfaceArguments, SurfaceWord, as_options};
 pub use sweep::{CollectArguments, PlanArguments, SlurmArguments, SweepCommand, SweepRunArguments};
 
 /// How a pin of friction material and a rough, coated brake disc wear into each other.
 #[derive(Debug, Parser)]
-#[command(name = "plateau", version = version::WITH_REVISION, max_term_width = 100, arg_required_else_help = true)]
+#[command(name = "plateau", version = program::WITH_REVISION, max_term_width = 100, arg_required_else_help = true)]
 pub struct Arguments {
     /// What to do.
     #[command(subcommand)]
@@ -182,10 +178,325 @@ fn positive(text: &str, dimension: Dimension) -> Result<String, String> {
     if value > 0.0 && value.is_finite() { Ok(text.to_owned()) } else { Err("expected more than 0".to_owned()) }
 }
 
+/// Arguments of `plateau run`.
+#[derive(Debug, Args)]
+pub struct RunArguments {
+    #[command(flatten)]
+    pub scene: SceneArguments,
+    /// Run file to write, relative to the working directory; overrides the scene
+    #[arg(short, long, value_name = "FILE")]
+    pub output: Option<PathBuf>,
+    /// Replace the run file if it exists
+    #[arg(long)]
+    pub force: bool,
+    /// Go on with a run that was stopped or killed, from its last checkpoint
+    #[arg(long)]
+    pub resume: bool,
+    /// Go on with a run beyond its end, to this time, such as "7200 s"
+    #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
+    pub extend_to: Option<String>,
+    #[command(flatten)]
+    pub execution: ExecutionArguments,
+}
+
+/// Arguments of `plateau check`.
+#[derive(Debug, Args)]
+pub struct CheckArguments {
+    #[command(flatten)]
+    pub scene: SceneArguments,
+    /// Print also the resolved scene, what is done to surfaces, and what of the model is needed and left out
+    #[arg(long)]
+    pub all: bool,
+    #[command(flatten)]
+    pub execution: ExecutionArguments,
+}
+
+/// A scene, with changes.
+#[derive(Debug, Clone, Args)]
+pub struct SceneArguments {
+    /// Scene file (TOML)
+    pub scene: PathBuf,
+    /// Set a key of the scene, such as operation.normal_force="20 N"; may be repeated
+    #[arg(long = "set", value_name = "KEY.PATH=VALUE")]
+    pub sets: Vec<String>,
+    /// Threads that share the ring: a number or "auto"; overrides the scene
+    #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = workers)]
+    pub workers: Option<String>,
+    /// Print one JSON document instead of text
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// A value of `--workers`, which is checked here so that the message names what was typed.
+fn workers(text: &str) -> Result<String, &'static str> {
+    match text.parse::<NonZeroU64>() {
+        Err(_) if text != "auto" => Err("expected an integer, at least 1, or \"auto\""),
+        _ => Ok(text.to_owned()),
+    }
+}
+
+/// How a run is carried out, which does not show in its results, but that the two engines round differently.
+#[derive(Debug, Args)]
+pub struct ExecutionArguments {
+    /// What takes the steps: the fast engine, or the plain model, cell by cell, which is slow and rounds otherwise
+    #[arg(long, value_name = "NAME", value_enum, default_value_t = EngineArgument::Fast)]
+    pub engine: EngineArgument,
+    /// Instruction set of the kernels, for tests; the widest that the processor has unless given
+    #[arg(long, value_name = "NAME", value_parser = instruction_set)]
+    pub isa: Option<InstructionSet>,
+    /// Keep each worker on a core of its own, as far as there are enough; a single worker is left free
+    #[arg(long)]
+    pub pin: bool,
+}
+
+impl ExecutionArguments {
+    /// As the library takes them.
+    pub fn options(&self) -> ExecutionOptions {
+        let engine = match self.engine {
+            EngineArgument::Fast => Engine::Fast,
+            EngineArgument::Plain => Engine::Plain,
+        };
+        ExecutionOptions { engine, instructions: self.isa, pin: self.pin }
+    }
+}
+
+/// A value of `--engine`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum EngineArgument {
+    /// On any number of workers.
+    Fast,
+    /// On one worker.
+    Plain,
+}
+
+/// A value of `--isa`.
+fn instruction_set(text: &str) -> Result<InstructionSet, String> {
+    let available = || InstructionSet::available().map(InstructionSet::name);
+    let found = InstructionSet::available().find(|instructions| instructions.name() == text);
+    found.ok_or_else(|| format!("this processor has {}", available().collect::<Vec<_>>().join(", ")))
+}
+
+/// Arguments of `plateau watch`.
+#[derive(Debug, Args)]
+pub struct WatchArguments {
+    /// Run file, which need not be there yet
+    pub run: PathBuf,
+    /// Print the state once and end
+    #[arg(long)]
+    pub once: bool,
+    /// Give up after so many seconds without a new sample; unless given, after 10 s without a file, else never
+    #[arg(long, value_name = "SECONDS", allow_hyphen_values = true, value_parser = seconds)]
+    pub timeout: Option<u64>,
+}
+
+/// A value of `--timeout`.
+fn seconds(text: &str) -> Result<u64, &'static str> {
+    text.parse::<NonZeroU64>().map(NonZeroU64::get).map_err(|_| "expected whole seconds, at least 1")
+}
+
+/// Arguments of `plateau verify`.
+#[derive(Debug, Args)]
+pub struct VerifyArguments {
+    /// Run files
+    #[arg(value_name = "RUN", required = true)]
+    pub runs: Vec<PathBuf>,
+    /// Print one JSON document instead of text: an array with an object for each file
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// Arguments of `plateau repair`.
+#[derive(Debug, Args)]
+pub struct RepairArguments {
+    /// Run files
+    #[arg(value_name = "RUN", required = true)]
+    pub runs: Vec<PathBuf>,
+    /// Repair also what another machine has written a moment ago, or what another user may still be writing
+    #[arg(long)]
+    pub force: bool,
+}
+
+/// Arguments of `plateau summary`.
+#[derive(Debug, Args)]
+pub struct SummaryArguments {
+    /// Run file, also of a run that goes on or was stopped
+    pub run: PathBuf,
+    /// Print JSON, as it does anyway
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// Runs at a time and threads of each.
+#[derive(Debug, Args)]
+pub struct CoresArguments {
+    /// Runs at a time; as many as there are cores for their workers unless given
+    #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = clap::value_parser!(u32).range(1..))]
+    pub jobs: Option<u32>,
+    /// Threads of each run
+    #[arg(long, value_name = "N", allow_hyphen_values = true, default_value = "1", value_parser = clap::value_parser!(u32).range(1..))]
+    pub workers: u32,
+}
+
+impl CoresArguments {
+    /// Runs at a time: as many as are asked for, else as there are cores for their workers.
+    pub fn runs_at_a_time(&self) -> usize {
+        self.jobs.map_or_else(|| (cores() / self.workers()).max(1), |jobs| jobs as usize)
+    }
+
+    /// Threads of each run.
+    pub fn workers(&self) -> usize {
+        self.workers as usize
+    }
+}
+
+/// Arguments that are handed over as they are; `--help` among them tells what they may be.
+#[derive(Debug, Args)]
+pub struct HandedArguments {
+    /// What the answering program takes; --help tells
+    #[arg(value_name = "ARGUMENTS", trailing_var_arg = true, allow_hyphen_values = true)]
+    pub arguments: Vec<OsString>,
+}
+
+/// Arguments of `plateau new`. Values have a unit, as in a scene.
+#[derive(Debug, Args)]
+pub struct NewArguments {
+    /// Scene file to write
+    pub scene: PathBuf,
+    /// Measured surface of the disc, told by its content; of a profile say --profile-lay
+    #[arg(long, value_name = "FILE")]
+    pub disc: Option<PathBuf>,
+    #[command(flatten)]
+    pub reading: ReadArguments,
+    /// Width of the pin, along the radius
+    #[arg(long, value_name = "LENGTH", allow_hyphen_values = true, default_value = "4 mm", value_parser = positive_length)]
+    pub pin_width: String,
+    /// Length of the pin, along sliding
+    #[arg(long, value_name = "LENGTH", allow_hyphen_values = true, default_value = "8 mm", value_parser = positive_length)]
+    pub pin_length: String,
+    /// A round pin of this diameter
+    #[arg(long, value_name = "LENGTH", allow_hyphen_values = true, conflicts_with_all = ["pin_width", "pin_length"],
+          value_parser = positive_length)]
+    pub diameter: Option<String>,
+    /// Radius at which the middle of the pin slides
+    #[arg(long, value_name = "LENGTH", allow_hyphen_values = true, default_value = "22 mm", value_parser = positive_length)]
+    pub radius: String,
+    /// Force on the pin
+    #[arg(long, value_name = "FORCE", allow_hyphen_values = true, default_value = "47 N", value_parser = force)]
+    pub load: String,
+    /// Rotational speed of the disc, or the sliding speed ("3 m/s") at --radius
+    #[arg(long, value_name = "SPEED", allow_hyphen_values = true, default_value = "850 rpm", value_parser = speed)]
+    pub speed: String,
+    /// Time to simulate
+    #[arg(long, value_name = "TIME", allow_hyphen_values = true, default_value = "3000 s", value_parser = time)]
+    pub duration: String,
+    /// Replace the scene file if it exists
+    #[arg(long)]
+    pub force: bool,
+}
+
+impl NewArguments {
+    /// The key of the scene that the speed is given by.
+    pub fn speed_key(&self) -> &'static str {
+        if is_sliding_speed(&self.speed) { "sliding_speed" } else { "rotational_speed" }
+    }
+}
+
+fn positive_length(text: &str) -> Result<String, String> {
+    positive(text, Dimension::Length)
+}
+
+fn force(text: &str) -> Result<String, String> {
+    positive(text, Dimension::Force)
+}
+
+fn speed(text: &str) -> Result<String, String> {
+    let dimension = if is_sliding_speed(text) { Dimension::Speed } else { Dimension::RotationalSpeed };
+    positive(text, dimension).map_err(|error| match dimension {
+        Dimension::Speed => error,
+        _ => format!("{error}, or a sliding speed such as \"3 m/s\""),
+    })
+}
+
+/// Whether a speed is a length over a time.
+fn is_sliding_speed(text: &str) -> bool {
+    units::parse(text, Dimension::Speed).is_ok()
+}
+
+fn time(text: &str) -> Result<String, String> {
+    positive(text, Dimension::Time)
+}
+
+/// Arguments of `plateau accuracy`.
+#[derive(Debug, Args)]
+pub struct AccuracyArguments {
+    #[command(flatten)]
+    pub scene: SceneArguments,
+    /// Wall time that all runs together may take; the reference is as fine as half of it allows, and finer than the scene
+    #[arg(long, value_name = "TIME", allow_hyphen_values = true, default_value = "10min", value_parser = budget)]
+    pub budget: f64,
+    /// Ladders of runs, with commas between; all but perturbation unless given
+    #[arg(long = "ladder", value_parser = ladder(), value_name = "NAME", value_delimiter = ',')]
+    pub ladders: Vec<Ladder>,
+    /// Quantities that the advice is for, with commas between; all unless given
+    #[arg(long = "quantity", value_parser = quantities(), value_name = "NAME", value_delimiter = ',')]
+    pub quantities: Vec<&'static str>,
+    /// Error for which a time acceleration is advised, as a part of the quantity
+    #[arg(long, value_name = "PART", allow_hyphen_values = true, default_value = "0.01", value_parser = tolerance)]
+    pub tolerance: f64,
+    /// Run file of the same scene, numerics and output apart, that is the reference instead of a run made here; finer than
+    /// the scene
+    #[arg(long, value_name = "RUN")]
+    pub reference: Option<PathBuf>,
+    /// Folder for accuracy.csv, .json, .png, .svg and .pdf, made if it is not there
+    #[arg(short, long, value_name = "DIR", default_value = "accuracy")]
+    pub output: PathBuf,
+    /// Replace these files if they exist
+    #[arg(long)]
+    pub force: bool,
+    #[command(flatten)]
+    pub execution: ExecutionArguments,
+}
+
+/// A value of `--ladder`.
+fn ladder() -> impl TypedValueParser<Value = Ladder> {
+    let value = |ladder: Ladder| PossibleValue::new(ladder.name()).help(meaning(ladder));
+    let named = |name: String| Ladder::ALL.into_iter().find(|ladder| ladder.name() == name).ok_or("no such ladder");
+    PossibleValuesParser::new(Ladder::ALL.map(value)).try_map(named)
+}
+
+/// Difference between the runs of a ladder.
+fn meaning(ladder: Ladder) -> &'static str {
+    match ladder {
+        Ladder::TimeAcceleration => "Revolutions that a simulated one stands for",
+        Ladder::Mesh => "The same with cells half and twice as long, in a scene with a transport length",
+        Ladder::Tolerance => "Accelerations that the run chooses itself, by the error that it may make",
+        Ladder::Perturbation => {
+            "The reference anew with initial heights that differ a little: how much of the errors is chance"
+        }
+    }
+}
+
+/// A value of `--quantity`.
+fn quantities() -> impl TypedValueParser<Value = &'static str> {
+    let named =
+        |name: String| COMPARED.iter().find(|one| one.name == name).map(|one| one.name).ok_or("no such quantity");
+    PossibleValuesParser::new(COMPARED.map(|one| one.name)).try_map(named)
+}
+
+/// A value of `--tolerance`.
+fn tolerance(text: &str) -> Result<f64, &'static str> {
+    text.parse()
+        .ok()
+        .filter(|part| (f64::MIN_POSITIVE..1.0).contains(part))
+        .ok_or("expected a number between 0 and 1, such as 0.01")
+}
+
+/// A value of `--budget`, s.
+fn budget(text: &str) -> Result<f64, String> {
+    let time = quantity(text, Dimension::Time)?;
+    if time > 0.0 && time.is_finite() { Ok(time) } else { Err("expected more than 0 s".to_owned()) }
+}
+
 #[cfg(test)]
 #[path = "../tests/unit/arguments.rs"]
 mod tests;
-
-#[cfg(test)]
-#[path = "../tests/unit/arguments/quantity.rs"]
-mod quantity_tests;

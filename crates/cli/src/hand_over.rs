@@ -57,12 +57,6 @@ pub fn asked(word: &str, arguments: impl IntoIterator<Item = impl AsRef<OsStr>>)
     command.output().map_err(|error| Failure::run(format_args!("plateau-{word}: {error}")))
 }
 
-/// Why it failed: its last line on standard error, or these words where it says nothing.
-pub fn reason(answer: &Output, otherwise: &str) -> String {
-    let said = String::from_utf8_lossy(&answer.stderr);
-    said.lines().last().map_or(otherwise, |line| line.trim_start_matches("plateau: ")).to_owned()
-}
-
 /// The program that answers a word, if there is one.
 pub fn answering(word: &str) -> Option<PathBuf> {
     let name = format!("plateau-{word}");
@@ -81,6 +75,29 @@ pub fn is_word(word: &OsStr) -> bool {
 fn is_program(file: &Path) -> bool {
     use std::os::unix::fs::PermissionsExt as _;
     file.metadata().is_ok_and(|found| found.is_file() && found.permissions().mode() & 0o111 != 0)
+}
+
+/// What the package tells of the surfaces of a folder, as a table or as JSON; their parameters are then in the folder's document.
+pub fn described(folder: &Path, as_json: bool) -> Result<String, Failure> {
+    let options =
+        [OsStr::new("describe"), folder.as_os_str()].into_iter().chain(as_json.then_some(OsStr::new("--json")));
+    succeeded(asked("surface", options)?, "the surfaces were not described")
+        .map(|done| String::from_utf8_lossy(&done.stdout).into_owned())
+}
+
+/// What was answered; where that failed, why, or these words.
+pub fn succeeded(answer: Output, otherwise: &str) -> Result<Output, Failure> {
+    match answer.status.code() {
+        Some(0) => Ok(answer),
+        Some(2) => Err(Failure::input(reason(&answer, otherwise))),
+        _ => Err(Failure::run(reason(&answer, otherwise))),
+    }
+}
+
+/// Why it failed: its last line on standard error, or these words where it says nothing.
+fn reason(answer: &Output, otherwise: &str) -> String {
+    let said = String::from_utf8_lossy(&answer.stderr);
+    said.lines().last().map_or(otherwise, |line| line.trim_start_matches("plateau: ")).to_owned()
 }
 
 /// Formats of figures, which are the endings of their names.

@@ -10,7 +10,7 @@ use clap::error::{ContextKind, ContextValue, ErrorKind};
 
 use crate::arguments::Arguments;
 use crate::failure::Failure;
-use crate::table::printed;
+use crate::output::printed;
 
 /// Set by the script `plateau` to its own name: the program itself is elsewhere.
 const LAUNCHER: &str = "PLATEAU_CALLED";

@@ -1,61 +1,99 @@
 //! The program `plateau`.
 
-mod accuracy;
 mod arguments;
 mod commands;
 mod failure;
 mod hand_over;
-mod interrupt;
 mod invocation;
+mod look;
 mod message;
 mod output;
-mod scene;
-mod screen;
-mod startup;
-mod summary;
-mod table;
+mod program;
 mod terminal;
-mod version;
-mod watch;
 
 use std::process::ExitCode;
 
 use clap::{CommandFactory as _, Parser};
 use plateau_io::process::report_file_size_limit;
 
+use arguments::{Arguments, Command, HandedArguments, SweepCommand};
+use commands::{accuracy, check, new, reference, repair, run, runs, surface, sweep, verify, watch};
 use failure::Failure;
+use hand_over::hand_over;
 
 fn main() -> ExitCode {
-    startup::fit_environment();
-    interrupt::Interrupt::pass_over_saves();
-    if let Err(failure) = startup::refuse_little_memory() {
+    program::fit_environment();
+    terminal::Interrupt::pass_over_saves();
+    if let Err(failure) = program::refuse_little_memory() {
         return failure.report();
     }
-    startup::catch_panics(perform)
+    program::catch_panics(answer)
 }
 
 /// Hands a first word that is none of this program's to the program of its name, if there is one.
 fn other_program() -> Option<ExitCode> {
     let mut arguments = std::env::args_os().skip(1);
     let word = arguments.next().filter(|word| hand_over::is_word(word))?.into_string().ok()?;
-    let is_own = word == "help" || arguments::Arguments::command().find_subcommand(&word).is_some();
+    let is_own = word == "help" || Arguments::command().find_subcommand(&word).is_some();
     let handed = !is_own && hand_over::answering(&word).is_some();
-    handed.then(|| hand_over::hand_over(&word, arguments).map_or_else(Failure::report, |()| ExitCode::SUCCESS))
+    handed.then(|| hand_over(&word, arguments).map_or_else(Failure::report, |()| ExitCode::SUCCESS))
 }
 
-/// Does what the command line asks for.
-fn perform() -> ExitCode {
+/// Reads the command line and does what it asks for.
+fn answer() -> ExitCode {
     if let Err(failure) = arguments::refuse_odd_characters(std::env::args_os()) {
         return failure.report();
     }
-    let arguments = match arguments::Arguments::try_parse() {
+    let arguments = match Arguments::try_parse() {
         Ok(arguments) => arguments,
         Err(answer) => return other_program().unwrap_or_else(|| invocation::answered(answer)),
     };
     // Where the system takes no handler, what writes beyond the file size limit ends by a signal; no reason not to begin.
     let _ = report_file_size_limit();
-    match commands::perform(arguments) {
+    match perform(arguments) {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => failure.report(),
+    }
+}
+
+/// Does what the command line asks for.
+fn perform(arguments: Arguments) -> Result<(), Failure> {
+    message::set_level(arguments.quiet, arguments.verbose);
+    match arguments.command {
+        Command::New(arguments) => new::new(&arguments),
+        Command::Run(arguments) => run::run(&arguments),
+        Command::Check(arguments) => check::check(&arguments),
+        Command::Plot(handed) => hand_over("plot", handed.arguments),
+        Command::Report(handed) => hand_over("report", handed.arguments),
+        Command::Watch(arguments) => watch::watch(&arguments),
+        Command::Export(handed) => hand_over("export", handed.arguments),
+        Command::Accuracy(arguments) => accuracy::accuracy(&arguments),
+        Command::Sweep(command) => perform_sweep(command),
+        Command::Fit(handed) => hand_over("fit", handed.arguments),
+        Command::Compare(handed) => hand_over("compare", handed.arguments),
+        Command::Surface(arguments) => surface::surface(&arguments),
+        Command::Verify(arguments) => verify::verify(&arguments),
+        Command::Repair(arguments) => repair::repair(&arguments),
+        Command::Summary(arguments) => runs::summary(&arguments),
+        Command::Schema => reference::schema(),
+        Command::Completions(arguments) => reference::completions(&arguments),
+        Command::Man(arguments) => reference::man(&arguments),
+    }
+}
+
+/// Does what `plateau sweep` asks for.
+fn perform_sweep(command: SweepCommand) -> Result<(), Failure> {
+    let answered =
+        |word: &str, handed: HandedArguments| hand_over("sweep", std::iter::once(word.into()).chain(handed.arguments));
+    match command {
+        SweepCommand::Plan(arguments) => sweep::plan::plan(&arguments),
+        SweepCommand::Run(arguments) => sweep::run::run(&arguments),
+        SweepCommand::Slurm(arguments) => sweep::run::slurm(&arguments),
+        SweepCommand::Collect(arguments) => sweep::collect::collect(&arguments),
+        SweepCommand::Effects(handed) => answered("effects", handed),
+        SweepCommand::Predict(handed) => answered("predict", handed),
+        SweepCommand::Optimize(handed) => answered("optimize", handed),
+        SweepCommand::Sensitivity(handed) => answered("sensitivity", handed),
+        SweepCommand::Import(handed) => answered("import", handed),
     }
 }

@@ -39,9 +39,9 @@
 //!   pass that updates the cells also reads the gaps of the next step, against a bracket around the displacement that is
 //!   expected (`forecast`): sums over the pairs that surely touch, and a list of the few of which it is not sure. The
 //!   load is piecewise linear, so that this is enough to solve the balance exactly (`contact`).
-//! - Eight cells of one strip at a time (`strips`, `pin_strips`), the same source for every instruction set ([`kernel`](engine::kernel)).
+//! - Eight cells of one strip at a time (`strips`), the same source for every instruction set ([`kernel`](engine::kernel)).
 //! - Between two steps the complete state can be taken out and put into another simulation ([`checkpoint`](simulation::checkpoint)).
-//! - Sums are integers, so they do not depend on the order of the cells (`quantum`, `exact`, `sums`).
+//! - Sums are integers, so they do not depend on the order of the cells (`exact`, `sums`).
 //! - The ring is divided into sectors (`sector`) that belong to workers: threads or processes that tell each other those
 //!   sums and hand on the pin columns that cross from sector to sector ([`comm`](engine::comm)).
 //!

@@ -21,7 +21,7 @@ mod long;
 mod passing;
 mod simulation;
 
-use plateau_core::model::heat::factor::Factor;
+use plateau_core::model::heat::thermal::Factor;
 use plateau_core::model::heat::{Coating, Disc, Pin, Substance, Thermal};
 
 /// Grey cast iron, of the table in model 12.

@@ -1,7 +1,6 @@
 //! The chain from picture to fibre map.
 
-use plateau_core::model::mesh::Mesh;
-use plateau_core::model::outline::Outline;
+use plateau_core::model::mesh::{Mesh, Outline};
 use plateau_core::model::state::Base;
 use plateau_core::surface::fibre_fraction;
 use plateau_core::surface::micrograph::{FibreMap, Fibres, Micrograph, MicrographError, Picture, PinPlane, Threshold};

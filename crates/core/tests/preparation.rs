@@ -14,7 +14,7 @@ mod unrolling;
 use std::f64::consts::TAU;
 
 use plateau_core::model::mesh::Mesh;
-use plateau_core::surface::{Body, Fill, Length, Level, Patch, Preparation, PreparationError, RawHeights};
+use plateau_core::surface::{Body, Fill, Length, Level, Patch, Preparation, PreparationError, RawHeights, level};
 
 /// Cells of 1 mm by 1 mm at the mean radius.
 fn ring(columns: usize, rows: usize, pin_columns: usize) -> Mesh {

@@ -4,8 +4,7 @@ use std::f64::consts::PI;
 
 use crate::scenes::{WEAR_RATE, all_primary, primary_stiffness, random_surfaces, round_mesh, wear_only};
 use plateau_core::engine::kernel::InstructionSet;
-use plateau_core::model::mesh::Mesh;
-use plateau_core::model::outline::Outline;
+use plateau_core::model::mesh::{Mesh, Outline};
 use plateau_core::model::parameters::{DebrisRule, Parameters, PlateauRules};
 use plateau_core::model::state::{Base, InitialSurfaces};
 use plateau_core::observe::{ABSENT, Map, MapValues, Sample};

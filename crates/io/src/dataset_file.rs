@@ -13,8 +13,7 @@ use hdf5::types::VarLenUnicode;
 use hdf5::{Dataset, File, H5Type, Location};
 use thiserror::Error;
 
-use crate::hdf5_file::in_words;
-use crate::hdf5_file::writing::{Dimensions, EMPTY_FILE, write_number, write_text};
+use crate::hdf5_file::{Dimensions, EMPTY_FILE, in_words, write_number, write_text};
 use crate::run_file::layout::CONVENTIONS;
 use crate::temporary::Temporary;
 use crate::timestamp::iso_8601;

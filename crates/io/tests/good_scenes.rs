@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use plateau_core::model::emission::Emission;
 use plateau_core::model::friction::{Friction, FrictionLaw};
-use plateau_core::model::heat::factor::Factor;
+use plateau_core::model::heat::thermal::Factor;
 use plateau_core::model::heat::{Coating, Disc, Pin, Substance, Thermal};
 use plateau_core::model::material::Material;
 use plateau_core::model::parameters::{DebrisRule, Integrator, Parameters};

@@ -2,7 +2,6 @@
 
 mod bad_scenes;
 mod checkpoints;
-mod description;
 mod fixtures;
 mod fuzz;
 mod good_scenes;
@@ -18,7 +17,6 @@ mod run_file_processes;
 mod scene_layers;
 mod sdf;
 mod sdf_dialects;
-mod small_patches;
 mod surfaces;
 mod tables;
 mod text;

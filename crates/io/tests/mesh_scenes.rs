@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use plateau_core::model::outline::Outline;
+use plateau_core::model::mesh::Outline;
 use plateau_core::observe::schedule::SampleEvery;
 use plateau_io::scene::{self, Scene};
 

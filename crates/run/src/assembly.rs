@@ -1,6 +1,8 @@
-//! A scene put together: the simulation of a scene, the scout that goes before it, and when what is reported.
+//! A scene put together: the simulation of a scene, the scout that goes before it, and when what is reported; and the time loop, which
+//! takes it from its first step to its last and hands out samples and maps on the way.
 
 use std::sync::Arc;
+use std::time::{Duration, Instant};
 
 use plateau_core::acceleration::Chosen;
 use plateau_core::acceleration::scout::{Idle, Scout};
@@ -8,8 +10,9 @@ use plateau_core::model::cycle::Cycle;
 use plateau_core::model::parameters::Parameters;
 use plateau_core::model::state::InitialSurfaces;
 use plateau_core::observe::event::{EventLog, EventRecord};
-use plateau_core::observe::schedule::Schedule;
-use plateau_core::simulation::{Execution, Simulation, SimulationError};
+use plateau_core::observe::schedule::{Moment, Schedule};
+use plateau_core::observe::{ACCELERATION, CYCLE, ROAD, Sample, Snapshot};
+use plateau_core::simulation::{Course, Execution, Simulation, SimulationError};
 use plateau_io::run_file::checkpoint::SimulationState;
 use plateau_io::scene::{OutputSettings, Scene};
 
@@ -130,5 +133,149 @@ impl Assembly {
         }
         self.schedule.go_on(run.clock());
         Ok(())
+    }
+}
+
+/// Time between two looks at progress and signals.
+const LOOK_EVERY: Duration = Duration::from_millis(100);
+
+/// Takes what a simulation reports.
+pub trait Sink {
+    /// Reason why it cannot.
+    type Error: From<SimulationError>;
+
+    /// A sample of the step just done.
+    ///
+    /// # Errors
+    /// When it cannot be taken; the run then ends.
+    fn sample(&mut self, sample: Sample) -> Result<(), Self::Error>;
+
+    /// The maps after the step just done. Not called where the scene asks for none.
+    ///
+    /// # Errors
+    /// When they cannot be taken; the run then ends.
+    fn snapshot(&mut self, _snapshot: Snapshot) -> Result<(), Self::Error> {
+        Ok(())
+    }
+
+    /// Called every few steps. `steps` is the number proposed until the next call; returns the number that it shall be.
+    fn look(&mut self, _simulation: &Simulation, steps: u64) -> Result<u64, Self::Error> {
+        Ok(steps)
+    }
+
+    /// Called between two steps when all that was due is done: here the run may be stopped and gone on with later.
+    fn rest(&mut self, _assembly: &mut Assembly) -> Result<(), Self::Error> {
+        Ok(())
+    }
+}
+
+impl Assembly {
+    /// Takes all steps that are left; the samples and maps that the scene asks for go to `sink`. A run with a scout chooses its
+    /// acceleration.
+    pub fn run_to_end<S: Sink>(&mut self, sink: &mut S) -> Result<(), S::Error> {
+        let has_maps = !self.output.maps.is_empty();
+        let mut steps_per_look = 1;
+        if self.simulation.steps_done() == 0 && has_maps && self.schedule.begins_with_maps() {
+            sink.snapshot(self.simulation.snapshot(&self.output.maps)?)?;
+        }
+        while let Some(moment) = self.schedule.next(self.simulation.steps_done(), self.reached) {
+            let comparison = self.scout.as_ref().and_then(Scout::comparison);
+            let noted = self.events.next(self.simulation.steps_done());
+            let event = moment.step.min(comparison.unwrap_or(u64::MAX)).min(noted.unwrap_or(u64::MAX));
+            let is_due = event == moment.step;
+            let (sampled, mapped) = (is_due && moment.sample, is_due && moment.maps && has_maps);
+            let is_watched = sampled || mapped || noted == Some(event);
+            if self.simulation.steps_done() == event {
+                // A long pause may have many samples.
+                steps_per_look = sink.look(&self.simulation, steps_per_look)?;
+            }
+            while self.simulation.steps_done() < event {
+                let start = Instant::now();
+                match self.simulation.steps_done().saturating_add(steps_per_look) {
+                    before if before < event => self.simulation.pass_to(before)?,
+                    _ if is_watched => self.simulation.advance_to(event)?,
+                    _ => self.simulation.pass_to(event)?,
+                }
+                steps_per_look = sink.look(&self.simulation, adapted(steps_per_look, start.elapsed()))?;
+                if self.simulation.steps_done() < event {
+                    self.reached = self.simulation.time();
+                    sink.rest(self)?;
+                }
+            }
+            if is_due && moment.pause.is_some() {
+                self.simulation.keep_contact()?;
+            }
+            if noted == Some(event) {
+                let mut sample = self.simulation.sample()?;
+                if let Some(moment) = self.events.closing(event) {
+                    sample.accounts = self.simulation.accounts_at(moment)?;
+                }
+                self.events.note(&sample);
+            }
+            if sampled {
+                sink.sample(self.sample(&moment)?)?;
+            }
+            if mapped {
+                sink.snapshot(self.simulation.snapshot_at(&moment, &self.output.maps)?)?;
+            }
+            self.reached = if is_due { moment.time } else { self.simulation.time() };
+            if comparison == Some(event) && event < self.schedule.last() {
+                self.choose_acceleration(sink, steps_per_look)?;
+            }
+            sink.rest(self)?;
+        }
+        Ok(self.simulation.check_heights()?)
+    }
+
+    /// The sample of the step just done, with all series that a run file of the scene has.
+    ///
+    /// # Errors
+    /// As [`Simulation::sample_at`].
+    pub fn last_sample(&mut self) -> Result<Sample, SimulationError> {
+        let Course { steps, time, .. } = self.simulation.course();
+        self.sample(&Moment { step: steps, time, ..Moment::default() })
+    }
+
+    /// What is reported of the step just done, or of a pause before or after its end.
+    fn sample(&mut self, moment: &Moment) -> Result<Sample, SimulationError> {
+        let mut sample = self.simulation.sample_at(moment, &self.output.extras)?;
+        let parameters = self.simulation.parameters();
+        if let Some(cycle) = &self.cycle {
+            let [load, speed] = cycle.operation_at(moment.step, parameters.step_angle(), moment.time, moment.pause);
+            // How hard a braking torque presses, the steps alone know.
+            let force = if parameters.by_torque && load > 0.0 { self.simulation.course().load } else { load };
+            CYCLE.record(&mut sample, [force, speed, cycle.contact_time_until(moment.time)]);
+            ROAD.record(&mut sample, [cycle.road_distance_at(moment.time)]);
+        } else if parameters.by_torque {
+            let speed = parameters.angular_velocity;
+            CYCLE.record(&mut sample, [self.simulation.course().load, speed, moment.time]);
+        }
+        if let Some(choice) = self.scout.as_ref().map(Scout::choice) {
+            ACCELERATION.record(&mut sample, [choice.acceleration(), choice.error()]);
+        }
+        Ok(sample)
+    }
+
+    /// Has the scout come to where the run is, and chooses the acceleration anew.
+    fn choose_acceleration<S: Sink>(&mut self, sink: &mut S, steps_per_look: u64) -> Result<(), S::Error> {
+        let Some(scout) = &mut self.scout else { return Ok(()) };
+        while !scout.advance(steps_per_look)? {
+            sink.look(&self.simulation, steps_per_look)?;
+        }
+        if scout.compare(&mut self.simulation)? {
+            self.schedule.change(self.simulation.steps_done(), self.simulation.parameters().step_time());
+        }
+        Ok(())
+    }
+}
+
+/// The number of steps between two looks, after that many took so long.
+fn adapted(steps: u64, time: Duration) -> u64 {
+    if time > LOOK_EVERY {
+        (steps / 2).max(1)
+    } else if time < LOOK_EVERY / 2 {
+        steps.saturating_mul(2)
+    } else {
+        steps
     }
 }

@@ -1,8 +1,8 @@
-//! Reason why a run did not come to its end, and whose fault that is.
+//! Reason why a run, or the runs of a study as a whole, did not come to an end, and whose fault that is.
 
 use std::error::Error as StdError;
-use std::io;
 use std::path::{Path, PathBuf};
+use std::{fmt, io};
 
 use plateau_core::engine::comm::CommError;
 use plateau_core::simulation::SimulationError;
@@ -217,4 +217,38 @@ pub fn lacks_resources(error: &(dyn StdError + 'static)) -> bool {
         next = error.source();
     }
     false
+}
+
+/// Failure of the runs of a study, which tells a wrong input from a failed run.
+#[derive(Debug, Error)]
+pub enum SweepError {
+    /// The study cannot be used: everything that is wrong with it.
+    #[error(transparent)]
+    Study(#[from] StudyError),
+    /// An input is wrong: a scene, a file that it names, the folder of the results.
+    #[error("{0}")]
+    Input(String),
+    /// Runs failed, their results could not be kept, or the system lacks what they take.
+    #[error("{0}")]
+    Failed(String),
+}
+
+impl SweepError {
+    /// A wrong input; or a failure, where the error says, or comes from one that says, that the system lacks what it takes to look at
+    /// the input.
+    pub(crate) fn input(error: impl StdError + 'static) -> Self {
+        let message = error.to_string();
+        Self::because(&error, message)
+    }
+
+    /// As [`input`](Self::input), with a message of its own.
+    pub(crate) fn because(error: &(dyn StdError + 'static), message: impl fmt::Display) -> Self {
+        let message = message.to_string();
+        if lacks_resources(error) { Self::Failed(message) } else { Self::Input(message) }
+    }
+
+    /// A failure.
+    pub(crate) fn failed(error: impl fmt::Display) -> Self {
+        Self::Failed(error.to_string())
+    }
 }

@@ -20,31 +20,28 @@
 //! | simulation, scout and schedule of a scene, put together once for all who run one | [`Assembly`] |
 //! | the time loop, and what takes its samples and maps | [`Assembly::run_to_end`], [`Sink`] |
 //! | machine, number of workers, instruction set | [`execution`] |
-//! | start or continuation, from which checkpoint, and writing those | `start`, `resume`, `checkpointer` |
+//! | start or continuation, from which checkpoint, and writing those | `start`, `recorder` |
 //! | accuracy of a scene's runs for their time | [`accuracy`] |
 //! | the runs of a study | [`sweep`] |
 //! | the processes that take the steps together | [`job`] |
 
 pub mod accuracy;
 mod assembly;
-mod checkpointer;
 mod error;
 pub mod execution;
 pub mod job;
 mod options;
 mod recorder;
-mod resume;
 mod run;
 mod start;
 mod summary;
 pub mod sweep;
-mod time_loop;
 
 pub use assembly::Assembly;
+pub use assembly::Sink;
 pub use error::{InputError, Progress, RunError, RunFailure, Stopped, lacks_resources, signal_in_words};
 pub use job::Job;
 pub use options::{ExecutionOptions, Observer, Program, RunOptions, StartMode};
 pub use recorder::{idle_warning, input_files, stiffness_warning};
 pub use run::run;
 pub use summary::{PartsSummary, RunSummary};
-pub use time_loop::Sink;

@@ -13,12 +13,13 @@ use plateau_io::scene::{Scene, Warning};
 use plateau_io::surface::{self, Loaded};
 
 use crate::assembly::Assembly;
-use crate::checkpointer::{Checkpointer, RunIdentity};
 use crate::error::{InputError, Progress, RunError, RunFailure, Stopped};
 use crate::execution::decide;
 use crate::job::{Agreement, Job};
 use crate::options::{Observer, RunOptions};
-use crate::recorder::{Interruption, Recorder, header, idle_warning, is_stiff, stiffness_warning};
+use crate::recorder::{
+    Checkpointer, Interruption, Recorder, RunIdentity, header, idle_warning, is_stiff, stiffness_warning,
+};
 use crate::start::{Request, Start};
 use crate::summary::RunSummary;
 

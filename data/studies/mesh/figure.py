@@ -1,6 +1,6 @@
 """Filling and contact of the rough disc against the cell, with both rules: docs/images/mesh.png, from mesh.json.
 
-usage: figure.py, in the environment .venv of the checkout
+usage: PYTHONPATH=python figure.py, in the environment .venv of the checkout
 """
 
 import json
@@ -8,25 +8,27 @@ from pathlib import Path
 
 import matplotlib
 
+from plateau.style import LINES, MM, WIDE
+
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402, after the choice of what draws
 
 HERE = Path(__file__).parent
-#: Of Okabe and Ito, told apart by everybody; the plain rule is dashed.
+#: The plain rule is dashed.
 RULES = {
-    "none": ("debris moves by one cell", "#000000", "--", "o"),
-    "200": ("transport length 200 µm", "#0072b2", "-", "s"),
-    "150": ("150 µm", "#d55e00", "-", "^"),
-    "100": ("100 µm", "#009e73", "-", "v"),
+    "none": ("debris moves by one cell", LINES[5], "--", "o"),
+    "200": ("transport length 200 µm", LINES[0], "-", "s"),
+    "150": ("150 µm", LINES[6], "-", "^"),
+    "100": ("100 µm", LINES[2], "-", "v"),
 }
 QUANTITIES = {"filled": "disc filled after 3000 s, %", "contact_ratio": "part of the pin in contact, %"}
 
 
 def main() -> None:
     """Draw both quantities of the rough disc, with standard errors."""
-    plt.rcParams.update({"font.size": 8, "axes.spines.top": False, "axes.spines.right": False, "legend.frameon": False})
+    plt.style.use("plateau.plateau")
     values = json.loads((HERE / "mesh.json").read_text())["values"]
-    figure, axes = plt.subplots(1, 2, figsize=(7, 2.8), layout="constrained")
+    figure, axes = plt.subplots(1, 2, figsize=(WIDE * MM, 2.8), layout="constrained")
     for axis, (key, label) in zip(axes, QUANTITIES.items(), strict=True):
         for rule, (name, colour, line, mark) in RULES.items():
             of = values[rule]["1"]
@@ -38,7 +40,7 @@ def main() -> None:
         axis.minorticks_off()
         axis.invert_xaxis()
     axes[0].legend(loc="lower left")
-    figure.savefig(HERE.parents[2] / "docs/images/mesh.png", dpi=140)
+    figure.savefig(HERE.parents[2] / "docs/images/mesh.png", dpi=200)
 
 
 if __name__ == "__main__":

@@ -15,18 +15,22 @@ from maps import BANDS, LATE
 from matplotlib.colors import ListedColormap, LogNorm, Normalize
 from tables import m_of, m_of_one
 
+from plateau.style import APART, LINES, MM, STATUS_COLOURS, WIDE, wrapped
+
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402, after the choice of what draws
 
 HERE = Path(__file__).parent
 DOCS = HERE.parents[2] / "docs/images"
 RESULTS = json.loads((HERE / "results.json").read_text())
-# Of Okabe and Ito, told apart by everybody.
-COLOURS = ["#000000", "#0072b2", "#d55e00"]
+# Those of the package, as README.md names them: black, blue, orange.
+COLOURS = [LINES[5], LINES[0], LINES[6]]
 # What stands beside the lines of the discs.
 BESIDE = {"1": "rough disc (baseline)", "0.1": "disc with heights / 10", "0.01": "disc with heights / 100"}
-STATUS = ListedColormap(["#d9d2c3", "#8c8c8c", "#0072b2"])
+STATUS = ListedColormap(STATUS_COLOURS[:3])
 STATUSES = ["none (resin)", "primary", "secondary"]
+# Width of all figures, inches.
+ACROSS = WIDE * MM
 # What docs/evidence/validation.md and README.md show.
 SHOWN = ["fig08", "fig09", "fig10", "fig11", "fig12", "fig13", "fig14", "tornado", "radial", "pin", "friction", "friction-tornado"]
 # Piece of the ring that is shown, columns: the paper's 8 mm.
@@ -34,8 +38,7 @@ PIECE = 160
 # Readings of the rule that no scene has: starred where they stand beside those that have.
 OTHER_READINGS = ("shared as a_p to a_d", "disc up to the disc ahead", "disc up to the pin ahead")
 
-plt.rcParams.update({"font.size": 8, "axes.titlesize": 8, "figure.dpi": 140, "axes.spines.top": False,
-                     "axes.spines.right": False, "legend.frameon": False, "savefig.bbox": "tight"})
+plt.style.use("plateau.plateau")
 
 # The maps of a run that are drawn, by their names.
 Maps = dict[str, xarray.DataArray]
@@ -76,19 +79,19 @@ def draw(axes, values: xarray.DataArray, title: str, **how):
 def save(figure, name: str) -> None:
     """Into the folder of figures, and into the documents where they show it."""
     (HERE / "figures").mkdir(exist_ok=True)
-    figure.savefig(HERE / "figures" / f"{name}.png")
+    figure.savefig(HERE / "figures" / f"{name}.png", dpi=200)
     if name in SHOWN:
-        figure.savefig(DOCS / f"validation-{name}.png")
+        figure.savefig(DOCS / f"validation-{name}.png", dpi=200)
     plt.close(figure)
 
 
 def of_three(runs: dict[str, Maps], name: str, values, label: str, norms) -> None:
     """A map of each disc's run, side by side; norms: the scale of each, or one for all."""
     common = isinstance(norms, Normalize)
-    figure, axes = plt.subplots(1, 3, figsize=(10, 2.4), layout="constrained")
+    figure, axes = plt.subplots(1, 3, figsize=(ACROSS, 1.7), layout="constrained")
     for panel, (heights, run) in zip(axes, runs.items(), strict=True):
         # Where nothing is to be drawn.
-        panel.set_facecolor(STATUS(0))
+        panel.set_facecolor(APART)
         image = draw(panel, values(run), NAMES[heights], norm=norms if common else norms(run))
         if not common:
             figure.colorbar(image, ax=panel, label=label, shrink=0.8)
@@ -127,10 +130,10 @@ def usual_status(path: Path) -> xarray.DataArray:
 
 def of_both_rules(rows: dict[str, dict[str, Maps]], name: str, values, norm: Normalize, cmap=None, label: str = "") -> None:
     """A map of each disc's run, a row for each rule; without a label the colours are those of statuses."""
-    figure, axes = plt.subplots(2, 3, figsize=(10, 4.6), layout="constrained")
+    figure, axes = plt.subplots(2, 3, figsize=(ACROSS, 3.3), layout="constrained")
     for panels, (words, runs) in zip(axes, rows.items(), strict=True):
         for panel, (heights, run) in zip(panels, runs.items(), strict=True):
-            image = draw(panel, values(run), f"{NAMES[heights]}, {words}" if panel is panels[0] else NAMES[heights], norm=norm, cmap=cmap)
+            image = draw(panel, values(run), f"{words}\n{NAMES[heights]}" if panel is panels[0] else NAMES[heights], norm=norm, cmap=cmap)
     if label:
         figure.colorbar(image, ax=axes, label=label, shrink=0.8, extend="both")
     else:
@@ -150,7 +153,7 @@ def inputs(run: Maps) -> None:
     below.set(xlabel="along the track, mm", ylabel="height, µm", title="the same at the mean radius")
     save(figure, "fig05")
     figure, axes = plt.subplots(figsize=(4.5, 2.6), layout="constrained")
-    draw(axes, run["base"], "pin: fibres (grey) in resin", cmap=STATUS, vmin=-0.5, vmax=2.5)
+    draw(axes, run["base"], "pin: fibres (blue) in resin", cmap=STATUS, vmin=-0.5, vmax=2.5)
     save(figure, "fig06")
     figure, axes = plt.subplots(figsize=(4.5, 2.6), layout="constrained")
     figure.colorbar(draw(axes, -pin, "pin at the start, toward the disc"), ax=axes, label="height, µm")
@@ -161,7 +164,7 @@ def filling_of_the_baseline(run: Maps) -> None:
     """The paper's figure 8, and the length of the real test."""
     times = run["disc/height"]["map_time"].values
     moments = [moment for moment in (0.0, END, LONG_END) if np.abs(times - moment).min() < 1]
-    figure, axes = plt.subplots(1, len(moments), figsize=(10, 2.4), layout="constrained")
+    figure, axes = plt.subplots(1, len(moments), figsize=(ACROSS, 1.7), layout="constrained")
     for panel, moment in zip(axes, moments, strict=True):
         image = draw(panel, at(run, "disc/height", moment)[:PIECE] * 1e6, f"disc, baseline, {moment:.0f} s",
                      norm=Normalize(-10, 10))
@@ -192,7 +195,7 @@ def contact_area() -> None:
 
 def radial() -> None:
     """Filling against the radius."""
-    figure, (axes, inner) = plt.subplots(1, 2, figsize=(7, 2.8), layout="constrained", width_ratios=[3, 2])
+    figure, (axes, inner) = plt.subplots(1, 2, figsize=(ACROSS, 2.8), layout="constrained", width_ratios=[3, 2])
     of_baseline = RESULTS["sets"]["local"]["1"]
     bands = np.array([of_baseline[f"band_{number}"] for number in range(BANDS)]) * 100
     radius = 20 + (np.arange(BANDS) + 0.5) * 4 / BANDS
@@ -218,14 +221,14 @@ def pin_over_sets() -> None:
     panels = {"pin_film": ("build-up on the pin, nm", 1e9), "pin_covered": ("pin, secondary by status, %", 100),
               "pin_loaded": ("secondary that carries load, %", 100), "sq_fibres": ("Sq of the fibres, nm", 1e9),
               "sq_pin": ("Sq of the whole pin, µm", 1e6)}
-    figure, axes = plt.subplots(1, len(panels), figsize=(11, 2.8), layout="constrained")
+    figure, axes = plt.subplots(1, len(panels), figsize=(ACROSS, 2.2), layout="constrained")
     for panel, (key, (title, factor)) in zip(axes, panels.items(), strict=True):
         for rule, colour, place in (("local", COLOURS[1], -0.08), ("pooled", COLOURS[2], 0.08)):
             if rule not in RESULTS["each_set"]:
                 continue
             values = np.array(list(RESULTS["each_set"][rule][key].values())) * factor
             panel.plot(np.arange(3) + place, values, "-o", color=colour, ms=2.5, lw=0.6, alpha=0.6)
-        panel.set(title=title, xlim=(-0.4, 2.4), yscale="log" if key == "sq_fibres" else "linear")
+        panel.set(title=wrapped(title, 20), xlim=(-0.4, 2.4), yscale="log" if key == "sq_fibres" else "linear")
         panel.set_xticks(range(3), ["heights", "/ 10", "/ 100"])
     axes[0].plot([], [], "-o", color=COLOURS[1], ms=2.5, lw=0.8, label="local")
     axes[0].plot([], [], "-o", color=COLOURS[2], ms=2.5, lw=0.8, label="pooled")
@@ -240,7 +243,7 @@ def tornado() -> None:
     outcomes |= {f"{name} *": of for name, of in of_readings.items() if name in OTHER_READINGS}
     names = sorted(outcomes, key=lambda name: sum(abs(outcomes[name][key]["change"][0]) for key in outcomes[name]))
     default_of = RESULTS["variants"]["outcomes"]["default"]
-    figure, axes = plt.subplots(1, len(default_of), figsize=(11, 5.2), layout="constrained", sharey=True)
+    figure, axes = plt.subplots(1, len(default_of), figsize=(ACROSS, 5.2), layout="constrained", sharey=True)
     places = np.arange(len(names))
     for panel, outcome in zip(axes, default_of, strict=True):
         default = default_of[outcome]["value"][0] * 100
@@ -249,7 +252,7 @@ def tornado() -> None:
         panel.barh(places, change[:, 0], left=default, color=colours, height=0.7)
         panel.errorbar(default + change[:, 0], places, xerr=change[:, 1], fmt="none", ecolor="black", elinewidth=0.8, capsize=2)
         panel.axvline(default, color="black", lw=0.8)
-        panel.set(title=f"{outcome}, %", xlabel=f"default {default:.1f} %")
+        panel.set(title=wrapped(f"{outcome}, %", 26), xlabel=f"default {default:.1f} %")
     axes[0].set_yticks(places, names)
     save(figure, "tornado")
 

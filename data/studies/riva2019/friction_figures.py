@@ -5,9 +5,11 @@ usage: friction_figures.py, in the environment .venv of the checkout with PYTHON
 
 import numpy as np
 from discs import NAMES
-from figures import COLOURS, RESULTS, plt, save
+from figures import ACROSS, COLOURS, RESULTS, plt, save
 from friction_tables import BETWEEN
 from tables import m_of, shown
+
+from plateau.style import wrapped
 
 FRICTION = RESULTS["friction"]
 # The law's numbers as figures have them: sign, factor, form, unit.
@@ -19,7 +21,7 @@ SIGNS = {
 
 def against_time() -> None:
     """Friction of the three discs with 95 % bands over the sets of surfaces, and the first 100 s of one set."""
-    figure, (axes, start) = plt.subplots(1, 2, figsize=(9, 3.5), layout="constrained", width_ratios=[2, 1], sharey=True)
+    figure, (axes, start) = plt.subplots(1, 2, figsize=(ACROSS, 3.0), layout="constrained", width_ratios=[2, 1], sharey=True)
     for (heights, name), colour in zip(NAMES.items(), COLOURS, strict=True):
         for rule, how in (("pooled", {"lw": 0.9, "ls": "--"}), ("local", {"lw": 1.3, "label": name})):
             if rule not in FRICTION:
@@ -49,7 +51,7 @@ def label(key: str) -> str:
 def tornado() -> None:
     """What other numbers in the law do to friction of each disc and to the difference between discs."""
     panels = {name: ("discs", heights) for heights, name in NAMES.items()} | {BETWEEN: ("between", "0.01 less 1")}
-    figure, axes = plt.subplots(1, len(panels), figsize=(11, 2.5), layout="constrained", sharey=True)
+    figure, axes = plt.subplots(1, len(panels), figsize=(ACROSS, 2.1), layout="constrained", sharey=True)
     keys = list(SIGNS)[::-1]
     for panel, (title, (part, which)) in zip(axes, panels.items(), strict=True):
         default = FRICTION["choices"]["as chosen"][part][which][0]
@@ -63,7 +65,7 @@ def tornado() -> None:
                 if key != "maximum":
                     panel.plot(found["without_ceiling"][part][which][0], place + above, "D", mfc="none", mec="black", ms=4, mew=0.7)
         panel.axvline(default, color="black", lw=0.8)
-        panel.set(title=title, xlabel=f"as chosen: {default:.3f}", xlim=(0, 0.09) if part == "between" else (0.38, 0.68))
+        panel.set(title=wrapped(title, 22), xlabel=f"as chosen: {default:.3f}", xlim=(0, 0.09) if part == "between" else (0.38, 0.68))
     axes[0].set_yticks(range(len(keys)), [label(key) for key in keys])
     handles = [plt.Rectangle((0, 0), 1, 1, color=colour) for colour in (COLOURS[2], COLOURS[1])]
     handles.append(plt.Line2D([], [], ls="", marker="D", mfc="none", mec="black", ms=4, mew=0.7))

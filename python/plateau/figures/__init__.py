@@ -55,7 +55,7 @@ def plot(
     Parameters
     ----------
     runs : xarray.DataTree, path, or sequence of them
-        Opened runs or their files, at most eight; several are drawn with common scales.
+        Opened runs or their files, at most ten; several are drawn with common scales.
     name : str, optional
         The figure, one of `FIGURES`; by default all that there are.
     at : float or str, or sequence of them, optional

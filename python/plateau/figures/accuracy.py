@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from plateau.errors import InputError, MissingFileError
-from plateau.style import APART, LINES, NARROW, QUIET, in_style, new
+from plateau.style import APART, LINES, NARROW, QUIET, in_style, logarithmic, new
 
 # By the name in the document: what the runs of a ladder differ in, their mark, and whether a line goes through them.
 LADDERS = {
@@ -68,7 +68,8 @@ def plot_accuracy(folder_or_json: str | os.PathLike[str], ax: Any = None) -> Any
     if reference["error"]:
         ax.axhline(100 * reference["error"], color=QUIET, linestyle="--", label="own error of the reference")
     ax.margins(0.12)
-    _number_axes(ax)
+    logarithmic(ax, "x")
+    logarithmic(ax, "y")
     if given is None:
         ax.figure.legend(loc="outside upper left")
     else:
@@ -80,17 +81,6 @@ def plot_accuracy(folder_or_json: str | os.PathLike[str], ax: Any = None) -> Any
 def _name(run: dict[str, Any]) -> str:
     """The value of a run, with its time acceleration where both differ."""
     return f"{run['value']:g}, m = {run['time_acceleration']:g}" if run["ladder"] == "mesh" else f"{run['value']:g}"
-
-
-def _number_axes(ax: Any) -> None:
-    """Numbers at 1, 2 and 5 of every decade where there are few decades."""
-    from matplotlib.ticker import LogLocator, NullFormatter, StrMethodFormatter
-
-    for axis in (ax.xaxis, ax.yaxis):
-        low, high = axis.get_view_interval()
-        axis.set_major_locator(LogLocator(subs=(1, 2, 5) if high < 1000 * low else (1,)))
-        axis.set_major_formatter(StrMethodFormatter("{x:g}"))
-        axis.set_minor_formatter(NullFormatter())
 
 
 def _name_points(ax: Any, points: Any, names: list[str]) -> None:

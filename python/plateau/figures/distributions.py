@@ -6,10 +6,10 @@ from typing import Any
 
 import numpy as np
 
+from plateau import style
 from plateau.figures.drawing import Drawing, Subject
 from plateau.quantities import MAPS
 from plateau.run_file import array
-from plateau.style import DASHES, LINES
 from plateau.units import unit_of
 
 SECONDARY = 2
@@ -32,8 +32,7 @@ def maps_of(drawing: Drawing, path: str) -> Iterator[tuple[Subject, int, Any]]:
 def look(drawing: Drawing, subject: Subject, place: int) -> dict[str, Any]:
     """How the line of a moment is drawn: of a single run each in its colour, of several all but the last paler."""
     if drawing.only:
-        label = subject.moment(subject.moments[-1 - place])
-        return {"color": LINES[place % len(LINES)], "linestyle": DASHES[place % len(LINES)], "label": label}
+        return style.look(place) | {"label": subject.moment(subject.moments[-1 - place])}
     return {**subject.line, "label": subject.label} | ({"alpha": 0.4, "marker": None, "label": None} if place else {})
 
 

@@ -2,6 +2,7 @@
 
 import functools
 import json
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any
@@ -13,13 +14,11 @@ from plateau.errors import InputError
 from plateau.opened_runs import labels_of, note
 from plateau.quantities import MAP_KEYS
 from plateau.run_file import array, source
-from plateau.style import DASHES, LINES, NARROW, WIDE, new, noted, plain
+from plateau.style import MARKERS, MM, NARROW, WIDE, look, new, noted, plain
 from plateau.units import Unit, unit_of
 
-# Of several runs each has its own, at other places of its line, so that equal lines are all seen.
-MARKERS = "osD^v<>P"
-# Height of a figure, mm, at most: that of a page.
-HIGHEST = 235.0
+# Height of a figure, mm, at most: that of a page; that of a line of a legend, and lines for which there is room.
+HIGHEST, LINE, MOST_LINES = 235.0, 3.6, 3
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,11 +58,11 @@ class Subject:
     @property
     def line(self) -> dict[str, Any]:
         """Options of its lines."""
-        look = {"color": LINES[self.number], "linestyle": DASHES[self.number]}
-        # In a cycle, marks would look like data.
+        # In a cycle, marks would look like data; else each run has its own, at other places of its line, so that equal lines are all seen.
         if self.is_only or self.has_cycle:
-            return look
-        return look | {"marker": MARKERS[self.number], "markevery": (0.04 + 0.035 * self.number, 0.3), "markersize": 3}
+            return look(self.number)
+        mark = MARKERS[(self.number + self.number // len(MARKERS)) % len(MARKERS)]
+        return look(self.number) | {"marker": mark, "markevery": (0.04 + 0.025 * self.number, 0.3), "markersize": 3}
 
     @property
     def has_cycle(self) -> bool:
@@ -163,10 +162,12 @@ class Drawing:
         noted(figure, note)
         if handles:
             # As many columns as the longest label leaves.
-            columns = 1 if figure.get_figwidth() * 25.4 < 2 * (12 + 1.5 * max(map(len, labels))) else 2
+            columns = 1 if figure.get_figwidth() / MM < 2 * (12 + 1.5 * max(map(len, labels))) else 2
+            # A long legend takes no room from the axes.
+            more = LINE * max(math.ceil(len(labels) / columns) - MOST_LINES, 0)
+            figure.set_figheight(min(figure.get_figheight() + more * MM, HIGHEST * MM))
             named = {"title": self.only.label, "alignment": "left"} if self.only and self.only.label not in labels else {}
-            look = {"loc": "outside upper left", "ncols": columns, "columnspacing": 1.0}
-            figure.legend(handles, labels, **look, **named, **options)
+            figure.legend(handles, labels, loc="outside upper left", ncols=columns, columnspacing=1.0, **named, **options)
         return [figure]
 
 

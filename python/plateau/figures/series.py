@@ -10,7 +10,7 @@ import pandas
 from plateau.figures.courses import BAND, MOST, Course, calm, courses, draw, draw_steps, in_windows, note_of, time_axis, time_of
 from plateau.figures.drawing import Drawing, Subject, moment
 from plateau.quantities import CELSIUS, KMH, MM2, NUMBER, PERCENT, SERIES
-from plateau.style import DASHES, LINES, NARROW, WIDE, wrapped
+from plateau.style import NARROW, WIDE, look, wrapped
 from plateau.units import Unit, quantity, unit_of
 
 # Windows of emission, at most.
@@ -92,8 +92,8 @@ def friction(drawing: Drawing) -> list[Any]:
         pressure, coefficient = unit.value(subject.values(names[2])), subject.while_rubbing(subject.values(names[1]))
         touching = np.flatnonzero((pressure > 0) & np.isfinite(coefficient))
         touching = touching[:: max(1, math.ceil(len(touching) / MOST_MARKS))]
-        look = {"color": subject.line["color"], "markersize": 2, "markeredgewidth": 0, "alpha": 0.7}
-        right.plot(pressure[touching], coefficient[touching], subject.line.get("marker", "o"), **look)
+        mark = {"color": subject.line["color"], "markersize": 2, "markeredgewidth": 0, "alpha": 0.7}
+        right.plot(pressure[touching], coefficient[touching], subject.line.get("marker", "o"), **mark)
         every = np.append(every, pressure[touching])
     right.set_xscale("log" if every.size and every.max() > 20 * every.min() else "linear")
     right.set(xlabel=f"mean contact pressure, {unit.symbol}", xlim=(None if right.get_xscale() == "log" else 0, None))
@@ -114,12 +114,12 @@ def in_panels(drawing: Drawing, names: tuple[str, ...], unit: Unit, caption: str
     # Temperatures have peaks that nothing may take away.
     durations = {name: 0.0 if unit is CELSIUS else calm(shown) for name, shown in found.items()}
     count = 1 if drawing.only else len(found)
-    figure, axes = drawing.panels(count, 54 + 4 * len(found) if drawing.only else 48, caption)
+    figure, axes = drawing.panels(count, 62 if drawing.only else 48, caption)
     for number, (name, shown) in enumerate(found.items()):
         axis = axes[number % count]
         title = "valleys of the disc filled" if name == "filled_fraction" else SERIES[name].title
         for course in shown:
-            own = {"label": title, "color": LINES[number], "linestyle": DASHES[number]} if drawing.only else {}
+            own = look(number) | {"label": title} if drawing.only else {}
             draw(axis, course, time_of(subjects), max(durations.values()) if durations[name] else 0.0, unit is CELSIUS, **own)
         axis.set_ylabel(f"{what}, {unit.symbol}")
         axis.set_title("" if drawing.only else title, loc="left")
@@ -185,13 +185,13 @@ def emission(drawing: Drawing) -> list[Any]:
         drawn = []
         for subject in on_road if is_road else subjects:
             for place, name in enumerate(names):
-                own = {"color": LINES[place], "linestyle": DASHES[place], "label": ["PM10", "PM2.5"][place]} if drawing.only else {}
-                look = {**subject.line, "label": None if place else subject.label, "alpha": 0.45 if place and not own else 1.0, **own}
-                drawn.append((look, per_metre(subject, name) if is_road else rates(subject, name, most)))
+                own = look(place) | {"label": ["PM10", "PM2.5"][place]} if drawing.only else {}
+                line = {**subject.line, "label": None if place else subject.label, "alpha": 0.45 if place and not own else 1.0, **own}
+                drawn.append((line, per_metre(subject, name) if is_road else rates(subject, name, most)))
         unit = in_powers(prefix + ("m-1" if is_road else "s-1"), np.concatenate([values for _, values in drawn]))
-        for look, values in drawn:
+        for line, values in drawn:
             at = time_of(subjects).value(values.index)
-            axis.plot(at, unit.value(values), drawstyle="default" if is_road else "steps-post", **look)
+            axis.plot(at, unit.value(values), drawstyle="default" if is_road else "steps-post", **line)
         axis.set(ylim=(0, None), ylabel=f"{'emission factor' if is_road else 'rate'}, {unit.symbol}")
         axis.set_title(title, loc="left")
     time_axis(axes, subjects)

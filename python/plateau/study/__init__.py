@@ -12,8 +12,8 @@ from plateau.study.results import open_study
 if TYPE_CHECKING:
     from plateau.study.analysis import effects
     from plateau.study.fit_of_study import fit
-    from plateau.study.level_differences import levels
     from plateau.study.imports import import_values
+    from plateau.study.level_differences import levels
     from plateau.study.of_scenes import of_scenes
     from plateau.study.optimum import optimize
     from plateau.study.prediction import predict

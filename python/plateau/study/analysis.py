@@ -3,7 +3,7 @@
 import itertools
 import os
 import warnings
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -12,13 +12,11 @@ import pandas
 
 from plateau.errors import InputError, PlateauWarning, RunFailed, UnknownNameError
 from plateau.study.data import Response, Study
-from plateau.study.effect_table import COLUMNS, box_cox, effect_table, transform_advice
 from plateau.study.effects_figures import effects_figures
-from plateau.study.effects_text import text_of
-from plateau.study.equations import equations
+from plateau.study.effects_text import effects_page, equations, text_of
 from plateau.study.model import NothingToFit
 from plateau.study.model_choice import cautions, fitted
-from plateau.study.response_effects import ResponseEffects, report_of
+from plateau.study.response_effects import COLUMNS, ResponseEffects, box_cox, effect_table, report_of, transform_advice
 from plateau.study.results import analysed
 
 # Inflation of variances above which terms are said to be correlated, and shares whose sum differs by more from R² of which it is said.
@@ -27,14 +25,7 @@ MOST_INFLATION, SHARES_DIFFER = 10.0, 0.02
 
 @dataclass(frozen=True, repr=False)
 class Effects:
-    """What the factors of a study do to its responses.
-
-    Attributes
-    ----------
-    study : Study
-    responses : list of ResponseEffects
-    confidence : float
-    """
+    """What the factors of a study do to its responses, of which ``found["NAME"]`` has one."""
 
     study: Study
     responses: list[ResponseEffects]
@@ -91,6 +82,10 @@ class Effects:
     def figures(self) -> Any:
         """Draws main effects, interactions, sizes of effects and residuals."""
         return effects_figures(self.responses)
+
+    def page(self, figures: Mapping[str, Any], files: Mapping[str, bytes]) -> str:
+        """The page of ``plateau sweep effects`` with figures and their files."""
+        return effects_page(self.study, self.cautions, self.responses, figures, files)
 
 
 def effects(study: Study | str | os.PathLike[str], model: str | None = None, terms: str = "all", confidence: float = 0.95) -> Effects:

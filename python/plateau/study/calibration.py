@@ -115,7 +115,7 @@ def _check(likelihood: Likelihood, place: Numbers, asked: Any, more: Runs | None
     processes = [term.process for term in likelihood.terms]
     if more is None:
         at = [int(np.abs(process.points - place).max(axis=1).argmin()) for process in processes]
-        errors, deviations = (np.array([process.loo()[which][one] for process, one in zip(processes, at, strict=True)]) for which in (0, 1))
+        errors, deviations = (np.array([process.loo[which][one] for process, one in zip(processes, at, strict=True)]) for which in (0, 1))
         found, variances = np.array([process.means[one] for process, one in zip(processes, at, strict=True)]), deviations**2
         means = found - errors
     else:

@@ -7,10 +7,10 @@ import numpy as np
 from scipy import stats
 
 from plateau.study.data import Factor
-from plateau.study.figure_axes import STEPS, dots, drawn_map, file_names, grid_points, held, logarithmic, positions, set_axis
+from plateau.study.figure_axes import STEPS, dots, drawn_map, file_names, grid_points, held, positions, set_axis
 from plateau.study.model import Fitted
 from plateau.study.response_effects import ResponseEffects
-from plateau.style import DASHES, LINES, NARROW, QUIET, WIDE, Figures, in_style, labelled, new, wrapped
+from plateau.style import LINES, NARROW, QUIET, WIDE, Figures, in_style, labelled, logarithmic, look, new, wrapped
 from plateau.units import Unit, unit_for, unit_of
 
 # Most terms, and panels of pairs, of a figure; most panels beside each other.
@@ -96,8 +96,7 @@ def _means(one: ResponseEffects, fit: Fitted, groups: Sequence[list[Factor]], ca
         for number, level in enumerate(levels):
             own = means if level is None else means[[value == level for value in means[others[0].name]]]
             middle, low, high = (unit.value(one.response.back(own[name])) for name in ("mean", "low", "high"))
-            label = None if level is None else wrapped(others[0].shown(level), 16)
-            style = {"color": LINES[number], "linestyle": DASHES[number], "label": label}
+            style = look(number) | {"label": None if level is None else wrapped(others[0].shown(level), 16)}
             if x.is_number:
                 band = {"facecolor": (LINES[number], 0.15), "edgecolor": (LINES[number], 0.6), "linewidth": 0.4}
                 axis.fill_between(positions(x, own[x.name]), low, high, **band)

@@ -1,12 +1,25 @@
-"""Effects in words and tables for people."""
+"""Effects for people: words and tables, equations in coded units and in the units of the study, and the page for the browser."""
+
+import itertools
+from collections.abc import Mapping, Sequence
+from html import escape
+from typing import Any
 
 import numpy as np
 import pandas
 
-from plateau.study.model import MODELS
+from plateau.html_page import listed, page, pictures, table
+from plateau.study.data import Study
+from plateau.study.figure_axes import file_names
+from plateau.study.model import MODELS, ROUNDING, Fitted, contrasts, named
 from plateau.study.response_effects import ResponseEffects
 from plateau.study.text_tables import aligned
 from plateau.units import Unit, unit_for, with_digits, with_minus
+
+# Terms of an equation beyond which nobody reads it.
+MOST_TERMS = 4096
+# What a coefficient is multiplied by: numbers (0, factor), levels (1, factor, level) and centre points (2,), in this order.
+Product = tuple[tuple[int, ...], ...]
 
 
 def told(one: ResponseEffects) -> tuple[list[str], list[list[str]], list[str]]:
@@ -64,3 +77,67 @@ def text_of(one: ResponseEffects) -> str:
     """What the command prints of a response."""
     lines, rows, below = told(one)
     return "\n  ".join([*lines, *(aligned(rows, indent="") if rows else []), *below]) + "\n"
+
+
+def equations(fit: Fitted) -> dict[str, pandas.DataFrame]:
+    """By ``"coded"`` and ``"of the study"``, the ``variables`` of each product and its ``coefficient``; nothing where there are too many."""
+    found = {}
+    for units in ("coded", "of the study"):
+        parts = [_parts(fit, at, units) for at in range(len(fit.codings))]
+        sums: dict[Product, list[float]] = {(): [fit.coefficients[0]]}
+        for term, columns in zip(fit.terms, fit.columns[2:], strict=True):
+            choices: list[list[dict[Product, float]]] = [parts[at] for at in term] if term else [[{((2,),): 1.0}]]
+            values = fit.coefficients[columns]
+            for own, value in zip(itertools.product(*choices), np.where(np.abs(values) <= fit.rounding, 0.0, values), strict=True):
+                for factors in itertools.product(*(each.items() for each in own)):
+                    product = tuple(sorted(itertools.chain.from_iterable(key for key, _ in factors)))
+                    sums.setdefault(product, []).append(value * float(np.prod([weight for _, weight in factors])))
+            if len(sums) > MOST_TERMS:
+                return {}
+        # What is smaller than the rounding of its parts is nothing.
+        kept = {key: sum(parts) for key, parts in sums.items() if not key or abs(sum(parts)) > 0.25 * ROUNDING * sum(map(abs, parts))}
+        rows = [(_words(fit, key), kept[key]) for key in sorted(kept, key=lambda key: (len(key), key))]
+        found[units] = pandas.DataFrame(rows, columns=["variables", "coefficient"])
+    return found
+
+
+def _parts(fit: Fitted, at: int, units: str) -> list[dict[Product, float]]:
+    """What each column of a factor is: a multiple of its number and a constant, or multiples of its levels."""
+    coding, factor = fit.codings[at], fit.study.factors[at]
+    if coding.is_straight:
+        if units == "coded":
+            return [{((0, at),): 1.0}]
+        low, high = (np.log10 if factor.logarithmic else np.asarray)(factor.in_study_unit(np.array(factor.ends)))
+        return [{((0, at),): 2.0 / (high - low)} | ({(): -(low + high) / (high - low)} if low + high else {})]
+    levels = [((1, at, factor.levels.index(level)),) for level in coding.classes or ()]
+    return [{level: float(weight) for level, weight in zip(levels, column, strict=True) if weight} for column in contrasts(len(levels)).T]
+
+
+def _words(fit: Fitted, product: Product) -> str:
+    """A product in words, such as ``load·speed``, ``load²`` or ``load·[pool contact]``."""
+    words = []
+    for (kind, *which), same in itertools.groupby(product):
+        factor = fit.study.factors[which[0]] if which else None
+        level = f"[{factor.name} {factor.shown(factor.levels[which[1]])}]" if factor and kind == 1 else "[centre points]"
+        words.append((named(factor) if factor and kind == 0 else level) + "²" * (len(list(same)) - 1))
+    return "·".join(words)
+
+
+def effects_page(
+    study: Study, cautions: Sequence[str], responses: Sequence[ResponseEffects], figures: Mapping[str, Any], files: Mapping[str, bytes]
+) -> str:
+    """The page of ``plateau sweep effects``."""
+    factors = []
+    for factor in study.factors:
+        factors.append([factor.name, factor.keys, (" … " if factor.is_range else ", ").join(map(factor.shown, factor.levels))])
+    states = ", ".join(f"{count} {state}" for state, count in study.runs["state"].value_counts().items())
+    about = [f"design: {study.design}", f"runs: {states}", f"sets of seeds: {study.seeds}", *(f"caution: {said}" for said in cautions)]
+    parts = [listed(about), table(["factor", "keys", "values"], factors, "words")]
+    for one, stem in zip(responses, file_names([one.response.name for one in responses]), strict=True):
+        (name, *said), rows, below = told(one)
+        parts += [f"<h2>{escape(name)}</h2>", listed(said)]
+        parts += [table(rows[0], rows[1:])] if rows else []
+        parts += [f"<pre>{escape(chr(10).join(below))}</pre>"] if below else []
+        own = [f"{stem}-{kind}" for kind in ("pareto", "main-effects", "interactions", "residuals", "surface")]
+        parts.append(pictures({name: figures[name] for name in own if name in figures}, files))
+    return page(f"{study.title}: effects", *parts)

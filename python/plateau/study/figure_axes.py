@@ -9,8 +9,8 @@ import numpy as np
 import pandas
 
 from plateau.study.data import Factor, Numbers
-from plateau.style import NARROW, labelled, new, wrapped
-from plateau.units import shown_unit, with_minus
+from plateau.style import NARROW, labelled, logarithmic, new, number, wrapped
+from plateau.units import shown_unit
 
 # Places of a line.
 STEPS = 61
@@ -50,28 +50,6 @@ def set_axis(axis: Any, factor: Factor, way: str = "x", *, has_levels: bool = Fa
         own.set_major_formatter(lambda value, _: number(value))
     if has_levels and factor.is_number and not factor.is_range and not factor.logarithmic and len(factor.levels) <= 4:
         own.set_ticks(factor.in_study_unit(np.array(factor.levels)))
-
-
-def logarithmic(axis: Any, way: str) -> None:
-    """A logarithmic scale with few numbers, which do not touch."""
-    from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullFormatter
-
-    own = getattr(axis, f"{way}axis")
-    getattr(axis, f"set_{way}scale")("log")
-    low, high = sorted(own.get_view_interval())
-    steps = LogLocator(subs=(1.0, 2.0, 5.0) if high < 100.0 * low else (1.0,))
-    own.set_major_locator(MaxNLocator(4, steps=[1, 2, 2.5, 5, 10]) if high < 5.0 * low else steps)
-    own.set_major_formatter(FuncFormatter(lambda value, _: number(value)))
-    own.set_minor_formatter(NullFormatter())
-
-
-def number(value: float) -> str:
-    """A number as axes have it, with a power of ten if it is far from 1."""
-    if value == 0.0 or 1e-3 <= abs(value) < 1e5:
-        return with_minus(f"{value:.6g}")
-    digits, power = f"{value:.3e}".split("e")
-    times = "" if float(digits) == 1.0 else rf"{float(digits):g}\times"
-    return rf"${times}10^{{{int(power)}}}$"
 
 
 def grid_points(x: Factor, y: Factor, grid: Sequence[Numbers], others: dict[str, Any]) -> pandas.DataFrame:

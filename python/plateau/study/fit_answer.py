@@ -42,9 +42,6 @@ class Fit:
     ----------
     study : Study
         As it was after the first runs.
-    target : Target
-    outcome : Outcome
-    confidence : float
     most : int
         Runs at most.
     runs : pandas.DataFrame
@@ -86,11 +83,6 @@ class Fit:
         return pandas.DataFrame(rows)
 
     @property
-    def table(self) -> pandas.DataFrame:
-        """The keys."""
-        return self.keys
-
-    @property
     def profiles(self) -> pandas.DataFrame:
         """How far -2 ln L rises where a key is held at a value, and the threshold of its interval."""
         parts = [pandas.DataFrame({"key": one.name, "value": one.value(at), "rise": rises}) for one, at, rises, _ in self._profiles]
@@ -127,7 +119,7 @@ class Fit:
         rows, (means, own, seeds) = [], self._moments
         for at in self.target.singles:
             (number,), one = self._terms(at), self.target.measured[at]
-            error = float(np.sqrt(np.square(self._likelihood.terms[number].process.loo()[0]).mean()))
+            error = float(np.sqrt(np.square(self._likelihood.terms[number].process.loo[0]).mean()))
             deviations = [math.sqrt(own[number]), math.sqrt(seeds[number]), self._scatter(number), error]
             measured = [one.response.name, one.response.unit, one.values[0], one.uncertainties[0], means[number]]
             rows.append([*measured, *deviations, abs(self.target.discrepancies[at] * one.values[0])])
@@ -214,50 +206,42 @@ class Fit:
     @cached_property
     def cautions(self) -> list[str]:
         """What is to be known before intervals are used: a sentence each."""
-        said, outcome = list[str](), self.outcome
+        said, outcome, measured = list[str](), self.outcome, self.target.measured
         if outcome.has_failed:
             check = outcome.checks[-1]
             places = zip(self.study.factors, check["place"], strict=True)
             where = ", ".join(f"{factor.name} = {factor.shown(float(factor.value(at)), 4)}" for factor, at in places)
-            worst = int(np.nanargmax(np.abs(check["runs"] - check["forecast"]) / check["deviation"]))
-            most = self.target.measured[check["of"][worst]].response.name
-            said.append(f"Runs at the most likely place ({where}) contradict the forecast, most in {most}, and no runs were left to find another")
-            said[-1] += " place: there are no most likely values and no intervals. More runs in [fit] go on from here."
+            worst = check["of"][int(np.nanargmax(np.abs(check["runs"] - check["forecast"]) / check["deviation"]))]
+            what = f"contradict the forecast, most in {measured[worst].response.name}, and no runs were left to find another place"
+            said.append(f"Runs at the most likely place ({where}) {what}; more runs in [fit] go on from here.")
         elif not outcome.checks:
             said.append("No runs were made at the most likely place, so the forecast there is not checked.")
         if self.p < 0.05:
             test = f"misfit χ² = {self.misfit:.3g} with {_degrees(self.freedom)}, p = {self.p:.2g}"
-            said.append(f"No values within these ranges give all that was measured: {test}. The intervals are those of a model that does not fit;")
-            said[-1] += " [fit] discrepancy states by how much it may be off."
+            said.append(f"No values within these ranges give all that was measured: {test}. [fit] discrepancy lets the model be off.")
         if self.study.seeds < 2 and outcome.ended != "no runs":
-            said.append("Each point was run with one set of surfaces, so what differs from one to the next is not known, and intervals may be too")
-            said[-1] += " short. [replicates] with several seeds tells it."
-        for at, one in enumerate(self.target.measured):
-            said += self._of_seeds(at, one.response.name, 1.0 if one.is_series else one.uncertainties[0])
+            said.append("With one set of surfaces intervals may be too short; [replicates] with several tells what differs between them.")
+        for at, one in enumerate(measured):
+            name, terms, uncertainty = one.response.name, self._terms(at), 1.0 if one.is_series else one.uncertainties[0]
+            if max(map(self._scatter, terms)) > uncertainty:
+                scatter = f"Runs with other seeds scatter in {name} by more than the uncertainty of the measurement"
+                said.append(f"{scatter}; if specimens do so, too, add it to the uncertainty, unless a mean of many was measured.")
+            if self._moments[2][terms].max() > 0.25 * uncertainty**2:
+                known = f"The mean of {name} over the seeds is known no better than to half the uncertainty of the measurement"
+                said.append(f"{known}: more seeds in [replicates] make the intervals shorter.")
         for row in self.responses.to_dict("records") if not self.freedom else ():
             far = abs(row["forecast"] - row["measured"]) / math.hypot(row["uncertainty"], row["seeds_deviation"], row["discrepancy"])
             if far > 2.0:
-                said.append(f"At the most likely values {row['response']} of the runs is {far:.2g} standard deviations away from what was measured:")
-                said[-1] += " no values within these ranges give all that was measured."
+                away = f"{row['response']} of the runs is {far:.2g} standard deviations away at the most likely ones"
+                said.append(f"No values within these ranges give what was measured: {away}.")
         for at in self._likelihood.components:
             said += self._of_series(at)
         shares = self._likelihood.share_by_term()
         if shares.max() > SETTLED:
             part = f"{100.0 * shares.max():.0f} % of" if shares.max() < 2.0 else f"{shares.max():.2g} times"
-            name = self.target.measured[self._likelihood.terms[int(shares.argmax())].of].response.name
+            name = measured[self._likelihood.terms[int(shares.argmax())].of].response.name
             more = MORE.get(outcome.ended, "more runs in [fit] make the intervals shorter.")
-            said.append(f"The forecasts are not exact: near the most likely values their variance is up to {part} that of the measurement of {name}; {more}")
-        return said
-
-    def _of_seeds(self, at: int, name: str, uncertainty: float) -> list[str]:
-        """Where seeds scatter by as much as is known of what was measured."""
-        said, terms = list[str](), self._terms(at)
-        if max(map(self._scatter, terms)) > uncertainty:
-            said.append(f"Runs with other seeds scatter in {name} by more than the uncertainty of the measurement. Specimens may do the same: unless")
-            said[-1] += " the measurement is a mean of many specimens, add that scatter to its uncertainty."
-        if self._moments[2][terms].max() > 0.25 * uncertainty**2:
-            said.append(f"The mean of {name} over the seeds is known no better than to half the uncertainty of the measurement: more seeds in")
-            said[-1] += " [replicates] make the intervals shorter."
+            said.append(f"Near the most likely values the variance of the forecasts is up to {part} that of the measurement of {name}; {more}")
         return said
 
     def _of_series(self, at: int) -> list[str]:
@@ -270,8 +254,8 @@ class Fit:
             return []
         time = -float(np.median(np.diff(one.times))) / math.log(min(alike, 0.99))
         advice = "a longer correlation_time" if one.correlation_time else f'correlation_time = "{time:.2g} s"'
-        said = f"Successive points of {one.response.name} deviate alike (correlation {alike:.2g}), and the intervals are too short. If the errors of the"
-        return [f"{said} measurement are like that, give {advice} in its [[response]]; if not, the runs cannot follow the series."]
+        said = f"Successive points of {one.response.name} deviate alike (correlation {alike:.2g}), and the intervals are too short"
+        return [f"{said}: the errors of the measurement need {advice} in its [[response]], or the runs cannot follow the series."]
 
     @property
     def _check(self) -> str:

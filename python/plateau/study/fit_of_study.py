@@ -62,7 +62,7 @@ def fit(
 
     def make(places: Numbers) -> Runs:
         points = pandas.DataFrame({factor.name: factor.value(column) for factor, column in zip(opened.factors, places.T, strict=True)})
-        made = made_study(opened, points, progress, retry, jobs=jobs, workers=workers)
+        made = made_study(opened, points, progress=progress, retry=retry, jobs=jobs, workers=workers)
         table = _table(made)
         tables.append(table.assign(point=table["point"] + tables[-1]["point"].max()))
         return _observed(replace(made, factors=opened.factors), target)

@@ -117,7 +117,7 @@ class KeptValues:
             try:
                 run = self._run(table, row, factors, taken)
             except InputError:
-                line = {with_unit(one.name, one.unit): _quantity(table, cells[column], column, one) for column, one in factors.items()}
+                line = {with_unit(one.name, one.unit): cells[column] for column, one in factors.items()}
                 line |= {} if replicate is None else {REPLICATE: cells[replicate]}
                 shown = {with_unit(one.name, one.unit): _written(numbers[one.name]) for one in columns.values()}
                 idle.append(line | shown | own)
@@ -125,7 +125,7 @@ class KeptValues:
             self._put(run, numbers)
             for head, cell in own.items():
                 self.others.loc[run, head] = cell
-        self.idle_lines = pandas.DataFrame(idle, columns=[*self._heads, *self.others]).fillna("")
+        self.idle_lines = pandas.DataFrame(idle, columns=[*self._heads, *self.others], dtype=object).fillna("")
 
     def take(self, table: TextTable, force: bool) -> tuple[int, int]:
         """Takes in a table: how many values are new, and how many have changed."""
@@ -186,12 +186,6 @@ class KeptValues:
         heads = self._heads[: len(self.study.factors)]
         lines = [f"line of {', '.join(f'{head} = {line[head]}' for head in heads)}" for line in self.idle_lines.to_dict("records")]
         return [*lines, *(f'column "{head}"' for head in self.others if self.others[head].ne("").any())]
-
-
-def _quantity(table: TextTable, cell: str, column: int, factor: Factor) -> str:
-    """A cell with the unit of its column, if the study has another one."""
-    unit = table.named(column)[1]
-    return f"{cell} {unit}" if unit and cell and " " not in cell and unit != factor.unit else cell
 
 
 def _written(value: Any) -> str:

@@ -4,7 +4,6 @@ import itertools
 import os
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import Any
 
 import numpy as np
 import pandas
@@ -16,7 +15,8 @@ from plateau.study.data import Study
 from plateau.study.model import Fitted, NothingToFit
 from plateau.study.model_choice import fitted
 from plateau.study.results import analysed
-from plateau.units import unit_for, with_minus
+from plateau.study.text_tables import listed
+from plateau.units import unit_for, with_digits
 
 
 @dataclass(frozen=True, repr=False)
@@ -25,14 +25,12 @@ class LevelDifferences:
 
     Attributes
     ----------
-    study : Study
     table : pandas.DataFrame
         A row for each pair of levels of each factor: ``response``, ``factor``, ``level``, ``other``, ``difference`` (level less other, over
         all levels of the other factors), ``standard_error``, ``freedom``, ``low``, ``high``, ``p`` and ``unit``. Intervals hold for all
         pairs of a factor together at the confidence level, and p is for all of them.
     method : str
         ``"Tukey"`` for all pairs, ``"Dunnett"`` against one level.
-    confidence : float
     """
 
     study: Study
@@ -40,21 +38,17 @@ class LevelDifferences:
     method: str
     confidence: float
 
-    def document(self) -> dict[str, Any]:
-        """The table for JSON."""
-        rows = self.table.astype(object).where(self.table.notna(), None).to_dict("records")
-        return {"study": self.study.title, "method": self.method, "confidence": self.confidence, "differences": rows}
-
     def text(self) -> str:
         """The table for people."""
         said = []
         for (response, factor), rows in self.table.groupby(["response", "factor"], sort=False):
-            unit = unit_for(rows["unit"].iloc[0], float(rows["difference"].abs().max()))
-            shown = rows[["level", "other", "difference", "low", "high", "p"]].copy()
-            shown[["difference", "low", "high"]] *= unit.per_si
-            text = shown.to_string(index=False, float_format=lambda value: f"{value:.4g}")
-            said.append(f"{response}: {factor}{f', {unit.symbol}' if unit.symbol else ''}\n{text}\n")
-        return with_minus("\n".join([f"Differences between levels, simultaneous {100 * self.confidence:g} % intervals ({self.method})\n", *said]))
+            unit, cells = unit_for(rows["unit"].iloc[0], float(rows["difference"].abs().max())), []
+            for row in rows.to_dict("records"):
+                width = 0.5 * unit.per_si * (row["high"] - row["low"])
+                numbers = {name: with_digits(unit.per_si * row[name], width) for name in ("difference", "low", "high")}
+                cells.append({"level": row["level"], "other": row["other"], **numbers, "p": with_digits(row["p"])})
+            said += ["", f"{response}: {', '.join(filter(None, [factor, unit.of_differences]))}", *listed(cells)]
+        return "\n".join([f"Differences between levels, simultaneous {100 * self.confidence:g} % intervals ({self.method})", *said, ""])
 
 
 def levels(

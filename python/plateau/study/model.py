@@ -1,6 +1,7 @@
 """Models of responses: terms of the factors, fitted by least squares, and what they forecast."""
 
 import itertools
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -180,7 +181,7 @@ class Fitted:
         self.seeds, self.point_count = int(runs["replicate"].nunique()), int(self.runs["point"].max()) + 1
         self.centre = self._centre() if centre and model != "quadratic" else {}
         self.terms = terms if terms is not None else self._terms() + ([()] if self.centre else [])
-        widths = [1, self.seeds - 1, *(int(np.prod([self.codings[at].width for at in term])) for term in self.terms)]
+        widths = [1, self.seeds - 1, *(math.prod(self.codings[at].width for at in term) for term in self.terms)]
         self.columns = [slice(int(end) - width, int(end)) for end, width in zip(np.cumsum(widths), widths, strict=True)]
         self.design = self.matrix(runs)
         self.design[:, self.columns[1]] = contrasts(self.seeds)[rank(runs["replicate"])]
@@ -203,21 +204,19 @@ class Fitted:
 
     def _terms(self) -> list[Term]:
         """Terms of the model but the mean, lower orders first and squares last."""
-        count, widths = len(self.codings), [coding.width for coding in self.codings]
-        columns = [1] + [0] * count
-        for width, order in itertools.product(widths, range(count, 0, -1)):
-            columns[order] += width * columns[order - 1]
-        order = {"main": 1, "full": count}.get(self.model, 2)
-        for more in range(2, count + 1) if self.model == "full" else ():
-            # Up to the order at which there are as many coefficients as points.
-            if sum(columns[:more]) >= self.point_count or sum(columns[: more + 1]) > MOST_COLUMNS:
-                order = more - 1
-                break
+        count, terms, columns = len(self.codings), list[Term](), 1
         squares = [(at, at) for at in range(count) if self.model == "quadratic" and self.study.factors[at].is_number]
-        if (total := sum(columns[: order + 1]) + len(squares)) > MOST_COLUMNS:
+        for order in range(1, min({"main": 1, "full": count}.get(self.model, 2), count) + 1):
+            more = list(itertools.combinations(range(count), order))
+            wider = columns + sum(math.prod(self.codings[at].width for at in term) for term in more)
+            # Up to the order at which there are as many coefficients as points.
+            if self.model == "full" and order > 1 and (columns >= self.point_count or wider > MOST_COLUMNS):
+                break
+            terms, columns = terms + more, wider
+        if (total := columns + len(squares)) > MOST_COLUMNS:
             advice = f"at most {MOST_COLUMNS} can be estimated: leave out interactions or factors"
             raise NothingToFit(f"the model has {total} coefficients, {advice}")
-        return [term for size in range(1, min(order, count) + 1) for term in itertools.combinations(range(count), size)] + squares
+        return terms + squares
 
     def _centre(self) -> dict[int, float]:
         """Coded middles of the numbers, if those with more than two values have them at the same points and are at their ends elsewhere."""

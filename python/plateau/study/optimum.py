@@ -2,6 +2,7 @@
 
 import itertools
 import os
+import re
 import warnings
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
@@ -11,15 +12,15 @@ import numpy as np
 import pandas
 
 from plateau.errors import InputError, PlateauWarning
+from plateau.output_folder import plain
 from plateau.study.analysis import together, usable
 from plateau.study.data import Factor, Numbers, Study
 from plateau.study.figure_axes import STEPS, dots, drawn_map, grid_points, held, positions, set_axis
 from plateau.study.goals import ROUNDING, Goal, Limit, Problem, axes_of, beyond_runs, overall, wanted
 from plateau.study.improvement import improved, is_run
-from plateau.output_folder import plain
 from plateau.study.prediction import INTERVALS, confirmed_by, confirmed_words, forecast_cells, forecast_table, reported, settings_at
 from plateau.study.results import analysed
-from plateau.study.runs import make_runs
+from plateau.study.runs import made_study
 from plateau.study.settings import beyond_of, ends_of, no_curve, region_of
 from plateau.study.surrogate import Surrogate, surrogates
 from plateau.study.text_tables import listed
@@ -62,7 +63,6 @@ class Optimum:
         that mean ``is_within`` the interval of runs. SI units.
     desirability : float
         The mean of all goals; 0 if a limit is missed.
-    keeps_limits : bool
     at_ends : list of str
         Factors that are at an end of their range.
     canonical : list of dict
@@ -70,7 +70,6 @@ class Optimum:
         factor: ``value``, SI, ``coded``, ``is_within`` its range), ``eigenvalues`` and their ``directions`` in coded units of the factors.
     rounds : pandas.DataFrame
         The points that were run on the way: ``round``, factors, ``expected_improvement`` (part of the way of the goal), means of the responses.
-    cautions : list of str
     problem : Problem
         Goals, limits, and the study with the runs that were made on the way.
     looked_for : int
@@ -232,7 +231,7 @@ def optimize(
     goals, limits = wanted(study, {"maximize": maximize, "minimize": minimize, "target": target}, limit, limit_on, importance)
 
     def made(points: pandas.DataFrame) -> pandas.DataFrame:
-        return make_runs(study, points, jobs=jobs, workers=workers, retry=confirm, progress=progress)
+        return made_study(study, points, jobs=jobs, workers=workers, retry=confirm, progress=progress).runs
 
     found = {one.response.name: one for one in surrogates(study, model, terms, confidence)}
     for name in [*(goal.response for goal in goals), *(one.response for one in limits)]:
@@ -394,11 +393,9 @@ def _contour_pair(free: Sequence[Factor], asked: str | None) -> tuple[Factor, Fa
     """The two factors of a contour that was asked for; refuses others than two different ones that may be anywhere in a range."""
     if asked is None:
         return None
-    by_name = {factor.name: factor for factor in free}
     # Names may have commas, too.
-    for at in (at for at, letter in enumerate(asked) if letter == ","):
-        one, other = by_name.get(asked[:at].strip()), by_name.get(asked[at + 1 :].strip())
-        if one and other and one is not other:
-            return one, other
-    expected = "expected two different factors that are numbers and not held, with a comma between"
-    raise InputError(f"--contour {asked}: {expected}; there are {', '.join(by_name) or 'none here'}")
+    pairs = {re.sub(r"\s*,\s*", ",", f"{one.name},{other.name}"): (one, other) for one, other in itertools.permutations(free, 2)}
+    if (found := pairs.get(re.sub(r"\s*,\s*", ",", asked.strip()))) is None:
+        expected = "expected two different factors that are numbers and not held, with a comma between"
+        raise InputError(f"--contour {asked}: {expected}; there are {', '.join(one.name for one in free) or 'none here'}")
+    return found

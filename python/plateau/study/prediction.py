@@ -12,11 +12,12 @@ import numpy as np
 import pandas
 
 from plateau.errors import InputError, InputTypeError, PlateauWarning
+from plateau.output_folder import plain
 from plateau.study.analysis import together, usable
 from plateau.study.data import Study
 from plateau.study.kept_values import factor_value
-from plateau.output_folder import plain
 from plateau.study.results import analysed
+from plateau.study.runs import made_study
 from plateau.study.settings import SAME, axis_of, beyond_of, factor_named, held_values, joined, no_curve, region_of, value_of
 from plateau.study.surrogate import Surrogate, surrogates
 from plateau.study.text_tables import listed, read_text_table
@@ -33,7 +34,6 @@ class Prediction:
 
     Attributes
     ----------
-    study : Study
     places : pandas.DataFrame
         A column for each factor, SI units or words.
     given : list of str
@@ -42,9 +42,6 @@ class Prediction:
         A row for each place and response: ``place`` (from 1), factors, ``response``, ``unit``, ``value``, ``mean_low``, ``mean_high`` (of the mean
         over all seeds), ``run_low``, ``run_high`` (of one more run), ``leverage``, ``beyond`` (factors outside the runs), ``cautions``, and of
         runs there ``confirmed``, ``confirmed_error``, ``confirmed_runs``, ``is_within`` the interval of runs. SI units.
-    surrogates : list of Surrogate
-    confidence : float
-    cautions : list of str
     """
 
     study: Study
@@ -221,9 +218,7 @@ def predict(
         raise InputError(f"{which}{beyond[first]}; the model knows nothing there, give --extrapolate to see what it says nevertheless")
     made = None
     if confirm:
-        from plateau.study.runs import make_runs
-
-        made = make_runs(opened, places, jobs=jobs, workers=workers, progress=progress)
+        made = made_study(opened, places, jobs=jobs, workers=workers, progress=progress).runs
     general = [*together(opened), *no_curve(opened, places)]
     for said in general:
         warnings.warn(said, PlateauWarning, stacklevel=2)

@@ -76,7 +76,7 @@ class Process:
 
     Columns of `x` are coded numbers and indicators of words; equal rows are replicates, whose scatter tells the noise. `noise_groups` are
     the sets of seeds, and what a set adds to its runs is part of the errors. `axes` number the length of each column: indicators of one
-    factor share one.
+    factor share one. `loo` has errors of `means` at `points` (observed less expected of the others), and their expected deviations.
     """
 
     def __init__(
@@ -148,9 +148,9 @@ class Process:
         # Weights that know nothing of the point that is left out.
         without = special.softmax(log[:, None] - density_left_out, axis=0)
         missed = (without * error).sum(0)
-        self._left_out = missed, np.sqrt((without * (square + (error - missed) ** 2)).sum(0))
+        self.loo = missed, np.sqrt((without * (square + (error - missed) ** 2)).sum(0))
         # The mean square of Student's t is more than 1 by its degrees of freedom.
-        too_much = ((missed / self._left_out[1]) ** 2).mean() * (1.0 - 2.0 / max(solved.freedom - 1, 3))
+        too_much = ((missed / self.loo[1]) ** 2).mean() * (1.0 - 2.0 / max(solved.freedom - 1, 3))
         chosen = np.searchsorted(np.cumsum(weights), (np.arange(KEPT) + 0.5) / KEPT).clip(max=len(weights) - 1)
         chosen, times = np.unique(chosen, return_counts=True)
         self.logs, self.probabilities, self.sets = drawn[chosen], times / KEPT, self.solved(drawn[chosen])
@@ -186,7 +186,3 @@ class Process:
             reach = stats.t.ppf(0.5 + confidence / 2.0, freedom) * np.sqrt(one + other)
             columns += [mean - reach, mean + reach]
         return np.column_stack([mean, *columns])
-
-    def loo(self) -> tuple[Numbers, Numbers]:
-        """Errors of `means` at `points` (observed less expected of the others), and their expected standard deviations."""
-        return self._left_out

@@ -1,20 +1,25 @@
-"""What the factors of a study do to one response."""
+"""What the factors of a study do to one response: the analysis of variance with effects, means, and what the runs say of its scale."""
 
 import itertools
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 import pandas
-from scipy import stats
+from scipy import optimize, stats
 
 from plateau.output_folder import plain
-from plateau.study.data import Response
-from plateau.study.effect_table import COLUMNS, lenth
-from plateau.study.model import SOLE, Fitted, is_same
-from plateau.study.model_choice import misfit
+from plateau.study.data import Numbers, Response
+from plateau.study.model import SOLE, Fitted, Squares, f_test, is_same
+from plateau.study.model_choice import fitted, misfit
 from plateau.units import shown_unit
 
+# Powers of a response between which the best is looked for, and distance of those at which the search begins.
+POWERS, STEP = (-5.0, 5.0), 0.05
+TRANSFORMS = {"none": 1.0, "square root": 0.5, "log": 0.0}
+COLUMNS = ["response", "term", "factors", "degrees_of_freedom", "sum_of_squares", "mean_square", "f", "p", "share", "variance_inflation"]
+COLUMNS += ["effect", "coefficient", "standard_error", "t", "low", "high", "margin_of_error", "simultaneous_margin_of_error"]
+COLUMNS += ["aliased_with", "error_freedom", "seed_ratio", "seed_p", "unit"]
 # Values of a range up to which means are given at each.
 MOST_VALUES = 10
 # Members of the document of a response, null where nothing could be fitted.
@@ -29,7 +34,6 @@ class ResponseEffects:
 
     Attributes
     ----------
-    response : Response
     fit : Fitted or None
         None where nothing could be fitted.
     error : str
@@ -46,7 +50,6 @@ class ResponseEffects:
         What that says of the transform; empty where there is nothing to say.
     equations : dict
         By ``"coded"`` and ``"of the study"``, the ``variables`` of each product and its ``coefficient``.
-    cautions : list of str
     """
 
     response: Response
@@ -184,3 +187,147 @@ def report_of(one: ResponseEffects) -> dict[str, Any]:
         for row in terms.to_dict("records")
     ]
     return report | {"cautions": one.cautions}
+
+
+def _aliases(fit: Fitted) -> tuple[set[int], list[list[str]]]:
+    """Columns that the runs do not tell, and by mean, blocks and terms, the labels of the terms that they cannot be told from.
+
+    Of two columns that are the same but for a factor the first is told, as the sum of both; of a combination of more, which an empty cell
+    makes, none is.
+    """
+    labels = ["mean", "replicate", *(fit.label(term) for term in fit.terms)]
+    untold, pairs = set(), []
+    for column, (parts, _) in fit.fit.relations.items():
+        untold |= {column, *parts} if len(parts) > 1 else {column}
+        pairs += [(fit.owner(column), fit.owner(part)) for part in parts or [0]]
+    for at, term in enumerate(fit.terms):
+        if not all(fit.codings[factor].width for factor in term):
+            # A factor of which one level was observed has no column, and its interactions are those of the others.
+            others = tuple(factor for factor in term if fit.codings[factor].width)
+            pairs.append((at + 2, fit.terms.index(others) + 2 if others in fit.terms else 0))
+    found: list[set[int]] = [set() for _ in labels]
+    for one, other in (pair for pair in pairs if pair[0] != pair[1]):
+        found[one].add(other)
+        found[other].add(one)
+    return untold, [[labels[other] for other in sorted(others)] for others in found]
+
+
+def effect_table(fit: Fitted) -> pandas.DataFrame:
+    """The analysis of variance with effects."""
+    rows: list[dict[str, Any]] = []
+    (untold, aliases), least, values = _aliases(fit), fit.fit, fit.values - fit.mean
+    spread = np.square(fit.design - fit.design.mean(axis=0)).sum(axis=0)
+    for at, columns in list(enumerate(fit.columns))[1 if fit.seeds > 1 else 2 :]:
+        is_blocks, term, width = at == 1, () if at == 1 else fit.terms[at - 2], columns.stop - columns.start
+        places = [place for place, column in enumerate(least.kept) if columns.start <= column < columns.stop]
+        weights = least.root[places] @ least.basis.T
+        # Orthonormal rows whose products with the responses are what the term explains, all others kept (type III).
+        directions = np.linalg.qr(weights.T)[0].T if places else weights
+        own = Squares(len(places), float(np.square(directions @ values).sum()))
+        row: dict[str, Any] = {"term": "replicate" if is_blocks else fit.label(term), "factors": term, "aliased_with": aliases[at]}
+        row |= {"degrees_of_freedom": own.freedom, "sum_of_squares": own.sum, "mean_square": own.mean, "share": own.sum / fit.total.sum}
+        is_told = len(places) == width > 0 and not untold & set(range(columns.start, columns.stop))
+        error, freedom = fit.error, float(fit.residual_freedom)
+        if not is_blocks and fit.seeds > 1 and is_told and not np.isnan(fit.error):
+            # The error over all seeds is what the term differs by between them, not what the model leaves.
+            variances, freedoms = fit.errors(directions)
+            error, freedom = float(variances.mean()), float(freedoms.sum())
+            if error > 0:
+                rest = Squares(round(fit.residual_freedom - freedom), max(fit.residual.sum - error * freedom, 0.0))
+                ratio, _ = f_test(Squares(1, error), rest)
+                row |= {"seed_ratio": ratio, "seed_p": float(stats.f.sf(ratio, freedom, rest.freedom))}
+        if is_told and error > 0:
+            f = own.mean / error
+            row |= {"error_freedom": freedom, "f": f, "p": float(stats.f.sf(f, own.freedom, freedom))}
+        if width == 1 and places:
+            column, variance = least.kept[places[0]], float(weights[0] @ weights[0])
+            row["variance_inflation"] = variance * spread[column] or np.nan
+            if not is_blocks:
+                # Of centre points the coefficient is the difference.
+                double, coefficient = 2.0 if term else 1.0, float(fit.coefficients[column])
+                row |= {"coefficient": coefficient, "effect": double * coefficient}
+                if "f" in row:
+                    deviation = double * (error * variance) ** 0.5
+                    reach = float(stats.t.ppf(0.5 + 0.5 * fit.confidence, freedom)) * deviation
+                    row |= {"standard_error": deviation, "t": row["effect"] / deviation}
+                    row |= {"low": row["effect"] - reach, "high": row["effect"] + reach}
+        rows.append(row)
+    missed, f, p = fit.lack_of_fit
+    parts = {"lack of fit": missed, "pure error": fit.scatter[0]} if fit.scatter[0].freedom > 0 else {}
+    for name, squares in {"residual": fit.residual, **parts, "total": fit.total}.items():
+        row = {"term": name, "degrees_of_freedom": squares.freedom, "sum_of_squares": squares.sum, "mean_square": squares.mean}
+        row |= {"f": f, "p": p} if name == "lack of fit" else {}
+        rows.append(row | {"share": squares.sum / fit.total.sum, "aliased_with": []})
+    table = pandas.DataFrame(rows).reindex(columns=COLUMNS)
+    table["response"], table["unit"] = fit.response.name, fit.response.unit if fit.response.transform == "none" else "1"
+    if np.isnan(fit.error) and (judged := lenth(table.loc[table["factors"].str.len() > 0, "effect"], fit.confidence)) is not None:
+        table.loc[table["effect"].notna(), ["margin_of_error", "simultaneous_margin_of_error"]] = judged[1:]
+    return table
+
+
+def lenth(effects: pandas.Series, confidence: float) -> tuple[float, float, float] | None:
+    """Pseudo standard error and margins of effects that have no error; None of fewer than six.
+
+    R. V. Lenth, Technometrics 31, 469-473 (1989).
+    """
+    sizes = effects.dropna().abs().to_numpy(float)
+    if len(sizes) < 6 or (first := 1.5 * float(np.median(sizes))) <= 1e-12 * sizes.max():
+        return None
+    error, freedom = 1.5 * float(np.median(sizes[sizes < 2.5 * first])), len(sizes) / 3.0
+    tails = 0.5 + 0.5 * confidence, 0.5 + 0.5 * confidence ** (1.0 / len(sizes))
+    margin, simultaneous = (float(stats.t.ppf(tail, freedom)) * error for tail in tails)
+    return error, margin, simultaneous
+
+
+def box_cox(fit: Fitted) -> tuple[float, float, float] | None:
+    """Power of the response that the model fits best, and the powers that fit hardly worse; None unless all responses are above 0.
+
+    G. E. P. Box and D. R. Cox, J. R. Stat. Soc. B 26, 211-252 (1964): the likelihood of a power at its best is that of the residual sum
+    of squares of (u^power - 1)/power, with u the response by its geometric mean.
+    """
+    responses, basis = fit.response.back(fit.values), fit.fit.basis
+    if np.isnan(fit.error) or not (responses > 0).all() or fit.residual_freedom < 3:
+        return None
+    logarithms = np.log(responses) - np.log(responses).mean()
+
+    def likelihood(power: float) -> float:
+        powers = logarithms if abs(power) < 1e-7 else np.expm1(power * logarithms) / power
+        left = powers - basis @ (basis.T @ powers)
+        return -0.5 * len(left) * float(np.log(left @ left))
+
+    grid = np.linspace(*POWERS, round((POWERS[1] - POWERS[0]) / STEP) + 1)
+    near = float(grid[np.argmax([likelihood(power) for power in grid])])
+    bounds = max(near - STEP, POWERS[0]), min(near + STEP, POWERS[1])
+    best = float(optimize.minimize_scalar(lambda power: -likelihood(power), bounds=bounds, method="bounded", options={"xatol": 1e-9}).x)
+    least = likelihood(best) - 0.5 * float(stats.chi2.ppf(fit.confidence, 1))
+
+    def end(powers: Numbers) -> float:
+        inside = best
+        for power in powers:
+            if likelihood(power) < least:
+                return float(optimize.brentq(lambda at: likelihood(at) - least, inside, power, xtol=1e-12))
+            inside = float(power)
+        return inside
+
+    return best, end(grid[grid < best][::-1]), end(grid[grid > best])
+
+
+def transform_advice(fit: Fitted, found: tuple[float, float, float] | None) -> str:
+    """What the best power says of the transform: nothing where another one would not forecast points better that it does not know."""
+    power = TRANSFORMS.get(fit.response.transform)
+    if found is None or power is None or found[1] <= power <= found[2]:
+        return ""
+    left, (best, low, high) = fit.residuals / np.maximum(1.0 - fit.leverages, SOLE), found
+    if 1.0 - float(left @ left) / fit.total.sum > 0.999 and misfit(fit) is None:
+        # Nobody would see what is to be gained.
+        return ""
+    allowed = ["none"] if low <= 1.0 <= high else [name for name in ("log", "square root") if low <= TRANSFORMS[name] <= high]
+    name = min(allowed, key=lambda name: abs(TRANSFORMS[name] - best), default="")
+    said = "try it without transform" if name == "none" else f'try transform = "{name}"'
+    if not name:
+        said = "none of the transforms is this power; keep the response as it is, and look for a bend in the residuals, "
+        said += "which another --model may explain"
+    elif fitted(fit.study, replace(fit.response, transform=name), fit.model, confidence=fit.confidence).loo_error > 0.95 * fit.loo_error:
+        return ""
+    at_end = ", looked for between −5 and 5 alone" if low <= POWERS[0] or high >= POWERS[1] else ""
+    return f"Box-Cox: lambda = {best:.2g} ({low:.2g} to {high:.2g}{at_end}): {said}"

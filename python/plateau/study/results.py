@@ -71,7 +71,7 @@ def _opened(folder: Path, study: Path | None, directory: Path) -> Study:
     csv, hdf5 = folder / "results.csv", folder / "results.h5"
     for file in (csv, hdf5):
         if not file.is_file():
-            raise MissingFileError(f"{file}: there is no such file; plateau sweep collect makes it, or plateau sweep run with the runs")
+            raise MissingFileError(f"{file}: there is no such file; plateau sweep collect makes it")
     try:
         table, data = read_table(csv), xarray.load_dataset(hdf5, engine="h5netcdf", driver_kwds=locking(hdf5))
         # In CSV, words such as nan and 007 look like numbers, and =1+1 has an apostrophe before it.

@@ -22,25 +22,14 @@ from plateau.toml_text import toml_document
 OF_DESIGNS = {"resolution", "generators", "points", "trajectories", "levels", "alpha", "centre_points", "seed", "fit"}
 
 
-def make_runs(
-    study: Study,
-    points: pandas.DataFrame,
-    *,
-    jobs: int | None = None,
-    workers: int | None = None,
-    retry: bool = False,
-    progress: bool | None = None,
-) -> pandas.DataFrame:
-    """Makes runs at points of a study that was opened by its file, each with all its seeds.
+def made_study(
+    study: Study, points: pandas.DataFrame, *, progress: bool | None = None, retry: bool = False, **options: int | None
+) -> Study:
+    """Makes runs at points of a study that was opened by its file, each with all its seeds, and opens them as a study of their own.
 
-    `points` have a column for each factor, SI units or words. With `retry`, runs are made again that failed, or did not keep a series.
-    Gives rows as ``study.runs``, of which ``point`` is the row of the points, from 1; NaN of runs that failed.
+    `points` have a column for each factor, SI units or words; ``point`` of the runs is their row, from 1. With `retry`, runs are made again
+    that failed, or did not keep a series. Runs that failed have NaN; `options` are those of ``plateau.sweep``, as `jobs` and `workers`.
     """
-    return made_study(study, points, progress, retry, jobs=jobs, workers=workers).runs
-
-
-def made_study(study: Study, points: pandas.DataFrame, progress: bool | None, retry: bool, **options: int | None) -> Study:
-    """Makes runs as `make_runs` does, and opens them as a study of their own, with their series."""
     if study.path is None or "base" not in study.document:
         why = "it was opened without its study file" if study.path is None else "it has no base scene"
         raise InputError(f"{study.title}: no runs can be made, because {why}; give the study file of a study with a base scene")

@@ -6,6 +6,7 @@ import tomllib
 import warnings
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from html import escape
 from pathlib import Path
 from typing import Any
 
@@ -13,15 +14,16 @@ import numpy as np
 import pandas
 from scipy import stats
 
+from plateau import html_page
 from plateau.errors import InputError, PlateauWarning
+from plateau.output_folder import plain
 from plateau.program import call, file_name
 from plateau.quantities import series_of
 from plateau.study.data import Numbers, Response, Study
-from plateau.output_folder import plain
 from plateau.study.runs import finished
 from plateau.study.text_tables import listed
+from plateau.style import NARROW, QUIET, Figures, in_style, labelled, look, new, wrapped
 from plateau.toml_text import toml_document, toml_of
-from plateau.style import DASHES, LINES, NARROW, QUIET, Figures, in_style, labelled, new, wrapped
 from plateau.units import unit_for, unit_of, with_minus
 
 # What is compared unless asked otherwise: name, dataset with question, table of the scene without which there is no such series.
@@ -37,6 +39,10 @@ USUAL = [
     ("temperature of the contact", "contact_temperature:mean", "thermal"),
     ("PM10", "pm10_mass:end", "emission"),
 ]
+NOTE = (
+    "Differences are means over pairs of runs with the same seed, with t intervals ({level}); with more than two scenes, intervals and "
+    "sureness hold for all differences of a response together (Bonferroni). Sure at: 1 − p/2, how sure the sign is."
+)
 SURFACES = [("disc", "surface"), ("pin", "base"), ("pin", "surface")]
 
 
@@ -99,8 +105,8 @@ class Comparison:
 
     def text(self) -> str:
         """What ``plateau compare`` prints."""
-        table = listed(self.shown().astype(str).to_dict("records"))
-        return with_minus("\n".join([self.title, *table, *(f"  {words}" for words in self.said()), ""]))
+        lines = listed(self.shown().astype(str).to_dict("records"))
+        return with_minus("\n".join([self.title, *lines, *(f"  {words}" for words in self.said()), ""]))
 
     def document(self) -> dict[str, Any]:
         """The JSON of ``plateau compare --json``; None where there is no number."""
@@ -112,6 +118,13 @@ class Comparison:
     def figures(self) -> dict[str, Any]:
         """Draws each series against time, and the differences."""
         return comparison_figures(self)
+
+    def page(self, figures: Mapping[str, Any], files: Mapping[str, bytes]) -> str:
+        """The page of ``plateau compare`` with figures and their files."""
+        scenes = html_page.table(["scene", "file"], list(map(list, self.scenes.items())), "words")
+        shown, note = self.shown(), f'<p class="quiet">{escape(NOTE.format(level=f"{100 * self.confidence:g} %"))}</p>'
+        numbers, drawings = html_page.table(list(shown), shown.to_numpy().tolist()), html_page.pictures(figures, files)
+        return html_page.page(self.title, scenes, html_page.listed(self.said()), numbers, note, drawings)
 
 
 def compare(
@@ -161,8 +174,8 @@ def compare(
         # They are given when the scenes are run.
         warnings.simplefilter("ignore", PlateauWarning)
         resolved = [tomllib.loads(call(["check", file, *flags])["scene"]) for file in files]
-    usual = [(name, asked) for name, asked, table in USUAL if not table or all(table in scene for scene in resolved)]
-    tables = [response_of(name, asked) for name, asked in ([("", asked) for asked in responses] or usual)]
+    usual = [(name, asked) for name, asked, needs in USUAL if not needs or all(needs in scene for scene in resolved)]
+    tables = [_response(name, asked) for name, asked in ([("", asked) for asked in responses] or usual)]
     directory, made, cautions = Path(output), {}, []
     for name, file, scene in zip(names, files, resolved, strict=True):
         keys = _seed_keys(scene)
@@ -213,10 +226,9 @@ def _compared(
                 cautions.append(f"{scene}: {name} has a value in {len(pair)} of {len(most)} pairs of runs{late}")
             found = difference(pair[0], pair[1], confidence, len(others))
             rows.append({**common, "scene": scene, **found, "words": _words(f"{scene}: {name}", response.unit, found, confidence)})
-    table = pandas.concat(runs, names=["scene"])[[one.name for one in asked]].reset_index()
-    return Comparison(
-        pandas.DataFrame(rows), pandas.DataFrame(means), table, _curves(made, asked, confidence), scenes, confidence, cautions, directory
-    )
+    every = pandas.concat(runs, names=["scene"])[[one.name for one in asked]].reset_index()
+    curves = _curves(made, asked, confidence)
+    return Comparison(pandas.DataFrame(rows), pandas.DataFrame(means), every, curves, scenes, confidence, cautions, directory)
 
 
 def difference(reference: Any, other: Any, confidence: float = 0.95, comparisons: int = 1) -> dict[str, float]:
@@ -233,11 +245,13 @@ def _mean(values: Numbers, confidence: float, comparisons: int) -> tuple[float, 
     """Mean, ends of its interval, p."""
     if len(values) < 2:
         return (float(values[0]) if len(values) else np.nan), np.nan, np.nan, np.nan
-    mean, error, freedom = float(values.mean()), float(stats.sem(values)), len(values) - 1
-    if error == 0.0:
+    mean = float(values.mean())
+    # What differs by rounding alone is the same.
+    if np.ptp(values) <= 1e-14 * np.abs(values).max():
         return mean, mean, mean, float(mean == 0.0)
-    half = error * float(stats.t.isf((1.0 - confidence) / comparisons / 2.0, freedom))
-    return mean, mean - half, mean + half, min(1.0, comparisons * 2.0 * float(stats.t.sf(abs(mean) / error, freedom)))
+    test = stats.ttest_1samp(values, 0.0)
+    low, high = test.confidence_interval(1.0 - (1.0 - confidence) / comparisons)
+    return mean, float(low), float(high), min(1.0, comparisons * float(test.pvalue))
 
 
 def _words(of: str, si: str, found: dict[str, float], confidence: float) -> str:
@@ -332,13 +346,13 @@ def comparison_figures(found: Comparison) -> Figures:
         figure, axes = new(NARROW, 92, caption, 2, 1, note, sharex=True, height_ratios=[2, 1])
         top, below = axes[:, 0]
         for number, (scene, curve) in enumerate(curves.groupby("scene", sort=False)):
-            colour, dashes = LINES[number % len(LINES)], DASHES[number % len(DASHES)]
-            time, band = of_time.value(curve["time"]), {"color": colour, "alpha": 0.18, "linewidth": 0}
+            style, time = look(number), of_time.value(curve["time"])
+            band = {"color": style["color"], "alpha": 0.18, "linewidth": 0}
             middle, half = unit.value(curve["mean"].to_numpy()), unit.per_si * curve["deviation"].fillna(0.0).to_numpy()
             change, low, high = (unit.per_si * curve[end].to_numpy() for end in ("difference", "low", "high"))
-            top.plot(time, middle, color=colour, linestyle=dashes, label=wrapped(str(scene), 30))
+            top.plot(time, middle, label=wrapped(str(scene), 30), **style)
             top.fill_between(time, middle - half, middle + half, **band)
-            below.plot(time, change, color=colour, linestyle=dashes)
+            below.plot(time, change, **style)
             below.fill_between(time, low, high, **band)
         # Titles of series are longer than the axis.
         top.set_title(wrapped(name, 46), loc="left")

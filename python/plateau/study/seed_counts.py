@@ -4,7 +4,6 @@ import os
 import warnings
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import Any
 
 import numpy as np
 import pandas
@@ -13,7 +12,8 @@ from scipy import stats
 from plateau.errors import InputError, PlateauWarning
 from plateau.study.analysis import Effects, effects
 from plateau.study.data import Numbers, Study
-from plateau.units import quantity, with_minus
+from plateau.study.text_tables import listed
+from plateau.units import quantity, unit_of, with_digits
 
 # Beyond this nobody runs them.
 MOST_SETS = 100_000
@@ -40,7 +40,6 @@ class SeedsNeeded:
 
     Attributes
     ----------
-    study : Study
     table : pandas.DataFrame
         A row for each effect: ``response``, ``term``, ``effect``, ``scatter`` (its standard deviation between the sets of the pilot),
         ``half_width`` (the wanted one), ``unit``, ``sets``, and ``sets_safe``, which are enough with 90 % probability although the pilot
@@ -50,15 +49,16 @@ class SeedsNeeded:
     study: Study
     table: pandas.DataFrame
 
-    def document(self) -> dict[str, Any]:
-        """The table for JSON."""
-        table = self.table.replace([np.inf, -np.inf], np.nan)
-        return {"study": self.study.title, "sets": table.astype(object).where(table.notna(), None).to_dict("records")}
-
     def text(self) -> str:
         """The table for people."""
-        pilot = f"{self.study.title}: sets of seeds needed, from the scatter between the {self.study.seeds} of the pilot\n"
-        return pilot + with_minus(self.table.to_string(index=False, float_format=lambda value: f"{value:.4g}")) + "\n"
+        lines, cells = [f"{self.study.title}: sets of seeds needed, from the scatter between the {self.study.seeds} of the pilot"], []
+        for row in self.table.to_dict("records"):
+            unit = unit_of(row["unit"], self.table.loc[self.table["response"] == row["response"], "effect"])
+            names = {"effect": row["effect"], "scatter": row["scatter"], "half width": row["half_width"]}
+            numbers = {name: f"{with_digits(unit.per_si * value)} {unit.of_differences}".strip() for name, value in names.items()}
+            sets = {"sets": f"{row['sets']:.0f}", "safe": f"{row['sets_safe']:.0f}"}
+            cells.append({"response": row["response"], "term": row["term"], **numbers, **sets})
+        return "\n".join([*lines, *listed(cells), ""])
 
 
 def seeds_needed(
@@ -97,7 +97,7 @@ def seeds_needed(
         if isinstance(asked, int | float) and row["unit"] != "1":
             bare[row["response"]] = f'{row["response"]}: half_width = {asked:g} is taken in {row["unit"]}; give text with a unit'
         try:
-            wanted = quantity(asked, row["unit"], needs_unit=False) if isinstance(asked, str) else abs(row["effect"]) if asked is None else float(asked)
+            wanted = abs(row["effect"]) if asked is None else quantity(asked, row["unit"], needs_unit=row["unit"] != "1")
         except InputError as error:
             raise InputError(f'{row["response"]}: {error}; give each response its own, such as {{"contact area": "0.02 mm2"}}') from None
         scatter = row["standard_error"] * np.sqrt(pilot)

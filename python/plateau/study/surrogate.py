@@ -7,7 +7,7 @@ import numpy as np
 import pandas
 
 from plateau.errors import InputError
-from plateau.study.data import Numbers, Response, Study
+from plateau.study.data import Factor, Numbers, Response, Study
 from plateau.study.model import Fitted, NothingToFit
 from plateau.study.model_choice import cautions, fitted
 from plateau.study.process import Process
@@ -50,7 +50,7 @@ class Surrogate:
     def _loo_errors(self) -> list[float]:
         process = np.nan
         if self.process is not None:
-            means, error = self.process.means, self.process.loo()[0]
+            means, error = self.process.means, self.process.loo[0]
             process = float(np.sqrt(np.square(self.response.back(means) - self.response.back(means - error)).mean()))
         return [self.fit.loo_error if self.fit else np.nan, process]
 
@@ -99,7 +99,7 @@ class Surrogate:
 
     def rows(self, points: pandas.DataFrame) -> Numbers:
         """Places for the process: coded numbers, and indicators of words."""
-        return np.column_stack([column for factor in self.study.factors for column in _columns(self.study, factor.name, points)])
+        return np.column_stack([column for factor in self.study.factors for column in _columns(self.study, factor, points)])
 
     def mean(self, points: pandas.DataFrame) -> Numbers:
         """Expected responses at points (a column for each factor, SI units or words), on the scale of the fit."""
@@ -135,15 +135,14 @@ class Surrogate:
         return pandas.DataFrame(self.response.back(found), columns=names, index=points.index).assign(leverage=leverage)
 
 
-def _columns(study: Study, name: str, points: pandas.DataFrame) -> list[Numbers]:
+def _columns(study: Study, factor: Factor, points: pandas.DataFrame) -> list[Numbers]:
     """Columns of a factor for a process."""
-    factor = next(factor for factor in study.factors if factor.name == name)
     if factor.is_number:
-        return [factor.coded(points[name].to_numpy(float))]
-    seen = [level for level in factor.levels if level in set(study.runs[name])]
-    if unknown := set(points[name]) - set(seen):
-        raise InputError(f"factor `{name}` has no observation at {unknown.pop()}; there are {', '.join(map(str, seen))}")
-    indicators = [(points[name] == level).to_numpy(float) for level in seen]
+        return [factor.coded(points[factor.name].to_numpy(float))]
+    seen = [level for level in factor.levels if level in set(study.runs[factor.name])]
+    if unknown := set(points[factor.name]) - set(seen):
+        raise InputError(f"factor `{factor.name}` has no observation at {unknown.pop()}; there are {', '.join(map(str, seen))}")
+    indicators = [(points[factor.name] == level).to_numpy(float) for level in seen]
     return indicators if len(seen) > 2 else indicators[1:] or indicators
 
 
@@ -169,7 +168,7 @@ def _surrogate(study: Study, response: Response, model: str | None, terms: str, 
         return Surrogate(study, response, None, None, False, str(error))
     process = None
     if model is None and may_be_process and 3 <= fit.point_count <= MOST_POINTS:
-        columns = [_columns(study, factor.name, fit.runs) for factor in study.factors]
+        columns = [_columns(study, factor, fit.runs) for factor in study.factors]
         axes = [at for at, own in enumerate(columns) for _ in own]
         process = Process(np.column_stack([column for own in columns for column in own]), fit.values, fit.runs["replicate"], axes)
     both = Surrogate(study, response, fit, process, False)

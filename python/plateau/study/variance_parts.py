@@ -1,8 +1,8 @@
 """Sensitivity: which part of a response's variance each factor has, over the whole of all ranges.
 
 Sobol's indices of functions that may be true: of drawn coefficients or drawn processes, so that intervals carry what the surrogate does not
-know. I. M. Sobol', Math. Comput. Simul. 55, 271-280 (2001); estimators: first order of A. Saltelli et al., Comput. Phys. Commun. 181, 259-270
-(2010), total of M. J. W. Jansen, ibid. 117, 35-43 (1999); drawn processes: A. G. Journel, C. J. Huijbregts, Mining Geostatistics (1978),
+know. I. M. Sobol', Math. Comput. Simul. 55, 271-280 (2001); estimators of A. Saltelli et al., Comput. Phys. Commun. 181, 259-270 (2010), and of M.
+J. W. Jansen, ibid. 117, 35-43 (1999), in SciPy; drawn processes: A. G. Journel, C. J. Huijbregts, Mining Geostatistics (1978),
 VII. Elementary effects of Morris designs: M. D. Morris, Technometrics 33, 161-174 (1991); F. Campolongo et al., Environ. Model. Softw. 22,
 1509-1518 (2007).
 """
@@ -17,11 +17,11 @@ import pandas
 from scipy import stats
 
 from plateau.errors import PlateauWarning
+from plateau.output_folder import plain
 from plateau.study.analysis import together, usable
 from plateau.study.data import Numbers, Response, Study
 from plateau.study.figure_axes import file_names
 from plateau.study.model import Fitted
-from plateau.output_folder import plain
 from plateau.study.process import Process
 from plateau.study.results import analysed
 from plateau.study.surrogate import Surrogate, surrogates
@@ -32,6 +32,9 @@ from plateau.units import unit_of, with_digits, with_minus
 # Places of the sample, functions that are drawn, and cosines of each.
 ROWS, FUNCTIONS, COSINES = 1024, 100, 200
 SEEDS = "seeds"
+# Columns as they are told.
+EFFECTS = {"mean_size": "mean size μ*", "standard_error": "its error", "mean": "mean", "deviation": "deviation σ"}
+PARTS = {"first_order": "alone (first order)", "total": "with interactions (total)"}
 # Part of the variance that a surrogate may miss at points left out before its smoothness is said to matter.
 MISSED = 0.1
 
@@ -42,16 +45,12 @@ class Sensitivity:
 
     Attributes
     ----------
-    study : Study
     table : pandas.DataFrame
         A row for each response and factor. Of indices ``first_order`` and ``total`` with ends ``_low`` and ``_high``, parts from 0 to 1, with
         a row `seeds` for the part that seeds have in the variance of single runs. Of Morris designs ``mean_size``, ``mean``, ``deviation``,
         ``standard_error`` and ``effects`` (their number), per whole range in ``unit``.
-    surrogates : list of Surrogate
     variances : dict of float
         Variance of what is expected of each response over all ranges, SI.
-    confidence : float
-    cautions : list of str
     """
 
     study: Study
@@ -73,10 +72,10 @@ class Sensitivity:
             response, rows = surrogate.response, self.table[self.table["response"] == surrogate.response.name]
             indices, effects, seeds = [], [], None
             for row in plain(rows.to_dict("records")):
-                parts = {
-                    name: {"value": row[name], "interval": _pair(row[f"{name}_low"], row[f"{name}_high"])}
-                    for name in ("first_order", "total")
-                }
+                parts = {}
+                for name in ("first_order", "total"):
+                    ends = [row[f"{name}_low"], row[f"{name}_high"]]
+                    parts[name] = {"value": row[name], "interval": None if None in ends else ends}
                 if self.is_morris:
                     effects.append({name: row[name] for name in ["factor", "mean_size", "mean", "deviation", "standard_error", "effects"]})
                 elif row["factor"] == SEEDS:
@@ -89,34 +88,35 @@ class Sensitivity:
             responses.append(report)
         return {"study": self.study.title, "responses": responses, "cautions": self.cautions, "files": files or []}
 
+    def ranked(self, response: str) -> pandas.DataFrame:
+        """The rows of a response, the largest part or effect first and the seeds last."""
+        rows = self.table[self.table["response"] == response]
+        is_seeds = rows["factor"] == SEEDS
+        largest_first = rows[~is_seeds].sort_values("mean_size" if self.is_morris else "total", ascending=False, kind="stable")
+        return pandas.concat([largest_first, rows[is_seeds]])
+
     def text(self) -> str:
         """What ``plateau sweep sensitivity`` prints."""
         lines = []
         for surrogate in self.surrogates:
-            response, rows = surrogate.response, self.table[self.table["response"] == surrogate.response.name]
-            if surrogate.error or rows.empty:
+            response, rows = surrogate.response, self.ranked(surrogate.response.name).to_dict("records")
+            if surrogate.error or not rows:
                 lines += [response.name, f"  {surrogate.error or 'the surrogate has the same value everywhere: no factor has a part'}", ""]
                 continue
-            unit = unit_of(response.unit, self.study.runs[response.name])
-            is_seeds = rows["factor"] == SEEDS
-            rows = pandas.concat([rows[~is_seeds].sort_values("mean_size" if self.is_morris else "total", ascending=False), rows[is_seeds]])
-            if self.is_morris:
-                lines.append(f"{', '.join(filter(None, [response.name, unit.symbol]))}: elementary effects per whole range")
-                names = {"mean_size": "mean size μ*", "standard_error": "its error", "mean": "mean", "deviation": "deviation σ"}
-                error = rows["standard_error"].to_numpy() * unit.per_si
-                cells = {
-                    said: [with_digits(v * unit.per_si, e) for v, e in zip(rows[name], error, strict=True)] for name, said in names.items()
-                }
-                shown = pandas.DataFrame({"factor": rows["factor"], **cells, "effects": rows["effects"]})
-            else:
+            unit, cells = unit_of(response.unit, self.study.runs[response.name]), [{"factor": row["factor"]} for row in rows]
+            for cell, row in zip(cells, rows, strict=True):
+                if self.is_morris:
+                    error = row["standard_error"] * unit.per_si
+                    cell |= {said: with_digits(row[name] * unit.per_si, error) for name, said in EFFECTS.items()}
+                    cell["effects"] = str(row["effects"])
+                else:
+                    cell |= {said: _part(row, name) for name, said in PARTS.items()}
+                    cell["factor"] += " (of single runs)" if row["factor"] == SEEDS else ""
+            said = [f"{', '.join(filter(None, [response.name, unit.symbol]))}: elementary effects per whole range"]
+            if not self.is_morris:
                 of = f"intervals of {100 * self.confidence:g} % are for what the runs leave open of the function"
-                lines += [f"{response.name}: parts of the variance", f"  of the {surrogate.words}; {surrogate.reason}", f"  {of}"]
-                heads = {"first_order": "alone (first order)", "total": "with interactions (total)"}
-                shown = pandas.DataFrame(
-                    {"factor": rows["factor"], **{said: [_part(row, name) for _, row in rows.iterrows()] for name, said in heads.items()}}
-                )
-                shown["factor"] = shown["factor"].where(shown["factor"] != SEEDS, "seeds (of single runs)")
-            lines += [*listed(shown.astype(str).to_dict("records")), ""]
+                said = [f"{response.name}: parts of the variance", f"  of the {surrogate.words}; {surrogate.reason}", f"  {of}"]
+            lines += [*said, *listed(cells), ""]
         return with_minus("\n".join([*lines, *(f"caution: {caution}" for caution in self.cautions), ""]))
 
     def figures(self) -> Any:
@@ -175,19 +175,6 @@ def sensitivity(study: Study | str | os.PathLike[str], confidence: float = 0.95)
     return Sensitivity(opened, whole.reindex(columns=columns), known, variances, confidence, cautions)
 
 
-def sobol(a: Numbers, b: Numbers, mixed: Numbers) -> tuple[Numbers, Numbers, Numbers]:
-    """Indices of first order and total, and variances, of functions from their values at two samples, and at the first with one factor of
-    the second: shapes (functions, rows) and (functions, factors, rows).
-    """
-    both = np.concatenate([a, b], axis=-1)
-    centre = np.concatenate([both, mixed.reshape(len(mixed), -1)], axis=-1).mean(-1)[:, None, None]
-    variance = both.var(-1)
-    with np.errstate(invalid="ignore", divide="ignore"):
-        first = ((b[:, None] - centre) * (mixed - a[:, None])).mean(-1) / variance[:, None]
-        total = ((mixed - a[:, None]) ** 2).mean(-1) / (2.0 * variance[:, None])
-    return first, total, variance
-
-
 def _indices(study: Study, one: Surrogate, confidence: float) -> tuple[pandas.DataFrame, float]:
     """Indices of what may be true of a response, and the variance of what is expected."""
     count, names = len(study.factors), [factor.name for factor in study.factors]
@@ -199,11 +186,13 @@ def _indices(study: Study, one: Surrogate, confidence: float) -> tuple[pandas.Da
     places = pandas.concat([a, b, *(a.assign(**{name: b[name]}) for name in names)], ignore_index=True)
     drawn = _drawn(one, places)
     values = one.response.back(drawn).reshape(-1, count + 2, ROWS)
-    first, total, variance = sobol(values[:, 0], values[:, 1], values[:, 2:])
-    tail = 50.0 * (1.0 - confidence)
+    variance, tail = values[:, :2].reshape(len(values), -1).var(axis=1), 50.0 * (1.0 - confidence)
+    found = stats.sobol_indices(func={"f_A": values[:, 0], "f_B": values[:, 1], "f_AB": values[:, 2:].swapaxes(0, 1)}, n=ROWS)
     rows: dict[str, Numbers] = {}
-    for name, found in (("first_order", first), ("total", total)):
-        low, middle, high = np.nanpercentile(found, [tail, 50.0, 100.0 - tail], axis=0)
+    for name, indices in (("first_order", found.first_order), ("total", found.total_order)):
+        # What is the same everywhere has no parts.
+        parts = np.where(variance[:, None] > 0.0, indices.reshape(-1, count), np.nan)
+        low, middle, high = np.nanpercentile(parts, [tail, 50.0, 100.0 - tail], axis=0)
         rows |= {name: middle, f"{name}_low": low, f"{name}_high": high}
     table = pandas.DataFrame({"factor": names, **rows})
     if len(drawn) == 1:
@@ -221,9 +210,7 @@ def _indices(study: Study, one: Surrogate, confidence: float) -> tuple[pandas.Da
 
 def _values(factor: Any, even: Numbers) -> Any:
     """Values of a factor, even over its range or its levels."""
-    if factor.is_range:
-        return factor.value(2.0 * even - 1.0)
-    return np.array(factor.levels)[(even * len(factor.levels)).astype(int)]
+    return factor.value(2.0 * even - 1.0) if factor.is_range else np.array(factor.levels)[(even * len(factor.levels)).astype(int)]
 
 
 def _drawn(one: Surrogate, places: pandas.DataFrame) -> Numbers:
@@ -301,11 +288,8 @@ def _part(row: pandas.Series, name: str) -> str:
     value, low, high = (float(np.clip(row[each], 0.0, 1.0)) for each in (name, f"{name}_low", f"{name}_high"))
     if np.isnan(low):
         return "" if np.isnan(value) else f"{value:.2f}"
-    return f"{value:.2f} ({low:.2f} … {high:.2f})"
-
-
-def _pair(low: float | None, high: float | None) -> list[float] | None:
-    return None if low is None or high is None else [low, high]
+    shown = [with_digits(each, max((high - low) / 2.0, 0.01)) for each in (value, low, high)]
+    return f"{shown[0]} ({shown[1]} … {shown[2]})"
 
 
 @in_style
@@ -315,7 +299,7 @@ def sensitivity_figures(found: Sensitivity) -> Figures:
     draws, kind = (_drawn_elementary, "elementary-effects") if found.is_morris else (_drawn_indices, "indices")
     names = [surrogate.response.name for surrogate in found.surrogates]
     for surrogate, stem in zip(found.surrogates, file_names(names), strict=True):
-        table = found.table[found.table["response"] == surrogate.response.name]
+        table = found.ranked(surrogate.response.name)
         if not surrogate.error and len(table):
             figures[f"{stem}-{kind}"] = draws(found, surrogate.response, table)
     return figures
@@ -324,21 +308,14 @@ def sensitivity_figures(found: Sensitivity) -> Figures:
 def _drawn_indices(found: Sensitivity, response: Response, table: pandas.DataFrame) -> Any:
     """Parts alone and with interactions, with their intervals, the largest on top and the seeds below."""
     level = f"{100 * found.confidence:g} %"
-    is_seeds = (table["factor"] == "seeds") & table["first_order"].isna()
-    table = pandas.concat([table[~is_seeds].sort_values("total", ascending=False, kind="stable"), table[is_seeds]])
-    note = f"Bars: {level} intervals of what the runs leave open" + (
-        "; seeds: part of the variance of single runs" if is_seeds.any() else ""
-    )
+    of_seeds = "; seeds: part of the variance of single runs" if SEEDS in set(table["factor"]) else ""
+    note = f"Bars: {level} intervals of what the runs leave open{of_seeds}"
     figure, axes = new(NARROW, 30 + 7 * len(table), f"{response.name}: parts of the variance, with {level} intervals", note=note)
     axis, places = axes[0, 0], np.arange(len(table))
-    for kind, label, aside, colour, mark in (
-        ("first_order", "alone (first order)", -0.15, LINES[0], "o"),
-        ("total", "with interactions (total)", 0.15, LINES[1], "s"),
-    ):
+    for (kind, label), aside, colour, mark in zip(PARTS.items(), (-0.15, 0.15), LINES[:2], "os", strict=True):
         middle, low, high = (np.clip(table[f"{kind}{end}"].to_numpy(float), 0.0, 1.0) for end in ("", "_low", "_high"))
-        axis.errorbar(
-            middle, places + aside, xerr=[middle - low, high - middle], fmt=mark, color=colour, elinewidth=1.4, capsize=2, label=label
-        )
+        bars = {"xerr": [middle - low, high - middle], "elinewidth": 1.4, "capsize": 2}
+        axis.errorbar(middle, places + aside, fmt=mark, color=colour, label=label, **bars)
     axis.set(xlabel=labelled(f"part of the variance of {response.name}", ""), xlim=(-0.02, 1.02))
     axis.set_yticks(places, [wrapped(str(name)) for name in table["factor"]])
     axis.invert_yaxis()

@@ -16,11 +16,6 @@ if TYPE_CHECKING:
     from plateau.study.data import Study
 
 MODELS = ("main", "interactions", "full", "quadratic")
-# Columns of effects.csv that come first, as ever.
-EFFECTS = (
-    "response term degrees_of_freedom sum_of_squares mean_square f p share variance_inflation effect coefficient standard_error t low high"
-)
-EFFECTS += " margin_of_error simultaneous_margin_of_error aliased_with"
 
 
 def add(words: Words) -> None:
@@ -167,15 +162,13 @@ def _inputs(study: "Study", *others: Path | None) -> tuple[Path, ...]:
 def _effects(given: argparse.Namespace) -> str:
     from plateau.study.analysis import effects
     from plateau.style import saved
-    from plateau.study.page import effects_page
 
     study, folder, _ = _opened(given, "effects")
     found = effects(study, **options(given, "model", "terms", "confidence"))
-    figures, table = found.figures(), found.table
+    figures = found.figures()
     drawn = saved(figures)
-    columns = [*EFFECTS.split(), *(name for name in table if name not in EFFECTS.split() and name != "factors")]
-    files = {"effects.csv": csv_of(table.reindex(columns=columns)), "residuals.csv": csv_of(found.residuals)}
-    files |= {"effects.html": effects_page(found, figures, drawn).encode(), **drawn}
+    files = {"effects.csv": csv_of(found.table.drop(columns="factors")), "residuals.csv": csv_of(found.residuals)}
+    files |= {"effects.html": found.page(figures, drawn).encode(), **drawn}
     return _told(given, found, folder, write(folder, files, force=given.force, inputs=_inputs(study)), study.title)
 
 
@@ -199,8 +192,8 @@ def _predict(given: argparse.Namespace) -> str:
 
 
 def _optimize(given: argparse.Namespace) -> str:
-    from plateau.style import saved
     from plateau.study.optimum import optimize
+    from plateau.style import saved
 
     study, folder, _ = _opened(given, "optimum")
     asked = options(given, "maximize", "minimize", "target", "limit", "limit_on", "hold", "importance", "model", "terms", "confidence")
@@ -215,8 +208,8 @@ def _optimize(given: argparse.Namespace) -> str:
 
 
 def _sensitivity(given: argparse.Namespace) -> str:
-    from plateau.style import saved
     from plateau.study.variance_parts import sensitivity
+    from plateau.style import saved
 
     study, folder, _ = _opened(given, "sensitivity")
     found = sensitivity(study, confidence=given.confidence)
@@ -245,9 +238,8 @@ def _fit(given: argparse.Namespace) -> str:
 
 
 def _compare(given: argparse.Namespace) -> str:
-    from plateau.style import saved
-    from plateau.study.page import comparison_page
     from plateau.study.scene_comparison import compare
+    from plateau.style import saved
 
     folder = given.output or Path("comparison")
     of = "compare " + ", ".join(relative(scene, folder) for scene in given.scenes)
@@ -256,6 +248,6 @@ def _compare(given: argparse.Namespace) -> str:
     found = compare(given.scenes, given.seeds, responses=given.response, output=folder, **asked, progress=progress(given))
     figures = found.figures()
     drawn = saved(figures)
-    files = {"comparison.html": comparison_page(found, figures, drawn).encode(), "comparison.csv": csv_of(found.table)}
+    files = {"comparison.html": found.page(figures, drawn).encode(), "comparison.csv": csv_of(found.table)}
     files |= {"means.csv": csv_of(found.means), "runs.csv": csv_of(found.runs), "curves.csv": csv_of(found.curves), **drawn}
     return _told(given, found, folder, write(folder, files, of=of, force=given.force, inputs=tuple(given.scenes)))

@@ -26,50 +26,6 @@ fn pictures_have_the_format_of_their_ending_and_a_page_each() {
 }
 
 #[test]
-fn the_data_of_figures_are_those_that_are_told() {
-    let directory = WorkingDirectory::new();
-    let scene = plateau_tests::program::scene("micrograph.toml");
-    directory.write("data/empty", "");
-    let made = ["surface", &scene_of_a_run(&directory), "--prepare", &scene];
-    directory.plateau([&made[..], &["--figure-data", "data"]].concat());
-    let told = directory.plateau(["surface", "run.h5", "--prepare", &scene, "--json"]).quiet_success();
-    let told: serde_json::Value = serde_json::from_str(&told).unwrap();
-    let data = fs::read_to_string(directory.path("data/surfaces.json")).unwrap();
-    let data: serde_json::Value = serde_json::from_str(&data).unwrap();
-    let drawn: Vec<_> = data.as_array().unwrap().iter().filter(|one| !is_patch(one)).collect();
-    assert_eq!(drawn.len(), told.as_array().unwrap().len());
-    for (drawn, told) in drawn.iter().zip(told.as_array().unwrap()) {
-        for name in ["columns", "rows", "points", "measured", "pitch", "Sq", "Sk", "Sal"] {
-            assert_eq!(drawn[name], told[name], "{name}");
-        }
-        // The heights as they are drawn, line by line, have the root mean square that is told.
-        let heights = heights(&directory.path(&format!("data/{}", drawn["heights"].as_str().unwrap())));
-        let there: Vec<f64> = heights.into_iter().filter(|height| height.is_finite()).collect();
-        let mean = there.iter().sum::<f64>() / there.len() as f64;
-        let square = there.iter().map(|height| (height - mean).powi(2)).sum::<f64>() / there.len() as f64;
-        assert!((1e6 * square.sqrt() / told["Sq"].as_f64().unwrap() - 1.0).abs() < 1e-9);
-    }
-}
-
-/// A run of one second.
-fn scene_of_a_run(directory: &WorkingDirectory) -> String {
-    let quick = plateau_tests::program::scene("quick.toml");
-    directory.plateau(["run", &quick, "-o", "run.h5", "--set", "operation.duration=1 s"]).quiet_success();
-    "run.h5".to_owned()
-}
-
-fn is_patch(surface: &serde_json::Value) -> bool {
-    surface["title"].as_str().is_some_and(|title| title.ends_with(" patch"))
-}
-
-/// The numbers of an .npy file.
-fn heights(path: &std::path::Path) -> Vec<f64> {
-    let bytes = fs::read(path).unwrap();
-    let start = 10 + usize::from(u16::from_le_bytes([bytes[8], bytes[9]]));
-    bytes[start..].chunks_exact(8).map(|number| f64::from_le_bytes(number.try_into().unwrap())).collect()
-}
-
-#[test]
 fn no_page_takes_the_place_of_an_input_or_of_another_output() {
     let directory = WorkingDirectory::new();
     let scene = plateau_tests::program::scene("micrograph.toml");

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, Subcommand};
 
-use super::run::{CoresArguments, HandedArguments};
+use crate::arguments::{CoresArguments, HandedArguments};
 
 /// What to do with a study.
 #[derive(Debug, Subcommand)]

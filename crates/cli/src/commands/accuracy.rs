@@ -3,25 +3,26 @@
 use std::fs;
 use std::path::PathBuf;
 
+use plateau_core::model::parameters::Integrator;
 use plateau_io::dataset_file::now;
+use plateau_io::number::{self, percent};
+use plateau_io::run_file::InputFile;
 use plateau_io::scene::Scene;
 use plateau_io::surface::{self, Loaded};
 use plateau_run::accuracy::{
-    AccuracyError, Base, COMPARED, Found, Ladder, PlanError, ReadReference, Wish, measure, read_reference,
+    AccuracyError, Advice, Base, COMPARED, Found, Ladder, Measured, OwnError, PlanError, ReadReference, Report, Row,
+    Wish, measure, read_reference,
 };
-use plateau_run::execution::decide;
+use plateau_run::execution::{self, decide};
 use plateau_run::{input_files, signal_in_words};
+use serde_json::{Map, Value, json};
 
-use crate::accuracy::{Making, csv, json, text};
 use crate::arguments::AccuracyArguments;
+use crate::commands::run::{load_scene, sets};
 use crate::failure::Failure;
-use crate::hand_over;
-use crate::message;
-use crate::output;
-use crate::scene::{load_scene, sets};
-use crate::table::print;
+use crate::output::{columns, csv_table, list, print, table};
 use crate::terminal::{Messages, Terminal};
-use crate::version;
+use crate::{hand_over, message, output, program};
 
 /// Ladders unless others are asked for.
 const USUAL: [Ladder; 3] = [Ladder::TimeAcceleration, Ladder::Mesh, Ladder::Tolerance];
@@ -77,7 +78,7 @@ fn measure_into(
         tolerance: arguments.tolerance,
         budget: arguments.budget,
         reference,
-        program: version::this(),
+        program: program::this(),
     };
     let mut terminal = Terminal::listen(true).map_err(Failure::run)?;
     let Found { report, stopped } = measure(wish, &loaded.surfaces, execution, &mut terminal).map_err(failure)?;
@@ -139,5 +140,250 @@ fn failure(error: AccuracyError) -> Failure {
         AccuracyError::Run(error) => Failure::of(error),
         AccuracyError::Stopped { signal, .. } => Failure::Stopped { signal, message: Some(error.to_string()) },
         AccuracyError::Failed { .. } => Failure::run(error),
+    }
+}
+
+/// Reference, errors, advice and notes.
+fn text(report: &Report) -> String {
+    let notes = notes(report);
+    let parts = [
+        reference(report),
+        errors(report),
+        list("Advice", &[advice(report)]),
+        if notes.is_empty() { String::new() } else { list("Notes", &notes) },
+    ];
+    parts.into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join("\n")
+}
+
+fn reference(report: &Report) -> String {
+    let (reference, made) = (&report.reference, &report.reference.provenance);
+    let source = made.file.as_ref().map_or("run here".to_owned(), |file| file.path.clone());
+    // A run that had not ended when it became a reference tells no time.
+    let wall_time = reference.outcome.wall_time.map_or("not recorded,".to_owned(), number::duration);
+    let (steps, workers) = (number::grouped(reference.outcome.steps), number::count(made.workers as usize, "worker"));
+    let (count, width) = (report.windows.count, number::short(report.windows.width));
+    let rows = [
+        ("reference", format!("{}, {source}", reference.setting)),
+        ("its own error", own_error(report)),
+        ("its wall time", format!("{wall_time} for {steps} steps on {workers}")),
+        ("windows", format!("{count} of {width} s, over whose means runs are compared")),
+    ];
+    table(&report.title, &rows)
+}
+
+fn own_error(report: &Report) -> String {
+    if report.own == OwnError::NONE {
+        return "none, it is the model itself".to_owned();
+    }
+    let whole = report.own.whole();
+    let errors: Vec<String> =
+        report.counted().map(|(one, compared)| format!("{} {}", compared.words, percent(whole[one]))).collect();
+    let mut sources = Vec::new();
+    if report.own.cells != OwnError::NONE.cells {
+        sources.push("of its cells, as much as the change from cells twice as long".to_owned());
+    }
+    if report.own.end > 0.0 {
+        let end = number::short(report.own.end);
+        sources.push(format!("from a run with 1 over the first {end} s, growing as the other errors do"));
+    }
+    format!("about {}: {}", errors.join(", "), sources.join("; "))
+}
+
+fn errors(report: &Report) -> String {
+    let words = COMPARED.map(|compared| compared.words);
+    let names = [&["run", "wall time", "steps"], &words[..], &["worst window", ""]].concat();
+    let line = |row: &Row| {
+        let Ok(run) = &row.result else { return vec![row.rung.setting(), "failed".to_owned()] };
+        let worst = report.counted().map(|(one, _)| run.errors[one].largest).fold(0.0, f64::max);
+        let mut cells = vec![row.rung.setting(), number::duration(run.wall_time), number::grouped(run.steps)];
+        cells.extend(run.errors.iter().map(|error| percent(error.mean_square)));
+        cells.extend([percent(worst), if row.on_front { "*" } else { "" }.to_owned()]);
+        cells
+    };
+    let heading = "Errors against the reference, root mean square over the windows (* no other run is both quicker and more exact)";
+    columns(heading, &names, &report.rows.iter().map(line).collect::<Vec<_>>())
+}
+
+/// What the table cannot say.
+fn notes(report: &Report) -> Vec<String> {
+    let mut notes = report.notes.clone();
+    for row in &report.rows {
+        let (setting, parameters) = (row.rung.setting(), &row.rung.scene.parameters);
+        if let Err(why) = &row.result {
+            notes.push(format!("{setting} failed: {why}"));
+        }
+        let stiffness = parameters.first_stiffness_number();
+        if parameters.integrator == Integrator::Explicit && stiffness > 1.0 {
+            let stiffness = number::short(stiffness);
+            notes.push(format!(
+                "{setting}: the stiffness number is {stiffness}, above 1 the explicit rule overshoots, above 2 it is unstable"
+            ));
+        }
+    }
+    notes
+}
+
+/// One sentence: the setting for the permitted error, or the least error that there is.
+fn advice(report: &Report) -> String {
+    let tolerance = percent(report.tolerance);
+    let time = report.reference.outcome.wall_time;
+    let instead = time.map_or(String::new(), |time| format!(" instead of {}", number::duration(time)));
+    let of = |index: usize| {
+        let row: &Row = &report.rows[index];
+        let time = row.result.as_ref().map_or(f64::NAN, |run| run.wall_time);
+        let (error, quantity) = report.worst(row).map_or((f64::NAN, ""), |(error, compared)| (error, compared.words));
+        let own = match report.own_error() {
+            0.0 => String::new(),
+            own => format!(", and the reference's own error is about {}", percent(own)),
+        };
+        (row.rung.setting(), number::duration(time), format!("{} ({quantity}){own}", percent(error)))
+    };
+    match report.advice() {
+        Advice::Use(index) => {
+            let (setting, time, error) = of(index);
+            format!("for {tolerance} error use {setting}: {time}{instead}; its largest error is {error}")
+        }
+        Advice::Missed(index) => {
+            let (setting, time, error) = of(index);
+            let others = if report.asked.len() > 1 { "; --quantity asks for single quantities" } else { "" };
+            format!(
+                "no run has at most {tolerance} error: the least is {error}, with {setting}, {time}{instead}{others}"
+            )
+        }
+        Advice::NoChoice => "no setting is advised: no other run is quicker than the reference".to_owned(),
+    }
+}
+
+/// Texts of a row, by their names.
+fn texts(row: &Row) -> [(&'static str, String); 4] {
+    [
+        ("ladder", row.rung.ladder.name().to_owned()),
+        ("setting", row.rung.setting()),
+        ("state", if row.result.is_ok() { "finished" } else { "failed" }.to_owned()),
+        ("failure", row.result.as_ref().err().cloned().unwrap_or_default()),
+    ]
+}
+
+/// Numbers of a row, by their names; NaN where one is not known.
+fn numbers(row: &Row, report: &Report) -> Vec<(String, f64)> {
+    let parameters = &row.rung.scene.parameters;
+    let measured = |value: &dyn Fn(&Measured) -> f64| row.result.as_ref().map_or(f64::NAN, value);
+    let mut numbers = vec![
+        ("value".to_owned(), row.rung.value),
+        ("time_acceleration".to_owned(), parameters.time_acceleration),
+        ("stiffness_number".to_owned(), parameters.first_stiffness_number()),
+        ("wall_time".to_owned(), measured(&|run| run.wall_time)),
+        ("steps".to_owned(), measured(&|run| run.steps as f64)),
+        ("error".to_owned(), report.worst(row).map_or(f64::NAN, |(error, _)| error)),
+    ];
+    for (one, compared) in COMPARED.iter().enumerate() {
+        numbers.extend([
+            (format!("{}_error", compared.name), measured(&|run| run.errors[one].mean_square)),
+            (format!("{}_largest_error", compared.name), measured(&|run| run.errors[one].largest)),
+            (format!("{}_end_error", compared.name), measured(&|run| run.errors[one].end)),
+        ]);
+    }
+    numbers.push(("on_front".to_owned(), f64::from(u8::from(row.on_front))));
+    numbers
+}
+
+/// How the runs were made.
+#[derive(Debug, Clone)]
+struct Making {
+    /// The whole resolved scene.
+    scene: String,
+    /// Files that the scene reads.
+    inputs: Vec<InputFile>,
+    /// Workers.
+    workers: usize,
+    /// Instruction set.
+    instruction_set: &'static str,
+    /// Budget, s.
+    budget: f64,
+    /// When it was started.
+    start_time: String,
+}
+
+/// A line of names and one line for each row; what is not known is empty.
+fn csv(report: &Report) -> String {
+    let lines = report.rows.iter().map(|row| {
+        let texts = texts(row).map(|(name, text)| (name.to_owned(), text)).into_iter();
+        texts.chain(numbers(row, report).into_iter().map(|(name, value)| (name, number(value)))).unzip()
+    });
+    let (names, lines): (Vec<Vec<String>>, Vec<Vec<String>>) = lines.unzip();
+    csv_table(names.into_iter().take(1).chain(lines))
+}
+
+/// As short as reads back as the same number.
+fn number(value: f64) -> String {
+    if value.is_nan() { String::new() } else { format!("{value:?}") }
+}
+
+/// One JSON document; what is not known is null. `state` is `finished`, or `interrupted` where not all runs were made.
+fn json(report: &Report, making: &Making, state: &str) -> String {
+    let (reference, made) = (&report.reference, &report.reference.provenance);
+    let own = |name: &str, errors: [f64; COMPARED.len()]| {
+        let named =
+            COMPARED.iter().zip(errors).map(|(compared, error)| (format!("{}_{name}", compared.name), error.into()));
+        named.collect::<Map<String, Value>>()
+    };
+    let mut document = json!({
+        "title": report.title,
+        "state": state,
+        "reference": {
+            "file": made.file.as_ref().map(|file| &file.path),
+            "sha256": made.file.as_ref().map(|file| &file.sha256),
+            "setting": reference.setting,
+            "time_acceleration": reference.time_acceleration,
+            "steps": reference.outcome.steps,
+            "wall_time": reference.outcome.wall_time,
+            "workers": made.workers,
+            "program": made.program,
+            "source_revision": made.source_revision,
+            "host": made.host,
+            "start_time": made.start_time,
+            "error": report.own_error(),
+            "opening_end": report.own.end,
+        },
+        "window_width": report.windows.width,
+        "windows": report.windows.count,
+        "quantities": report.asked,
+        "runs": report.rows.iter().map(|one| row(one, report)).collect::<Vec<_>>(),
+        "tolerance": report.tolerance,
+        "advice": advice(report),
+        "notes": report.notes,
+        "program": program::name(),
+        "source_revision": program::REVISION,
+        "host": execution::host(),
+        "processor": execution::processor(),
+        "workers": making.workers,
+        "instruction_set": making.instruction_set,
+        "budget": making.budget,
+        "start_time": making.start_time,
+        "end_time": now(),
+        "inputs": making.inputs,
+        "scene": making.scene,
+    });
+    if let Some(reference) = document["reference"].as_object_mut() {
+        reference.extend(own("error", report.own.whole()));
+        reference.extend(own("opening_error", report.own.opening));
+    }
+    format!("{document:#}\n")
+}
+
+fn row(row: &Row, report: &Report) -> Value {
+    let texts = texts(row).map(|(name, text)| (name.to_owned(), Value::from(text))).into_iter();
+    // JSON has no NaN: such a number becomes null.
+    let numbers = numbers(row, report).into_iter().map(|(name, value)| (name, Value::from(value)));
+    Value::Object(texts.chain(numbers).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::number;
+
+    #[test]
+    fn values_read_back() {
+        assert_eq!([number(0.1), number(1e-300), number(f64::NAN), number(20.0)], ["0.1", "1e-300", "", "20.0"]);
     }
 }

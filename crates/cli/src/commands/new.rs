@@ -4,8 +4,9 @@ use std::ffi::OsStr;
 use std::fmt;
 use std::path::{Path, PathBuf};
 
-use plateau_core::surface::describe::{Autocorrelation, Description, Grid, HeightParameters};
-use plateau_core::surface::{Condition, Extension, Length, Level, Spikes, implausible, level};
+use plateau_core::surface::{
+    Condition, Extension, HeightParameters, Length, Level, Spikes, TextureDirection, implausible, level,
+};
 use plateau_io::memory::refuse_beyond;
 use plateau_io::scene::{self, Problem, SceneError};
 use plateau_io::surface::{self, FileError, Lay, Measured, TextError};
@@ -14,7 +15,7 @@ use plateau_io::{number, plausibility, text};
 
 use crate::arguments::{NewArguments, ReadArguments, as_options};
 use crate::failure::Failure;
-use crate::table::print;
+use crate::output::print;
 use crate::{hand_over, invocation, message, output};
 
 /// The scene with places for what is the user's.
@@ -318,17 +319,13 @@ struct ClearLay {
 /// The lay of a patch, if it has a clear one and there is memory to look for it.
 fn lay(measured: &Measured, form: Level) -> Option<ClearLay> {
     let Measured { columns, rows, pitch, ref heights, .. } = *measured;
-    refuse_beyond(Description::memory_needed(columns, rows)).ok()?;
+    refuse_beyond(TextureDirection::memory_needed(columns, rows)).ok()?;
     let mut heights = heights.clone();
     level(&mut heights, rows, form, false);
-    let mean = HeightParameters::of(&heights)?.mean;
-    let found = Autocorrelation::of(&Grid { columns, rows, pitch, heights: &heights }, mean)?;
-    let largest = found.largest_aspect_ratio();
+    let TextureDirection { aspect_ratio: ratio, is_bound, angle } = TextureDirection::of(&heights, rows, pitch?)?;
     // As `plateau surface` has them.
-    let is_bound = found.aspect_ratio.is_nan();
-    let aspect_ratio = if is_bound { number::less_than(largest, 3) } else { number::significant(largest, 3) };
-    let is_clear = largest < CLEAR_LAY && !found.direction.is_nan();
-    is_clear.then(|| ClearLay { aspect_ratio, form, direction: found.direction.to_degrees() })
+    let aspect_ratio = if is_bound { number::less_than(ratio, 3) } else { number::significant(ratio, 3) };
+    (ratio < CLEAR_LAY).then(|| ClearLay { aspect_ratio, form, direction: angle.to_degrees() })
 }
 
 impl ClearLay {
@@ -461,12 +458,8 @@ pub fn converted(scene: &Path, disc: &Path, force: bool) -> Result<PathBuf, Fail
     let output = scene.with_file_name(name);
     let to = [OsStr::new("convert"), OsStr::new("--output"), output.as_os_str()];
     let from = [OsStr::new("--"), disc.as_os_str()];
-    let done = hand_over::asked(WORD, to.into_iter().chain(force.then_some(OsStr::new("--force"))).chain(from))?;
-    if done.status.success() {
-        return Ok(output);
-    }
-    let reason = hand_over::reason(&done, "it was not converted");
-    Err(if done.status.code() == Some(2) { Failure::input(reason) } else { Failure::run(reason) })
+    let arguments = to.into_iter().chain(force.then_some(OsStr::new("--force"))).chain(from);
+    hand_over::succeeded(hand_over::asked(WORD, arguments)?, "it was not converted").map(|_| output)
 }
 
 #[cfg(test)]

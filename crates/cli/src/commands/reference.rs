@@ -8,7 +8,7 @@ use clap_mangen::Man;
 
 use crate::arguments::{Arguments, CompletionsArguments, ManArguments};
 use crate::failure::Failure;
-use crate::{output, table};
+use crate::output;
 
 /// Prints a page, or writes all of them.
 pub fn man(arguments: &ManArguments) -> Result<(), Failure> {
@@ -26,7 +26,7 @@ fn print(program: &Command, page: Option<&str>) -> Result<(), Failure> {
         Some(name) => program.find_subcommand(name).ok_or_else(|| unknown(program, name))?,
         None => program,
     };
-    table::print(&Page::of(command)?.text)
+    output::print(&Page::of(command)?.text)
 }
 
 /// Pages are written all or none, as far as that can be told beforehand; the folder is made unless it is there.
@@ -41,7 +41,7 @@ fn write(program: &Command, directory: &Path, force: bool) -> Result<(), Failure
     for page in &pages {
         let path = directory.join(&page.file);
         output::write_in_folder(&path, page.text.as_bytes(), force)?;
-        table::print(&format!("wrote {}\n", path.display()))?;
+        output::print(&format!("wrote {}\n", path.display()))?;
     }
     Ok(())
 }
@@ -70,10 +70,10 @@ fn unknown(program: &Command, name: &str) -> Failure {
 pub fn completions(arguments: &CompletionsArguments) -> Result<(), Failure> {
     let mut script = Vec::new();
     clap_complete::generate(arguments.shell, &mut Arguments::command(), "plateau", &mut script);
-    table::print(&String::from_utf8_lossy(&script))
+    output::print(&String::from_utf8_lossy(&script))
 }
 
 /// Prints the schema, which a test makes of the table of keys.
 pub fn schema() -> Result<(), Failure> {
-    table::print(include_str!("../../../../data/scene.schema.json"))
+    output::print(include_str!("../../../../data/scene.schema.json"))
 }

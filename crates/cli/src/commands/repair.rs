@@ -13,9 +13,9 @@ use plateau_run::{execution, signal_in_words};
 
 use crate::arguments::RepairArguments;
 use crate::failure::Failure;
-use crate::interrupt::Interrupt;
 use crate::message;
-use crate::table::print;
+use crate::output::print;
+use crate::terminal::Interrupt;
 
 /// A run that goes on touches its file or a checkpoint at least that often, unless its scene wants rarer checkpoints.
 const SILENCE: Duration = Duration::from_secs(150);

@@ -2,14 +2,16 @@
 
 use std::path::Path;
 
+use plateau_io::plausibility;
+use plateau_io::scene::{self, Scene};
 use plateau_run::{Job, RunOptions, StartMode};
 
 use crate::arguments::{RunArguments, SceneArguments};
+use crate::commands::runs;
 use crate::failure::{Failure, in_job};
-use crate::scene::load_scene;
-use crate::table::{json, print};
+use crate::output::{json, print};
 use crate::terminal::Terminal;
-use crate::{invocation, message, output, summary, version};
+use crate::{invocation, message, output, program};
 
 /// Runs a scene, together with the other processes of the job if there are any.
 pub fn run(arguments: &RunArguments) -> Result<(), Failure> {
@@ -37,11 +39,11 @@ fn run_scene(arguments: &RunArguments, job: &mut Job) -> Result<(), Failure> {
         replace: arguments.force,
         mode,
         execution: arguments.execution.options(),
-        program: version::this(),
+        program: program::this(),
     };
     let finished = plateau_run::run(scene, &options, job, &mut terminal).map_err(Failure::of)?;
     let Some(summary) = finished else { return Ok(()) };
-    let text = if arguments.scene.json { json(&summary)? } else { summary::text(&summary) };
+    let text = if arguments.scene.json { json(&summary)? } else { runs::text(&summary) };
     if message::is_quiet() && !arguments.scene.json {
         return Ok(());
     }
@@ -80,6 +82,20 @@ fn refuse_other_format(given: &str, file: &Path) -> Result<(), Failure> {
             invocation::program()
         ))),
     }
+}
+
+/// Reads the scene with the changes of the command line; what it can hardly mean goes to standard error.
+pub fn load_scene(arguments: &SceneArguments) -> Result<Scene, Failure> {
+    let mut scene = scene::load(&arguments.scene, &sets(arguments)).map_err(Failure::of_scene)?;
+    scene.warnings.extend(plausibility::of_scene(&scene));
+    scene.warnings.iter().for_each(message::warning);
+    Ok(scene)
+}
+
+/// All changes of a scene on the command line, as after `--set`.
+pub fn sets(arguments: &SceneArguments) -> Vec<String> {
+    let workers = arguments.workers.iter().map(|workers| format!("numerics.workers={workers}"));
+    arguments.sets.iter().cloned().chain(workers).collect()
 }
 
 #[cfg(test)]

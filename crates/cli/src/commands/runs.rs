@@ -1,21 +1,23 @@
-//! Run files that a command line names, what deserves to be said of them, and `plateau summary`: what the Python package asks of one that this
-//! program computes.
+//! Runs in words: what deserves to be said of run files that a command line names, the results of a run that is finished, and
+//! `plateau summary`, what the Python package asks of a run file that this program computes.
 
 use std::path::Path;
 
+use plateau_core::acceleration::Chosen;
+use plateau_core::observe::running_in::{Drift, LEAST_PULSES, NotDefined, RUN_IN, Trend};
 use plateau_core::observe::window_mean::WindowMean;
 use plateau_io::number;
-use plateau_io::run_file::{RunFile, State};
+use plateau_io::run_file::{NoDrift, RunFile, State};
+use plateau_run::RunSummary;
 use serde::Serialize;
 
 use crate::arguments::SummaryArguments;
 use crate::failure::Failure;
 use crate::message;
-use crate::summary::{acceleration, running_in, running_in_time};
-use crate::table::print_json;
+use crate::output::{list, print_json, table};
 
 /// Opens a run file; warns when it is not finished.
-pub fn open_run(path: &Path) -> Result<RunFile, Failure> {
+fn open_run(path: &Path) -> Result<RunFile, Failure> {
     let run = RunFile::open(path).map_err(Failure::input)?;
     warn_of_unfinished(&run);
     Ok(run)
@@ -101,3 +103,205 @@ pub fn summary(arguments: &SummaryArguments) -> Result<(), Failure> {
     };
     print_json(&document)
 }
+
+/// A table for people.
+pub fn text(summary: &RunSummary) -> String {
+    // Adding 0 makes a negative zero a plain one.
+    let percent = |fraction: f64| format!("{:.2} %", (1e4 * fraction).round() / 1e2 + 0.0);
+    let square_millimetres = |area: f64| format!("{:.4} mm²", area * 1e6);
+    let cubic_millimetres = |volume: f64| format!("{} mm³", number::short(volume * 1e9));
+    let megapascal = |pressure: f64| format!("{:.3} MPa", pressure * 1e-6);
+    let of_last_step = format!(
+        "last step {}, {} of the pin",
+        square_millimetres(summary.contact_area),
+        percent(summary.contact_ratio)
+    );
+    let contact_area = match &summary.contact_area_last_tenth {
+        Some(window) => format!("{}; {of_last_step}", contact_area(window)),
+        None => of_last_step,
+    };
+    let steps = if summary.steps == 1 { "step" } else { "steps" };
+    let mut rows = vec![
+        ("simulated time", format!("{} s in {} {steps}", number::short(summary.time), number::grouped(summary.steps))),
+        (
+            "wall time",
+            format!(
+                "{} ({} steps/s)",
+                number::duration(summary.wall_time),
+                number::grouped(summary.steps_per_second as u64)
+            ),
+        ),
+        ("waited for the run file", number::duration(summary.writer_wait)),
+        ("contact area", contact_area),
+    ];
+    rows.extend(summary.time_acceleration.as_ref().map(|chosen| ("time acceleration", acceleration(chosen))));
+    let (drift, time) = &summary.running_in;
+    rows.extend([("running in", running_in(drift)), ("running-in time", running_in_time(time))]);
+    rows.extend([
+        (
+            "contact pressure",
+            format!(
+                "last step: mean {}, largest {}",
+                megapascal(summary.mean_pressure),
+                megapascal(summary.max_pressure)
+            ),
+        ),
+        ("disc filled", percent(summary.filled_fraction)),
+        (
+            "secondary plateaus",
+            format!("{} of the disc, {} of the pin", percent(summary.disc_secondary), percent(summary.pin_secondary)),
+        ),
+        (
+            "worn volume",
+            format!(
+                "{} of the simulated pin and the disc, of which emitted {}",
+                cubic_millimetres(summary.worn),
+                cubic_millimetres(summary.emitted)
+            ),
+        ),
+    ]);
+    rows.push((
+        "worn off the pin",
+        format!(
+            "{} of the whole simulated pin, {} of it off plateaus",
+            cubic_millimetres(summary.worn_whole_pin),
+            cubic_millimetres(summary.worn_pin)
+        ),
+    ));
+    if let Some(rate) = summary.specific_wear_rate_whole_pin {
+        // Build-up on the pin is weighed with it.
+        let lost = cubic_millimetres(summary.lost_pin);
+        rows.push((
+            "lost by the pin",
+            format!("{lost} as a balance shows it, specific wear rate of the whole pin {rate:.3e} 1/Pa"),
+        ));
+    }
+    rows.extend(parts(summary));
+    rows.push((
+        "residuals",
+        format!(
+            "load {:.1e} at most, debris balance {:.1e}{}",
+            summary.load_residual,
+            summary.balance_residual,
+            summary.parts.heat_residual.map_or(String::new(), |residual| format!(", heat {residual:.1e}"))
+        ),
+    ));
+    if let Some(bytes) = summary.peak_memory {
+        rows.push(("peak memory", number::bytes(bytes)));
+    }
+    rows.push(("run file", format!("{} ({})", summary.file.display(), number::bytes(summary.file_size))));
+    format!("{}\n{}", table(&summary.title, &rows), list("Surfaces", &summary.surfaces))
+}
+
+/// Rows of the parts of the model that the scene asks for.
+fn parts(summary: &RunSummary) -> Vec<(&'static str, String)> {
+    let (parts, mut rows) = (&summary.parts, Vec::new());
+    if let (Some(coefficient), Some(work)) = (parts.friction_coefficient_mean, parts.friction_work) {
+        let over = "mean of the last simulated revolution";
+        rows.push((
+            "friction",
+            format!("coefficient {coefficient:.3} ({over}), work {} J of the simulated pin", number::short(work)),
+        ));
+    }
+    if let (Some(contact), Some(disc), Some(pin)) =
+        (parts.contact_temperature, parts.disc_temperature, parts.pin_temperature)
+    {
+        let celsius = |kelvin: f64| format!("{:.1} °C", kelvin - 273.15);
+        let contact = if contact.is_nan() { "lifted".to_owned() } else { celsius(contact) };
+        rows.push(("temperature", format!("contact {contact}, disc {}, pin {}", celsius(disc), celsius(pin))));
+    }
+    if let (Some(pm10), Some(pm25), Some(number)) = (parts.pm10_mass, parts.pm25_mass, parts.particle_number) {
+        let microgram = |mass: f64| format!("{} µg", number::short(mass * 1e9));
+        let particles = number::short(number);
+        let airborne = format!(
+            "PM10 {}, PM2.5 {}, {particles} particles of the simulated pin, {} mm²",
+            microgram(pm10),
+            microgram(pm25),
+            number::rounded(summary.pin_area * 1e6, 3)
+        );
+        rows.push(("airborne", airborne));
+    }
+    rows
+}
+
+/// A mean contact area with its standard error, and over what it is taken.
+fn contact_area(window: &WindowMean) -> String {
+    let mean = number::with_error(window.mean * 1e6, window.standard_error.map(|error| error * 1e6));
+    let width = number::rounded(window.to - window.from, 4);
+    let over = match window.revolutions {
+        Some(revolutions) if !window.is_long() => {
+            format!("mean of all {width} s, only {} simulated revolutions", number::rounded(revolutions, 2))
+        }
+        _ => format!("mean of the last {width} s"),
+    };
+    let contact = in_contact(window);
+    let error = if window.standard_error.is_some() { ", ± standard error" } else { ", too few samples for an error" };
+    format!("{mean} mm² ({over}{contact}{error})")
+}
+
+/// Tells whether the mean contact area still changes, in words, or why that cannot be told.
+fn running_in(found: &Result<Drift, NoDrift>) -> String {
+    let drift = match found {
+        Ok(drift) => drift,
+        Err(reason) => return reason.to_string(),
+    };
+    let Drift { third_quarter, last_quarter, change, standard_error, pulses } = drift;
+    if let (Trend::TooShort, Some(pulses)) = (drift.trend(), pulses) {
+        let pulses = number::rounded(*pulses, 2);
+        return format!(
+            "cannot be told: a quarter of the run has at most {pulses} pulses of the contact area, {LEAST_PULSES} are needed"
+        );
+    }
+    let percent = number::with_error(100.0 * change, Some(100.0 * standard_error));
+    let sign = if *change > 0.0 { "+" } else { "" };
+    let [start, middle, end] =
+        [third_quarter.from, last_quarter.from, last_quarter.to].map(|time| number::rounded(time, 4));
+    let found = match drift.trend() {
+        Trend::Rises => "contact area still rises",
+        Trend::Falls => "contact area still falls",
+        Trend::Steady => "contact area is steady",
+        Trend::Unknown | Trend::TooShort => "cannot be told from a run of this length",
+    };
+    format!("{found}: {sign}{percent} % from {start} … {middle} s to {middle} … {end} s")
+}
+
+/// Time at which the contact area had come to its value at the end, in words.
+fn running_in_time(found: &Result<f64, NotDefined>) -> String {
+    match found {
+        Ok(time) => {
+            format!("{} s, to {:.0} % of the contact area at the end", number::rounded(*time, 4), 100.0 * RUN_IN)
+        }
+        Err(reason) => reason.to_string(),
+    }
+}
+
+/// Over how much of its part a mean of the contact area is, behind that part; nothing where it is all of it.
+fn in_contact(window: &WindowMean) -> String {
+    window.contact_time.map_or(String::new(), |time| {
+        format!(
+            ", of which {} s in contact: the time in which the pin is lifted, and before the first step, does not count",
+            number::rounded(time, 4)
+        )
+    })
+}
+
+/// Range and last m, the estimated error, and whether that is within the tolerance.
+fn acceleration(chosen: &Chosen) -> String {
+    let Chosen { tolerance, smallest, largest, last, estimated_error, met } = chosen;
+    let [smallest, largest, last] = [smallest, largest, last].map(|m| number::rounded(*m, 3));
+    let range = if largest == smallest {
+        format!("m = {largest}")
+    } else {
+        format!("m = {smallest} to {largest}, last {last}")
+    };
+    let met = if *met { "met" } else { "not met" };
+    format!(
+        "{range}; estimated error of the contact area {}, tolerance {} {met}",
+        number::percent(*estimated_error),
+        number::percent(*tolerance)
+    )
+}
+
+#[cfg(test)]
+#[path = "../../tests/unit/commands/runs.rs"]
+mod tests;

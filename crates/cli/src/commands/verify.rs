@@ -9,7 +9,7 @@ use serde::Serialize;
 use crate::arguments::VerifyArguments;
 use crate::failure::Failure;
 use crate::message;
-use crate::table::{print, print_json, table};
+use crate::output::{print, print_json, table};
 
 /// Looks at all files before it fails because of one.
 pub fn verify(arguments: &VerifyArguments) -> Result<(), Failure> {

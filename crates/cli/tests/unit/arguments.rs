@@ -24,3 +24,22 @@ fn a_negative_number_is_a_value_and_no_option() {
     let refused = Arguments::try_parse_from(["plateau", "new", "a.toml", "--load", "-5 N"]).unwrap_err().to_string();
     assert!(refused.contains("expected more than 0"), "{refused}");
 }
+
+#[test]
+fn what_is_no_time_of_a_run_and_no_length_is_refused() {
+    assert_eq!(run_time("2 min"), Ok(120.0));
+    assert!(run_time("-1 s").unwrap_err().contains("before the start of a run"));
+    assert_eq!(length(" 2 mm "), Ok(2e-3));
+    assert!(length("2 s").unwrap_err().contains("expected a length"));
+    assert_eq!(positive("30 N", Dimension::Force).as_deref(), Ok("30 N"));
+    assert!(positive("0 N", Dimension::Force).unwrap_err().contains("more than 0"));
+}
+
+#[test]
+fn a_speed_is_of_turns_or_of_sliding() {
+    assert_eq!(speed("3 m/s").as_deref(), Ok("3 m/s"));
+    assert_eq!(speed("850 rpm").as_deref(), Ok("850 rpm"));
+    assert!(speed("3 mm").unwrap_err().contains("is a length, expected a rotational speed"));
+    assert!(speed("-3 m/s").unwrap_err().contains("more than 0"));
+    assert!(is_sliding_speed("10 km/h") && !is_sliding_speed("2 rad/s"));
+}

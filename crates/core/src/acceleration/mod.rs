@@ -2,6 +2,5 @@
 
 mod choice;
 pub mod scout;
-pub mod smoothness;
 
 pub use choice::{Adaptive, Choice, Chosen, RATIO};

@@ -2,13 +2,12 @@
 
 use crate::engine::coefficients::{Coefficients, PairLoss, StatusPair};
 use crate::engine::contact::Contact;
-use crate::engine::exact::float;
+use crate::engine::exact::{Quantum, float};
 use crate::engine::parts::Needs;
-use crate::engine::quantum::Quantum;
 use crate::engine::sums::{RowWeights, Sums};
 use crate::model::Volumes;
 use crate::model::parameters::{DebrisRule, Parameters};
-use crate::model::running_sum::RunningSum;
+use crate::model::sums::RunningSum;
 use crate::model::totals::{Account, Totals};
 
 /// The account of all debris.

@@ -5,16 +5,16 @@
 //! | module | what it is |
 //! |---|---|
 //! | `lanes` | what the kernels ask of a processor |
-//! | `quantum`, `exact`, `sums` | sums as integers, so that the order of cells does not show |
-//! | `strips`, `pin_strips`, `presence`, `sector` | heights as the kernels read them, and which cells of the pin are there; the ring in sectors and bands |
+//! | `exact`, `sums` | sums as integers, so that the order of cells does not show |
+//! | `strips`, `sector` | heights as the kernels read them, and which cells of the pin are there; the ring in sectors and bands |
 //! | [`parts`] | which parts of the model a scene needs |
 //! | `coefficients`, `wear`, `debris` | the rules, one for each file |
 //! | `contact`, `forecast` | the displacement, and where it is expected next |
 //! | [`kernel`] | the loops over cells |
 //! | `filling` | what is added up over cells to be reported |
-//! | `execution`, `memory` | how the steps are taken, and what is kept to go on later |
+//! | `execution` | how the steps are taken |
 //! | [`comm`] | what workers tell each other: one, threads, or ranks of an MPI job |
-//! | `worker`, `worker_threads` | the step that all workers take together, and the threads that take it |
+//! | `worker`, `worker_threads` | the step that all workers take together and what is kept to go on later, and the threads that take it |
 
 pub(crate) mod coefficients;
 pub mod comm;
@@ -26,11 +26,7 @@ pub(crate) mod filling;
 pub(crate) mod forecast;
 pub mod kernel;
 pub(crate) mod lanes;
-pub(crate) mod memory;
 pub mod parts;
-pub(crate) mod pin_strips;
-pub(crate) mod presence;
-pub(crate) mod quantum;
 pub(crate) mod sector;
 pub(crate) mod strips;
 pub(crate) mod sums;

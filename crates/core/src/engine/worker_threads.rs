@@ -9,11 +9,9 @@ use crossbeam::channel::{Receiver, Sender, unbounded};
 
 use crate::engine::comm::threads::Alarm;
 use crate::engine::comm::{CommError, Communicator};
-use crate::engine::memory::EngineMemory;
-use crate::engine::worker::Worker;
+use crate::engine::worker::{EngineMemory, Worker};
 use crate::model::error::SimulationError;
-use crate::model::history::Course;
-use crate::model::memory::{Heights, Memory};
+use crate::model::memory::{Course, Heights, Memory};
 use crate::observe::{Map, Sample, Snapshot};
 
 /// What all workers are to do together.

@@ -13,7 +13,7 @@ use crate::model::emission::{Emission, EmissionAccount, EmissionReport};
 use crate::model::friction::{ContactSums, Friction, FrictionAccount, FrictionReport};
 use crate::model::heat::account::{HeatAccount, HeatModel, HeatReport};
 use crate::model::parameters::Parameters;
-use crate::model::volumes::Volumes;
+use crate::model::totals::Volumes;
 
 /// The accounts of a simulation.
 #[derive(Debug, Clone)]

@@ -2,9 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::model::heat::factor::Factor;
-use crate::model::running_sum::RunningSum;
-use crate::model::volumes::Volumes;
+use crate::model::heat::thermal::Factor;
+use crate::model::sums::RunningSum;
+use crate::model::totals::Volumes;
 
 /// How much of the emitted debris is airborne, and as how many particles.
 #[derive(Debug, Clone, PartialEq)]

@@ -3,8 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::model::material::Status;
-use crate::model::revolution::Revolution;
-use crate::model::running_sum::RunningSum;
+use crate::model::sums::{Revolution, RunningSum};
 
 /// The stress that resists sliding, τ = τ₀ + α p.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,10 +1,11 @@
-//! What a simulation keeps between two steps, whatever takes its steps.
+//! What a simulation keeps between two steps, whatever takes its steps: what the steps so far were like; contact area over them: mean over
+//! the last revolution and integral over time (model section 5).
 
 use serde::{Deserialize, Serialize};
 
 use crate::model::accounts::AccountsState;
-use crate::model::clock::Clock;
-use crate::model::history::{Course, History};
+use crate::model::clock::{Clock, StepOperation};
+use crate::model::sums::{Revolution, RunningSum};
 use crate::model::totals::Account;
 
 /// Heights of disc and pin, m, column by column.
@@ -35,4 +36,77 @@ pub struct Memory {
     pub history: History,
     /// Of friction, heat and emission, where the scene asks for any.
     pub accounts: Option<AccountsState>,
+}
+
+/// What the steps so far were like.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+pub struct Course {
+    /// Steps done.
+    pub steps: u64,
+    /// t, s.
+    pub time: f64,
+    /// F̄ of the last step, N.
+    pub load: f64,
+    /// Contact area of the last step, m².
+    pub contact_area: f64,
+    /// Σ contact area · m Δt since t = 0, m² s.
+    pub contact_area_integral: f64,
+    /// Largest load residual of any step.
+    pub largest_load_residual: f64,
+    /// Largest Π so far, with the time acceleration and the wear rates that held (model section 8).
+    pub largest_stiffness_number: f64,
+    /// Passes over the pin beyond one a step: each is a bracket that missed the displacement.
+    pub extra_readings: u64,
+}
+
+/// What a sample needs to know of the steps before its own.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct History {
+    /// Contact area of the steps of the last revolution, m².
+    revolution: Revolution,
+    /// Σ contact area · m Δt, m² s.
+    integral: RunningSum,
+}
+
+impl History {
+    /// No step yet.
+    pub fn new(steps_per_revolution: usize) -> Self {
+        Self { revolution: Revolution::new(steps_per_revolution), integral: RunningSum::default() }
+    }
+
+    /// Adds a step.
+    pub fn record(&mut self, contact_area: f64, operation: &StepOperation) {
+        if operation.standing_before > 0.0 {
+            self.integral.add(self.revolution.newest().unwrap_or(0.0) * operation.standing_before);
+        }
+        self.revolution.record(contact_area);
+        self.integral.add(contact_area * operation.loaded);
+    }
+
+    /// Mean over the last simulated revolution, m²; over all steps so far before the first is done.
+    pub fn revolution_mean(&self) -> f64 {
+        self.revolution.mean()
+    }
+
+    /// Σ contact area · m Δt since t = 0, m² s.
+    pub fn integral(&self) -> f64 {
+        self.integral.value()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_integral_has_the_time_on_the_disc_moving_or_not() {
+        let mut history = History::new(4);
+        for area in [1.0, 3.0, 5.0, 7.0, 9.0, 11.0] {
+            let standing_before = if area == 9.0 { 2.0 } else { 0.0 };
+            history.record(area, &StepOperation { end: 0.0, load: 1.0, standing_before, loaded: 0.5, active: 0.5 });
+        }
+        // Half of the sum, and 2 s of the contact of the step before the fifth.
+        assert_eq!(history.integral(), 18.0 + 14.0);
+        assert_eq!(history.revolution_mean(), 8.0);
+    }
 }

@@ -5,73 +5,30 @@ use std::ops::Range;
 
 use thiserror::Error;
 
-use super::outline::Outline;
-
 /// Why a mesh cannot be made.
 #[derive(Debug, Clone, PartialEq, Error)]
+#[allow(missing_docs)] // The messages say what they mean.
 pub enum MeshError {
-    /// A count of cells is zero.
     #[error("{name} is 0, expected at least 1")]
-    Empty {
-        /// Which count.
-        name: &'static str,
-    },
-    /// There are more rows or columns than sums over them have room for.
+    Empty { name: &'static str },
     #[error(
         "{name} is {found}, expected at most {most}: beyond that, sums over all cells have no room; take larger cells"
     )]
-    TooMany {
-        /// Which count.
-        name: &'static str,
-        /// What it is.
-        found: usize,
-        /// The most that it may be.
-        most: usize,
-    },
-    /// The pin covers more columns than the ring has.
+    TooMany { name: &'static str, found: usize, most: usize },
     #[error("pin_columns is {pin_columns}, expected at most disc_columns = {disc_columns}")]
-    PinWiderThanRing {
-        /// Columns asked for the pin.
-        pin_columns: usize,
-        /// Columns of the ring.
-        disc_columns: usize,
-    },
-    /// The radii do not span a ring.
+    PinWiderThanRing { pin_columns: usize, disc_columns: usize },
     #[error(
         "inner_radius is {inner:?} m and outer_radius is {outer:?} m, expected 0 < inner_radius < outer_radius, both finite"
     )]
-    Radii {
-        /// Inner radius, m.
-        inner: f64,
-        /// Outer radius, m.
-        outer: f64,
-    },
-    /// The pin is wider than the track.
+    Radii { inner: f64, outer: f64 },
     #[error("a round pin of {diameter} m in diameter is wider than the track of {track} m")]
-    RoundPinWiderThanTrack {
-        /// Its diameter, m.
-        diameter: f64,
-        /// Width of the track, m.
-        track: f64,
-    },
-    /// The pin is longer than its columns.
+    RoundPinWiderThanTrack { diameter: f64, track: f64 },
     #[error("a round pin of {diameter} m in diameter goes beyond its {pin_columns} columns at the radius {radius} m")]
-    RoundPinLongerThanColumns {
-        /// Its diameter, m.
-        diameter: f64,
-        /// Columns asked for the pin.
-        pin_columns: usize,
-        /// Radius of a row that is too short, m.
-        radius: f64,
-    },
-    /// No cell lies within the outline of the pin.
+    RoundPinLongerThanColumns { diameter: f64, pin_columns: usize, radius: f64 },
     #[error(
         "no cell of the pin has its centre within a circle of {diameter} m in diameter about the middle of the track"
     )]
-    RoundPinWithoutCells {
-        /// Its diameter, m.
-        diameter: f64,
-    },
+    RoundPinWithoutCells { diameter: f64 },
 }
 
 /// Ring mesh: `rows` cells in r, `disc_columns` cells in θ around the ring, of which the pin covers `pin_columns`.
@@ -279,6 +236,53 @@ impl Mesh {
         let turned = (step % self.disc_columns as u64) as usize;
         (pin_column + self.disc_columns - turned) % self.disc_columns
     }
+}
+
+/// Outline of the pin.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub enum Outline {
+    /// All cells of its rows and columns.
+    #[default]
+    Rectangle,
+    /// The cells whose centres lie within a circle about the middle of the rectangle.
+    Disc {
+        /// Radius of the circle, m.
+        radius: f64,
+    },
+}
+
+impl Outline {
+    /// Whether a cell is there whose centre lies so far (m) from the middle: `along` the sliding direction as arc length at the
+    /// cell's own radius, `across` it as a difference of radii.
+    fn contains(self, along: f64, across: f64) -> bool {
+        match self {
+            Self::Rectangle => true,
+            Self::Disc { radius } => along * along + across * across <= radius * radius,
+        }
+    }
+
+    /// The columns of the pin that are there in a row of this radius (m), `across` (m) away from the middle of the track; none
+    /// where the outline goes beyond the columns.
+    pub(super) fn chord(self, pin_columns: usize, column_angle: f64, radius: f64, across: f64) -> Option<Range<usize>> {
+        // Exact in steps of one half, so that both sides of the middle are alike.
+        let from_middle = |column: f64| column + 0.5 - 0.5 * pin_columns as f64;
+        let is_there = |column: f64| self.contains(radius * (from_middle(column) * column_angle), across);
+        if self != Self::Rectangle && is_there(-1.0) {
+            return None;
+        }
+        // The chord is symmetric, so it is empty where no column up to the middle is there.
+        let first = (0..pin_columns.div_ceil(2)).find(|column| is_there(*column as f64));
+        Some(first.map_or(0..0, |first| first..pin_columns - first))
+    }
+}
+
+/// How many columns of the angle `column_angle` (rad) a circle of this radius (m) about the mean radius (m) takes: its longest
+/// arc, which lies a little inward of its middle, in columns, rounded. No cell of the circle is left out, and no column is
+/// empty for want of one. `None` where the circle reaches the axis.
+pub fn columns_of_disc(radius: f64, mean_radius: f64, column_angle: f64) -> Option<f64> {
+    // Half the arc at the radius r is √(R² − (r − r̄)²)/r, which is largest where r = (r̄² − R²)/r̄.
+    let farthest = (mean_radius - radius) * (mean_radius + radius);
+    (farthest > 0.0).then(|| libm::round(2.0 * (radius / farthest.sqrt()) / column_angle).max(1.0))
 }
 
 #[cfg(test)]

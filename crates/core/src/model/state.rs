@@ -1,7 +1,8 @@
-//! Heights of disc and pin, and the status that follows from them (model section 2).
+//! The state of disc, pin and debris: heights, and the status that follows from them (model section 2).
 
 use crate::model::material::Status;
 use crate::model::mesh::Mesh;
+use crate::model::parameters::{DebrisRule, Parameters};
 
 /// Base of a pin cell: what is there before any wear.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -112,5 +113,42 @@ impl InitialSurfaces {
         self.disc_height.len() == mesh.disc_cells()
             && self.pin_height.len() == mesh.pin_cells()
             && self.pin_base.len() == mesh.pin_cells()
+    }
+}
+
+/// The state of disc, pin and debris between two steps (model 2).
+#[derive(Debug, Clone, PartialEq)]
+pub struct State {
+    /// z_d and b_d.
+    pub disc: Disc,
+    /// z_p, b_p and base.
+    pub pin: Pin,
+    /// z_ref, m: the highest initial height of the disc.
+    pub reference_height: f64,
+    /// M, m³: one pool for the contact, one for each row, or none with local debris.
+    pub pools: Vec<f64>,
+    /// n: steps done.
+    pub steps: u64,
+    /// Columns by which the disc was turned before the first step: 0 but to see whether that changes anything.
+    pub turned: u64,
+}
+
+impl State {
+    /// n = 0: b = z in every cell, M = 0.
+    pub fn new(parameters: &Parameters, surfaces: InitialSurfaces) -> Self {
+        let InitialSurfaces { disc_height, pin_height, pin_base } = surfaces;
+        let pools = match parameters.plateaus.debris {
+            DebrisRule::Local => 0,
+            DebrisRule::Contact => 1,
+            DebrisRule::Track => parameters.mesh.rows(),
+        };
+        Self {
+            reference_height: disc_height.iter().copied().fold(f64::NEG_INFINITY, f64::max),
+            disc: Disc { substrate: disc_height.clone(), height: disc_height },
+            pin: Pin { substrate: pin_height.clone(), height: pin_height, base: pin_base },
+            pools: vec![0.0; pools],
+            steps: 0,
+            turned: 0,
+        }
     }
 }

@@ -5,11 +5,48 @@
 
 use std::iter::successors;
 
-use super::error::ContactError;
-use super::{REACH, State, Step, Volumes};
+use crate::model::error::ContactError;
+use crate::model::friction::{ContactSums, StatusContact};
 use crate::model::material::Status;
 use crate::model::parameters::{DebrisRule, Integrator, Parameters};
-use crate::model::state::disc_status;
+use crate::model::state::{State, disc_status};
+use crate::model::totals::Volumes;
+
+/// Displacements from this size on are out of the range of the model, m.
+pub const REACH: f64 = 1e199;
+
+/// What a step found and did.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Step {
+    /// F_N, or F̄_n of a cycle, N.
+    pub load: f64,
+    /// δ, m.
+    pub displacement: f64,
+    /// p of every pin cell, Pa; 0 where it does not touch.
+    pub pressure: Vec<f64>,
+    /// Whether a pin cell touches.
+    pub contact: Vec<bool>,
+    /// Status of every pin cell at the start of the step.
+    pub pin_status: Vec<Status>,
+    /// What was moved.
+    pub moved: Volumes,
+}
+
+impl Step {
+    /// What friction must know of the contact (model 10).
+    pub fn sums(&self, parameters: &Parameters) -> ContactSums {
+        let mut statuses = [StatusContact::default(); 3];
+        let cells = self.contact.iter().zip(&self.pressure).zip(&self.pin_status);
+        for (((touches, pressure), status), area) in cells.zip(parameters.mesh.area().iter().cycle()) {
+            if *touches {
+                let of = &mut statuses[*status as usize];
+                (of.area, of.load) = (of.area + area, of.load + pressure * area);
+            }
+        }
+        let area = statuses.iter().map(|status| status.area).sum();
+        ContactSums { load: self.load, area, statuses: Some(statuses) }
+    }
+}
 
 /// A pin cell and the disc cell under it, as they are at the start of a step.
 #[derive(Debug, Clone, Copy)]

@@ -2,14 +2,14 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::dissipation::{EMISSION, FRICTION, HEAT};
 use super::extra::Extra;
 use super::sample::Sample;
 use super::schedule::Moment;
 use crate::model::accounts::AccountsReport;
 use crate::model::cycle::{Cycle, Event};
 use crate::model::parameters::Parameters;
-use crate::model::running_sum::RunningSum;
+use crate::model::sums::RunningSum;
+use crate::observe::extra::{EMISSION, FRICTION, HEAT};
 
 /// What is reported of an event, in SI units.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]

@@ -1,4 +1,4 @@
-//! What is reported at the end of a step.
+//! What is reported at the end of a step by every run: the quantities, their names and units, and where a sample keeps them.
 
 use serde::{Deserialize, Serialize};
 
@@ -79,3 +79,109 @@ impl Sample {
         self.worn_whole_pin() + self.returned - self.deposited_pin
     }
 }
+
+/// Takes a quantity from a sample; none where the scene does not ask for it.
+type Field = fn(&Sample) -> Option<f64>;
+
+/// Name, unit and meaning of one reported quantity.
+#[derive(Debug, Clone, Copy)]
+pub struct Quantity {
+    /// Name of the series in a run file.
+    pub name: &'static str,
+    /// SI unit as UDUNITS writes it.
+    pub unit: &'static str,
+    /// What it is, in words.
+    pub long_name: &'static str,
+    /// Where a sample keeps it; else it is among the extras.
+    field: Option<Field>,
+}
+
+impl Quantity {
+    /// One that not every run has, but whose place in a sample is known.
+    pub const fn of(name: &'static str, unit: &'static str, long_name: &'static str, field: Field) -> Self {
+        Self { name, unit, long_name, field: Some(field) }
+    }
+
+    /// One that not every run has.
+    pub const fn extra(name: &'static str, unit: &'static str, long_name: &'static str) -> Self {
+        Self { name, unit, long_name, field: None }
+    }
+
+    /// Whether a sample has it, be it as no number.
+    pub fn is_of(&self, sample: &Sample) -> bool {
+        self.found(sample).is_some()
+    }
+
+    /// The value in a sample; NaN in one without it.
+    pub fn value(&self, sample: &Sample) -> f64 {
+        self.found(sample).unwrap_or(f64::NAN)
+    }
+
+    fn found(&self, sample: &Sample) -> Option<f64> {
+        match self.field {
+            Some(field) => field(sample),
+            None => sample.extras.iter().find(|(name, _)| *name == self.name).map(|(_, value)| *value),
+        }
+    }
+}
+
+/// A line is a field of a sample, or `name = value`, with the value a function of a sample.
+macro_rules! quantities {
+    ($($name:ident $(= $value:expr)?, $unit:literal, $long_name:literal;)*) => {
+        &[$(Quantity::of(stringify!($name), $unit, $long_name, quantities!(@field $name $($value)?))),*]
+    };
+    (@field $name:ident $value:expr) => { |sample| Some($value(sample)) };
+    (@field $name:ident) => { |sample| Some(sample.$name) };
+}
+
+/// Every series that each run file has, but the time, in the order in which they are reported.
+pub const QUANTITIES: &[Quantity] = quantities! {
+    displacement, "m", "displacement of the rigid pin";
+    contact_area, "m2", "contact area";
+    contact_area_mean, "m2", "contact area, mean over the last simulated revolution";
+    contact_area_integral, "m2 s", "contact area, integral over time";
+    sliding_distance, "m", "sliding distance at the mean radius";
+    contact_ratio, "1", "contact area over the area of the pin";
+    mean_pressure, "Pa", "mean pressure over the cells in contact";
+    max_pressure, "Pa", "largest pressure of any cell";
+    worn_pin, "m3", "volume worn off plateaus of the simulated pin";
+    worn_resin, "m3", "volume worn off the resin of the simulated pin";
+    worn_whole_pin = Sample::worn_whole_pin, "m3", "volume worn off the whole simulated pin, plateaus and resin";
+    lost_pin = Sample::lost_pin, "m3", "volume that the whole simulated pin has lost, as a balance shows it: worn off, less build-up deposited on it";
+    worn_disc, "m3", "volume worn off the disc by the simulated pin";
+    pool, "m3", "wear debris in the contact, not compacted";
+    emitted, "m3", "wear debris that left the contact of the simulated pin";
+    deposited_pin, "m3", "wear debris compacted on the pin";
+    deposited_disc, "m3", "wear debris compacted on the disc";
+    returned, "m3", "build-up of the pin that lost its support (to the pool) or broke away (emitted)";
+    pin_primary, "1", "area fraction of the pin that is primary plateau";
+    pin_secondary, "1", "area fraction of the pin that is secondary plateau";
+    pin_none, "1", "area fraction of the pin that is no plateau";
+    disc_secondary, "1", "area fraction of the disc ring that is secondary plateau";
+    filled_fraction, "1", "fraction of the initial volume below the highest disc height that is filled";
+    load_residual, "1", "relative residual of the load balance";
+    balance_residual, "1", "relative residual of the debris balance";
+};
+
+/// Series that are totals since the start of a run: they only grow, and their mean over a time says nothing.
+pub const TOTALS: &[&str] = &[
+    "contact_area_integral",
+    "sliding_distance",
+    "contact_time",
+    "road_distance",
+    "worn_pin",
+    "worn_resin",
+    "worn_whole_pin",
+    "lost_pin",
+    "worn_disc",
+    "emitted",
+    "deposited_pin",
+    "deposited_disc",
+    "returned",
+    "friction_work",
+    "heat_lost",
+    "emitted_mass",
+    "pm10_mass",
+    "pm25_mass",
+    "particle_number",
+];

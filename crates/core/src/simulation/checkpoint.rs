@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::engine::execution::Engine;
-use crate::engine::memory::EngineMemory;
+use crate::engine::worker::EngineMemory;
 use crate::model::clock::Clock;
 use crate::model::error::WrongMesh;
 use crate::model::memory::{Heights, Memory};

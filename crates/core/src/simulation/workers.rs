@@ -4,20 +4,18 @@ use std::sync::Arc;
 
 use super::checkpoint::Checkpoint;
 use super::plain::Plain;
+use crate::engine::comm::Single;
 #[cfg(feature = "mpi")]
 use crate::engine::comm::mpi::Mpi;
-use crate::engine::comm::single::Single;
 use crate::engine::comm::threads::Threads;
 use crate::engine::execution::{Engine, Execution};
-use crate::engine::memory::EngineMemory;
 use crate::engine::parts::Needs;
 use crate::engine::sector::Partition;
-use crate::engine::worker::{Worker, halo_words, waiting_columns};
+use crate::engine::worker::{EngineMemory, Worker, halo_words, waiting_columns};
 use crate::engine::worker_threads::WorkerThreads;
 use crate::model::accounts::Accounts;
 use crate::model::error::SimulationError;
-use crate::model::history::Course;
-use crate::model::memory::Memory;
+use crate::model::memory::{Course, Memory};
 use crate::model::parameters::Parameters;
 use crate::model::state::InitialSurfaces;
 use crate::observe::{Map, Sample, Snapshot};

@@ -2,8 +2,8 @@
 
 use std::collections::BTreeSet;
 
-use super::describe::HeightParameters;
-use super::level::{Level, level, rms};
+use super::heights::{HeightParameters, rms};
+use super::level::{Level, level};
 use super::missing::remove_outliers;
 
 /// Kurtosis above which there are spikes: normal heights have 3, a surface with deep grooves some 10.

@@ -6,7 +6,7 @@
 use std::f64::consts::PI;
 use std::ops::{Add, Mul, Sub};
 
-pub(crate) use rustfft::num_complex::Complex64 as Complex;
+pub(crate) use num_complex::Complex64 as Complex;
 
 /// exp(i π numerator / denominator).
 fn root(numerator: usize, denominator: usize) -> Complex {

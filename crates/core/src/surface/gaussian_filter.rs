@@ -4,9 +4,8 @@ use std::f64::consts::{LN_2, PI};
 
 use rayon::prelude::*;
 
-use super::level::rms;
-use super::preparation_error::PreparationError;
-use super::report::change;
+use super::error::PreparationError;
+use super::heights::{change, rms};
 use super::{Length, Patch};
 
 /// Index of the point that lies `at` - `reach` points after the first of `count`, mirrored at either end: the end points

@@ -1,6 +1,6 @@
 //! What of measured heights can hardly be meant, another unit or a number that stands for no height, or is too little to go by.
 
-use super::level::rms;
+use super::heights::rms;
 use super::{Body, Length, Patch};
 use crate::model::mesh::Mesh;
 

@@ -174,19 +174,3 @@ impl<'a> Form<'a> {
 fn place(index: usize, rows: usize) -> [f64; 2] {
     [(index / rows) as f64, (index % rows) as f64]
 }
-
-/// Mean of the points that are there; NaN without any.
-pub(super) fn mean(heights: &[f64]) -> f64 {
-    let valid = || heights.iter().filter(|height| !height.is_nan());
-    let count = valid().count() as f64;
-    let first = valid().sum::<f64>() / count;
-    // Rounding of a large offset is taken out by the mean of what is left.
-    first + valid().map(|height| height - first).sum::<f64>() / count
-}
-
-/// Root-mean-square deviation from the mean of the points that are there; NaN without any.
-pub(super) fn rms(heights: &[f64]) -> f64 {
-    let mean = mean(heights);
-    let valid = || heights.iter().filter(|height| !height.is_nan()).map(|height| height - mean);
-    (valid().map(|height| height * height).sum::<f64>() / valid().count() as f64).sqrt()
-}

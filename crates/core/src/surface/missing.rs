@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use super::Patch;
-use super::level::mean;
+use super::heights::mean;
 
 /// Standard deviation of a normal distribution over its median absolute deviation, 1/Φ⁻¹(¾).
 const NORMAL: f64 = 1.482_602_218_505_602;

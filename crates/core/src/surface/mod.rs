@@ -1,35 +1,36 @@
-//! Surfaces: measured patches and their preparation, synthetic heights, fibre maps, micrographs, and the parameters that
-//! describe them.
+//! Surfaces: measured patches and their preparation, synthetic heights, fibre maps, micrographs.
 
 mod condition;
-pub mod describe;
+mod error;
 mod extend;
 mod fft;
 mod fibre;
 mod gaussian_filter;
+mod heights;
 pub mod implausible;
 mod level;
 pub mod micrograph;
 mod missing;
 mod patch;
-mod preparation_error;
 mod prepare;
 pub(crate) mod random;
-mod report;
 mod resample;
 mod rotate;
 mod straighten;
 mod synthesis;
+mod texture_direction;
 mod unroll;
 
 pub use condition::{Condition, Spikes};
+pub use error::{PreparationError, SynthesisError};
 pub use extend::Extension;
 pub use fibre::{FibreError, FibreSynthesis, fibre_fraction, set_back_resin};
+pub use heights::HeightParameters;
 pub use level::{Level, level};
 pub use missing::Fill;
 pub use patch::{Body, Length, Patch};
-pub use preparation_error::PreparationError;
 pub use prepare::{Preparation, Prepared, RawHeights};
 pub use straighten::{Crop, Flip};
-pub use synthesis::{HeightSynthesis, SynthesisError, Texture};
+pub use synthesis::{HeightSynthesis, Texture};
+pub use texture_direction::TextureDirection;
 pub use unroll::Unroll;

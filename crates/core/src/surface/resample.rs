@@ -1,6 +1,6 @@
 //! A measured patch brought onto the mesh.
 
-use super::preparation_error::PreparationError;
+use super::error::PreparationError;
 use super::{Body, Patch};
 use crate::model::mesh::Mesh;
 

@@ -5,8 +5,7 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 use rayon::prelude::*;
 
 use super::Patch;
-use super::level::rms;
-use super::report::change;
+use super::heights::{change, rms};
 
 /// Part of a pitch that is rounding: places that lie outside of the outermost points by less are on them, and a length that is shorter than
 /// a whole number of pitches by less is that many.

@@ -1,8 +1,7 @@
 //! How a patch comes to lie along the track: cropped, unrolled, turned, flipped.
 
-use super::level::rms;
-use super::preparation_error::PreparationError;
-use super::report::change;
+use super::error::PreparationError;
+use super::heights::{change, rms};
 use super::rotate::Turn;
 use super::unroll::Unroll;
 use super::{Length, Patch};

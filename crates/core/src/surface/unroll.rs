@@ -4,9 +4,8 @@ use std::f64::consts::{FRAC_PI_4, PI, TAU};
 
 use rayon::prelude::*;
 
-use super::level::rms;
-use super::preparation_error::PreparationError;
-use super::report::change;
+use super::error::PreparationError;
+use super::heights::{change, rms};
 use super::rotate::{height_at, place};
 use super::{Length, Patch};
 

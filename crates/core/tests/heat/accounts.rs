@@ -4,7 +4,7 @@ use super::expected::{Expected, MU, WORN, parameters, take};
 use super::{IRON, insulating_pin, off, thermal};
 use plateau_core::model::accounts::Accounts;
 use plateau_core::model::cycle::{Cycle, Interpolation, Kind, Node};
-use plateau_core::model::heat::factor::Factor;
+use plateau_core::model::heat::thermal::Factor;
 use plateau_core::model::heat::{Disc, Substance, Thermal};
 use plateau_core::model::parameters::Parameters;
 

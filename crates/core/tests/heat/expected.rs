@@ -12,8 +12,8 @@ use plateau_core::model::friction::{ContactSums, Friction, FrictionLaw};
 use plateau_core::model::heat::Thermal;
 use plateau_core::model::heat::account::HeatReport;
 use plateau_core::model::heat::chain::{Chain, ChainReport, ChainState, Link, sub_steps};
-use plateau_core::model::heat::factor::Factor;
 use plateau_core::model::heat::passing::Passing;
+use plateau_core::model::heat::thermal::Factor;
 use plateau_core::model::parameters::Parameters;
 
 /// μ of every step, but for its factor.

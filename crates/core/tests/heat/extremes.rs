@@ -7,7 +7,7 @@ use super::{CERMET, IRON, PAD, thermal};
 use plateau_core::model::accounts::Accounts;
 use plateau_core::model::cycle::{Cycle, Interpolation, Kind, Node};
 use plateau_core::model::heat::account::HeatReport;
-use plateau_core::model::heat::factor::Factor;
+use plateau_core::model::heat::thermal::Factor;
 use plateau_core::model::heat::{Coating, Disc, Pin, Substance, Thermal};
 use plateau_core::model::parameters::Parameters;
 

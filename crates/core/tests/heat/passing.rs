@@ -2,7 +2,7 @@
 
 use super::{CERMET, IRON, off, thermal};
 use plateau_core::model::heat::passing::Passing;
-use plateau_core::model::heat::{Coating, Disc, Substance, map};
+use plateau_core::model::heat::{Coating, Disc, Substance, passing};
 use plateau_core::model::mesh::Mesh;
 
 fn passing(substance: Substance, coating: Option<(f64, Substance)>) -> Passing {
@@ -21,7 +21,7 @@ fn a_uniform_pressure_warms_each_column_by_the_response_to_its_time_under_the_pi
     for coating in [None, Some((60e-6, CERMET))] {
         let passing = passing(IRON, coating);
         let pressure = vec![1.5e6; mesh.pin_cells()];
-        let found = map::temperatures(&passing, &mesh, &pressure, flux, face, speed);
+        let found = passing::temperatures(&passing, &mesh, &pressure, flux, face, speed);
         for column in 0..20 {
             // The sum of its w over the columns before is U((j+1) Δt), for the ones between cancel.
             let rise = flux * 1.5e6 * passing.response((column + 1) as f64 * mesh.column_angle() / speed);
@@ -48,7 +48,7 @@ fn a_hot_spot_warms_what_follows_it_in_its_row_and_nothing_else() {
     let mut pressure = vec![0.0; mesh.pin_cells()];
     let (row, column) = (1, 4);
     pressure[mesh.column(column).start + row] = 2e7;
-    let found = map::temperatures(&passing, &mesh, &pressure, 0.5, 300.0, 89.0);
+    let found = passing::temperatures(&passing, &mesh, &pressure, 0.5, 300.0, 89.0);
     let time = |columns: usize| columns as f64 * mesh.column_angle() / 89.0;
     for (cell, found) in found.iter().enumerate() {
         let (at, in_row) = (cell / 3, cell % 3 == row);
@@ -67,9 +67,9 @@ fn a_hot_spot_warms_what_follows_it_in_its_row_and_nothing_else() {
 fn nothing_that_slides_or_presses_warms_nothing() {
     let (mesh, passing) = (mesh(), passing(IRON, None));
     let pressure = vec![1e6; 60];
-    assert_eq!(map::temperatures(&passing, &mesh, &pressure, 0.0, 300.0, 0.0), vec![300.0; 60]);
-    assert_eq!(map::temperatures(&passing, &mesh, &[0.0; 60], 0.5, 300.0, 89.0), vec![300.0; 60]);
-    let lifted = map::temperatures(&passing, &mesh, &[0.0; 60], 0.5, f64::NAN, 89.0);
+    assert_eq!(passing::temperatures(&passing, &mesh, &pressure, 0.0, 300.0, 0.0), vec![300.0; 60]);
+    assert_eq!(passing::temperatures(&passing, &mesh, &[0.0; 60], 0.5, 300.0, 89.0), vec![300.0; 60]);
+    let lifted = passing::temperatures(&passing, &mesh, &[0.0; 60], 0.5, f64::NAN, 89.0);
     assert!(lifted.len() == 60 && lifted.iter().all(|cell| cell.is_nan()));
 }
 

@@ -9,7 +9,7 @@ use super::expected::Expected;
 use crate::scenes::{few_or_all, random_scene, random_surfaces};
 use plateau_core::model::cycle::{Cycle, Interpolation, Kind, Node};
 use plateau_core::model::parameters::{DebrisRule, Parameters};
-use plateau_core::observe::dissipation::CONTACT_TEMPERATURE;
+use plateau_core::observe::extra::CONTACT_TEMPERATURE;
 use plateau_core::observe::schedule::{End, Moment, SampleEvery, Schedule};
 use plateau_core::simulation::checkpoint::Checkpoint;
 use plateau_core::simulation::{Engine, Execution, Simulation};

@@ -3,7 +3,7 @@
 use plateau_core::model::material::Materials;
 use plateau_core::model::parameters::Parameters;
 use plateau_core::model::state::Base;
-use plateau_core::observe::drift::{Drift, Trend, pulse_time};
+use plateau_core::observe::running_in::{Drift, Trend, pulse_time};
 use plateau_core::observe::window_mean::Cumulative;
 
 use crate::scenes::Stream;

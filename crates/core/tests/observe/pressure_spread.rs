@@ -2,12 +2,12 @@
 
 use plateau_core::model::mesh::Mesh;
 use plateau_core::model::parameters::Parameters;
-use plateau_core::observe::pressure_spread::EXTRA;
+use plateau_core::observe::extra::PRESSURE_SPREAD;
 
 /// Coefficient of variation and Gini coefficient.
 fn spread(mesh: &Mesh, pressures: &[f64]) -> [f64; 2] {
     let parameters = Parameters { mesh: mesh.clone(), ..Parameters::paper() };
-    let found = (EXTRA.request.unwrap().measure)(&parameters, &[pressures.to_vec()]);
+    let found = (PRESSURE_SPREAD.request.unwrap().measure)(&parameters, &[pressures.to_vec()]);
     found.try_into().unwrap()
 }
 

@@ -1,14 +1,13 @@
 //! Roughness of disc and pin with every sample.
 
-use plateau_core::model::mesh::Mesh;
-use plateau_core::model::outline::Outline;
+use plateau_core::model::mesh::{Mesh, Outline};
 use plateau_core::model::parameters::Parameters;
-use plateau_core::observe::roughness::EXTRA;
+use plateau_core::observe::extra::ROUGHNESS;
 
 /// Sa, Sq, Ssk and Sku of the disc and of the pin.
 fn roughness(mesh: &Mesh, disc: &[f64], pin: &[f64]) -> [[f64; 4]; 2] {
     let parameters = Parameters { mesh: mesh.clone(), ..Parameters::paper() };
-    let found = (EXTRA.request.unwrap().measure)(&parameters, &[disc.to_vec(), pin.to_vec()]);
+    let found = (ROUGHNESS.request.unwrap().measure)(&parameters, &[disc.to_vec(), pin.to_vec()]);
     [0, 4].map(|first| found[first..first + 4].try_into().unwrap())
 }
 

@@ -142,3 +142,26 @@ fn outliers_that_leave_no_point_are_refused_however_gaps_are_filled() {
         }
     }
 }
+
+#[test]
+fn a_form_leaves_nothing_of_itself() {
+    let shapes = [(12, 10), (300, 200), (1024, 33)];
+    let planes =
+        [(0.1, 0.0, 0.0), (0.0, 1e-7, 3e-7), (0.076, 1.3e-8, -7.7e-7), (-3e-6, 0.02, 1.0 / 3.0), (1e-9, -1e-9, 0.0)];
+    for ((columns, rows), (offset, along, across)) in
+        shapes.into_iter().flat_map(|shape| planes.map(|plane| (shape, plane)))
+    {
+        let plane = patch(columns, rows, 1e-3, |x, y| offset + along * x as f64 + across * y as f64).heights;
+        for form in [Level::Plane, Level::Quadratic] {
+            let mut heights = plane.clone();
+            level(&mut heights, rows, form, false);
+            assert!(heights.iter().all(|height| *height == 0.0), "{offset} + {along} x + {across} y, {form:?}");
+        }
+        // A billionth of the tilt is a surface.
+        let bump = 1e-9 * (offset.abs() + along.abs() * columns as f64 + across.abs() * rows as f64);
+        let mut heights = plane;
+        heights[columns * rows / 2] += bump;
+        level(&mut heights, rows, Level::Plane, false);
+        assert!((heights[columns * rows / 2] / bump - 1.0).abs() < 0.1);
+    }
+}

@@ -81,30 +81,19 @@ pub struct SimulationState {
 
 /// Reason why there is no checkpoint to go on from.
 #[derive(Debug, Error)]
+#[allow(missing_docs)] // The messages say what they mean.
 pub enum CheckpointError {
-    /// The file cannot be read.
     #[error("cannot read {}: {error}", path.display())]
     Read {
-        /// The file.
         path: PathBuf,
         /// Message of the system.
         #[source]
         error: io::Error,
     },
-    /// It is damaged, or something else.
     #[error("{} is not a complete checkpoint: {reason}", path.display())]
-    Damaged {
-        /// The file.
-        path: PathBuf,
-        /// The sign of it.
-        reason: &'static str,
-    },
-    /// Something that no run left has its name.
+    Damaged { path: PathBuf, reason: &'static str },
     #[error("{} is not a checkpoint of plateau, but is where one would be; move it away, or write elsewhere with -o FILE", path.display())]
-    Foreign {
-        /// The path.
-        path: PathBuf,
-    },
+    Foreign { path: PathBuf },
 }
 
 /// Bytes of a checkpoint but for the image of the run file, at most: heights, substrates and statuses of all cells, of a run that chooses its acceleration

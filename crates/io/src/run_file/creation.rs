@@ -10,10 +10,9 @@ use hdf5::plist::file_create::LinkCreationOrder;
 use hdf5::{Dataset, Datatype, Extent, File, SimpleExtents};
 use plateau_core::acceleration::Chosen;
 use plateau_core::model::mesh::Mesh;
-use plateau_core::observe::CYCLE;
 use plateau_core::observe::event::{EventRecord, event_quantities};
 use plateau_core::observe::extra::Extra;
-use plateau_core::observe::{Map, quantities};
+use plateau_core::observe::{CYCLE, Map, quantities};
 
 use super::digest::{self, DIGEST, Digests};
 use super::error::{failed, not_anew};
@@ -24,8 +23,8 @@ use super::layout::{
 };
 use super::output::Output;
 use super::{End, Header, RunFileError, State};
-use crate::hdf5_file::writing::{Dimensions, EMPTY_FILE, open_for_writing, write_number, write_text};
 use crate::hdf5_file::{self, in_words};
+use crate::hdf5_file::{Dimensions, EMPTY_FILE, open_for_writing, write_number, write_text};
 use crate::input::sha256_of;
 use crate::timestamp::iso_8601;
 

@@ -9,7 +9,7 @@ use plateau_core::model::state::Base;
 use plateau_core::observe::extra::Extra;
 use plateau_core::observe::{ABSENT, Map, quantities};
 
-use crate::hdf5_file::writing::write_text;
+use crate::hdf5_file::write_text;
 
 /// `format_version` of the files written here.
 pub(super) const FORMAT_VERSION: i32 = 1;

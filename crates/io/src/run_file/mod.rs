@@ -18,7 +18,6 @@
 //! Every dataset is chunked and filtered with shuffle and deflate, which any HDF5 reader understands; what grows only when the
 //! run has ended and the file is made anew, with fixed dimensions.
 pub mod checkpoint;
-mod contact_area;
 mod creation;
 mod digest;
 mod error;
@@ -29,16 +28,15 @@ mod output;
 mod reader;
 mod repair;
 mod store;
-mod verify;
 mod writer;
 
-pub use contact_area::{ContactArea, NoDrift};
+pub use digest::{Damage, Verification, verify};
 pub use error::{ReadError, RunFileError};
 pub use header::{Earlier, End, Header, InputFile, State};
 pub use image::Image;
 pub use layout::{image_estimate, map_path, size_estimate};
 pub use output::{KeepError, check_output, keep, resolve};
+pub use reader::{ContactArea, NoDrift};
 pub use reader::{RunFile, Series};
 pub use repair::{LeftOut, Repair, RepairError, is_healthy, last_writer, repair};
-pub use verify::{Damage, Verification, verify};
 pub use writer::{RunWriter, Synced, WriterReport};

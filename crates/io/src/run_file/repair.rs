@@ -14,7 +14,7 @@ use super::output::{KeepError, Output, keep, resolve};
 use super::store::{Restored, set_up};
 use super::{Earlier, End, Header, Image, ReadError, RunFile, RunFileError, State};
 use crate::claim::{Claim, ClaimError};
-use crate::hdf5_file::writing::EMPTY_FILE;
+use crate::hdf5_file::EMPTY_FILE;
 use crate::process::Process;
 use crate::temporary::Temporary;
 use crate::text::short;

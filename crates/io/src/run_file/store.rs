@@ -18,7 +18,7 @@ use super::image::{Image, MARK, Values};
 use super::layout::{MAP_TIME, Statuses, TIME, map_path, series_path};
 use super::output::Output;
 use super::{Earlier, End, Header, ReadError, RunFile, RunFileError, State};
-use crate::hdf5_file::writing::{EMPTY_FILE, open_for_writing, write_text};
+use crate::hdf5_file::{EMPTY_FILE, open_for_writing, write_text};
 use crate::input::sha256_of;
 use crate::temporary::{self, Temporary};
 

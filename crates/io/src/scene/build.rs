@@ -1,5 +1,4 @@
-//! From checked keys to a [`Scene`]: what several keys say together. Mesh, materials, length of the run, friction, heat and emission
-//! (docs/drive.md), output.
+//! A scene from its layers: settings, and what they say together: mesh, steps, memory.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -11,26 +10,60 @@ use plateau_core::model::heat::{Coating, Disc, Pin, Substance, Thermal};
 use plateau_core::model::material::{Material, Materials};
 use plateau_core::model::mesh::Mesh;
 use plateau_core::model::parameters::{DebrisRule, Parameters, PlateauRules};
-use plateau_core::observe::dissipation::CONTACT_TEMPERATURE;
-use plateau_core::observe::extra::Extra;
+use plateau_core::observe::extra::{CONTACT_TEMPERATURE, Extra};
 use plateau_core::observe::schedule::SampleEvery;
 use plateau_core::observe::{Map, requested};
 
-use super::contents::{self, OperationCycle, OutputSettings, Scene, Workers};
-use super::cycle::{ConstantLoad, constants_without_effect, operation, refuse_choice, road_alone, short_events};
-use super::error::{Origin, Problem};
-use super::interpret::Setting;
-use super::mesh::{Geometry, Refused};
-use super::schema::choices::{self, Shape};
-use super::schema::{ACCELERATION, join};
-use super::settings::Settings;
-use super::surfaces::{base, heights};
-use super::{Warning, resolved};
 use crate::memory::refuse_beyond;
+use crate::scene::contents::{self, OperationCycle, OutputSettings, Scene, Workers};
+use crate::scene::cycle::{ConstantLoad, constants_without_effect, operation, refuse_choice, road_alone, short_events};
+use crate::scene::error::{Origin, Problem, SceneError, Warning};
+use crate::scene::interpret::Setting;
+use crate::scene::layers::{self, Layered};
+use crate::scene::mesh::{Geometry, Refused};
+use crate::scene::resolved;
+use crate::scene::schema::choices::{self, Shape};
+use crate::scene::schema::{ACCELERATION, join};
+use crate::scene::settings::{self, Settings};
+use crate::scene::surfaces::{base, heights};
 use crate::{number, text};
 
+/// Reads the scene at `path`, lays it over the scenes it extends, applies the arguments of `--set` (`key.path=value`)
+/// and checks everything that can be checked without reading surfaces.
+pub fn load(path: &Path, sets: &[String]) -> Result<Scene, SceneError> {
+    checked(layers::read(path, None, &[sets])?, path)
+}
+
+/// As [`load`], of the text of a scene that is in no file: what it names is looked for as if it were at `path`.
+pub fn of_text(path: &Path, text: &str) -> Result<Scene, SceneError> {
+    of_layers(path, Some(text), &[])
+}
+
+/// As [`load`], or of a text as [`of_text`], with lists of changes that are laid over each other, as scenes are that extend others: a
+/// later one may choose another alternative.
+pub fn of_layers(path: &Path, text: Option<&str>, sets: &[&[String]]) -> Result<Scene, SceneError> {
+    checked(layers::read(path, text, sets)?, path)
+}
+
+fn checked(layers: Layered, path: &Path) -> Result<Scene, SceneError> {
+    let Layered { entries, files, mut problems, replaced } = layers;
+    if problems.is_empty() {
+        // A key that is mistyped or was dropped is not missing too.
+        settings::refuse_missing(&entries, path, &mut problems);
+    }
+    settings::refuse_lone_companions(&entries, &mut problems);
+    settings::refuse_meaningless(&entries, &mut problems);
+    let settings = Settings::read(&entries, path, &mut problems);
+    if !problems.is_empty() {
+        return Err(SceneError::new(problems));
+    }
+    let mut scene = build(settings, files, path)?;
+    scene.warnings.splice(0..0, replaced);
+    Ok(scene)
+}
+
 /// Makes the scene; `files` are the scene file and those it extends.
-pub(super) fn build(mut settings: Settings, mut files: Vec<(PathBuf, String)>, path: &Path) -> Result<Scene, Problem> {
+fn build(mut settings: Settings, mut files: Vec<(PathBuf, String)>, path: &Path) -> Result<Scene, Problem> {
     let mut warnings = Vec::new();
     let adaptive = adaptive(&settings)?;
     let (parameters, operation) = parameters(&settings)?;

@@ -7,11 +7,9 @@ use std::sync::Arc;
 use plateau_core::acceleration::Adaptive;
 use plateau_core::model::cycle::Cycle;
 use plateau_core::model::parameters::Parameters;
-use plateau_core::observe::dissipation::{EMISSION, FRICTION, HEAT};
-use plateau_core::observe::extra::Extra;
+use plateau_core::observe::extra::{EMISSION, Extra, FRICTION, HEAT};
 use plateau_core::observe::schedule::{End, SampleEvery, Schedule};
-use plateau_core::observe::{ACCELERATION, Map};
-use plateau_core::observe::{CYCLE, ROAD};
+use plateau_core::observe::{ACCELERATION, CYCLE, Map, ROAD};
 use plateau_core::surface::micrograph::Micrograph;
 use plateau_core::surface::{Body, FibreSynthesis, HeightSynthesis, Preparation};
 

@@ -2,13 +2,13 @@
 
 use std::path::Path;
 
-use plateau_core::model::heat::factor::{Factor, FactorError};
+use plateau_core::model::heat::thermal::{Factor, FactorError};
 use plateau_core::observe::Map;
 
 use super::cycle_table::{CycleTable, Loads, Speeds};
-use super::document::{Entry, Value};
 use super::error::{Origin, Problem};
 use super::schema::{Kind, Range};
+use crate::scene::layers::{Entry, Value};
 use crate::text::{nearest, odd_character, short, too_long};
 use crate::units;
 use crate::units::Dimension::{self, Force, Pressure, RotationalSpeed, Speed, Time, Torque};

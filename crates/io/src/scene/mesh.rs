@@ -2,8 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use plateau_core::model::mesh::{Mesh, MeshError};
-use plateau_core::model::outline::{Outline, columns_of_disc};
+use plateau_core::model::mesh::{Mesh, MeshError, Outline, columns_of_disc};
 use plateau_core::surface::Length;
 
 use super::schema::choices::Shape;

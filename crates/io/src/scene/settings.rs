@@ -3,14 +3,14 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use plateau_core::model::heat::factor::Factor;
+use plateau_core::model::heat::thermal::Factor;
 use plateau_core::observe::Map;
 
-use super::document::{self, Entries, Value};
 use super::error::{Origin, Problem};
 use super::interpret::{Setting, interpret};
 use super::schema::choices::Choices;
 use super::schema::{self, Key, Need};
+use crate::scene::layers::{self, Entries, Value};
 
 /// Checked values by full path, with the place of each.
 #[derive(Debug, Default)]
@@ -155,7 +155,7 @@ impl Settings {
             }
             let setting = match key.need {
                 Need::Default(text) => read_default(key, text, scene),
-                Need::RequiredUnless(choose, text) if document::chooses(entries, choose) => {
+                Need::RequiredUnless(choose, text) if layers::chooses(entries, choose) => {
                     read_default(key, text, scene)
                 }
                 Need::SameAs(table) => self.get(&schema::join(table, key.name)).cloned(),
@@ -206,12 +206,12 @@ impl Settings {
 }
 
 fn read_default(key: &Key, text: &str, scene: &Path) -> Option<Setting> {
-    document::read_default(text).and_then(|entry| interpret(&key.path(), key.kind, &entry, scene).ok())
+    layers::read_default(text).and_then(|entry| interpret(&key.path(), key.kind, &entry, scene).ok())
 }
 
 /// Tells whether a key has no meaning beside a value of another key.
 fn is_meaningless(path: &str, entries: &Entries) -> bool {
-    schema::MEANINGLESS.iter().any(|each| each.key == path && document::chooses(entries, each.beside))
+    schema::MEANINGLESS.iter().any(|each| each.key == path && layers::chooses(entries, each.beside))
 }
 
 /// Tells whether the tables are there without which the key has no meaning: the inline table that holds it, if it is in one, and
@@ -240,7 +240,7 @@ pub(super) fn refuse_lone_companions(entries: &Entries, problems: &mut Vec<Probl
 
 /// `pad_share` means nothing with `debris = "local"`.
 pub(super) fn refuse_meaningless(entries: &Entries, problems: &mut Vec<Problem>) {
-    for each in schema::MEANINGLESS.iter().filter(|each| document::chooses(entries, each.beside)) {
+    for each in schema::MEANINGLESS.iter().filter(|each| layers::chooses(entries, each.beside)) {
         if let Some(entry) = entries.get(each.key) {
             let schema::Choose { key, value } = each.beside;
             let message = format!("this key has no meaning beside {key} = \"{value}\": {}; leave it out", each.reason);
@@ -256,10 +256,10 @@ pub(super) fn refuse_missing(entries: &Entries, scene: &Path, problems: &mut Vec
     for section in schema::sections() {
         let is_required = |key: &Key| match key.need {
             Need::RequiredUnless(choose, _) => {
-                !document::chooses(entries, choose) && !document::is_undecided(entries, choose.key)
+                !layers::chooses(entries, choose) && !layers::is_undecided(entries, choose.key)
             }
             Need::OfWay(unless) => {
-                is_of_chosen_way(key, entries) && !unless.is_some_and(|choose| document::chooses(entries, choose))
+                is_of_chosen_way(key, entries) && !unless.is_some_and(|choose| layers::chooses(entries, choose))
             }
             need => need == Need::Required,
         };

@@ -1,25 +1,61 @@
-//! From the text of a study to the study: its design, its replicates, and what its keys say together.
+//! A study from its file: read, its keys checked, put together.
 
 use std::collections::HashSet;
 use std::path::Path;
+use std::sync::Arc;
 
 use plateau_study::design::{Alpha, Fraction, Kind};
 use toml::Spanned;
 
-use super::contents::{DesignSource, Order, Replicates, Study};
-use super::document::{self, Document};
-use super::factor::Factor;
-use super::factor_keys::{factors, stated_unit};
-use super::response::Response;
-use super::response_keys::{responses, series_name};
-use super::value_table;
-use crate::scene::{Locator, Origin, Problem, schema};
+use crate::scene::{Locator, Origin, Problem, not_toml, schema};
+use crate::study::document::{self, Document};
+use crate::study::factor::Factor;
+use crate::study::keys::{factors, responses, series_name, stated_unit};
+use crate::study::plan::{DesignSource, Order, Replicates, Study, StudyError};
+use crate::study::response::Response;
+use crate::study::value_table;
 use crate::text::{self, MOST_PROBLEMS, short};
+use crate::{hdf5_file, input, limits};
+
+impl Study {
+    /// Reads the study at `path`. Whether the scenes of its runs can be built is seen when they are planned.
+    pub fn load(path: &Path) -> Result<Self, StudyError> {
+        let file: Arc<Path> = path.into();
+        let at = |origin: Origin, message: String| StudyError(vec![Problem::without_key(&origin, message)]);
+        let text = input::read_to_string(path, limits::STUDY).map_err(|error| {
+            let (what, system) = if hdf5_file::is_hdf5(path).unwrap_or(false) {
+                ("this is an HDF5 file, expected a study, which is a text in TOML".to_owned(), None)
+            } else {
+                (format!("cannot read the study: {error}"), error.raw_os_error())
+            };
+            StudyError(vec![Problem { system, ..Problem::without_key(&Origin::File(file.clone()), what) }])
+        })?;
+        let locator = Locator::new(file.clone(), &text);
+        let located = |error: &toml::de::Error, message: String| {
+            at(error.span().map_or(Origin::File(file.clone()), |span| locator.origin(span)), message)
+        };
+        let table: toml::Table = text.parse().map_err(|error| located(&error, not_toml(&text, &error)))?;
+        if is_scene(&table) {
+            let message = "this is a scene, expected a study; `plateau run` and `plateau check` take scenes";
+            return Err(at(Origin::File(file.clone()), message.to_owned()));
+        }
+        let document: Document =
+            toml::from_str(&text).map_err(|error| located(&error, document::with_advice(error.message())))?;
+        build(document, path, &locator).map_err(StudyError)
+    }
+}
+
+/// Tells whether this is a scene: it has a table that only scenes have, and nothing that every study has.
+fn is_scene(table: &toml::Table) -> bool {
+    let has = |keys: &[&str]| keys.iter().any(|key| table.contains_key(*key));
+    let tables = ["mesh", "operation", "contact", "materials", "plateaus", "disc", "pin", "extends"];
+    has(&tables) && !has(&["design", "factor", "base"])
+}
 
 /// The newest version of the study format that this program reads.
 const VERSION: i64 = 1;
 
-pub(super) fn build(document: Document, path: &Path, locator: &Locator<'_>) -> Result<Study, Vec<Problem>> {
+fn build(document: Document, path: &Path, locator: &Locator<'_>) -> Result<Study, Vec<Problem>> {
     let mut problems = Vec::new();
     let folder = path.parent().unwrap_or(Path::new(""));
     let version = *document.version.get_ref();

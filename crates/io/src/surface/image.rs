@@ -12,8 +12,7 @@ use tiff::decoder::{Decoder, DecodingResult, Limits};
 use tiff::tags::Tag;
 
 use super::format::Format;
-use super::measured::Measured;
-use super::options::{MOST_POINTS, ReadOptions, inflated};
+use super::measured::{MOST_POINTS, Measured, ReadOptions, inflated};
 use crate::memory::{NoRoom, refuse_beyond};
 
 /// Why an image gives no surface.

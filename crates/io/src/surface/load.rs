@@ -4,16 +4,16 @@ use std::path::{Path, PathBuf};
 
 use plateau_core::model::mesh::Mesh;
 use plateau_core::model::state::{Base, InitialSurfaces};
-use plateau_core::surface::describe::HeightParameters;
 use plateau_core::surface::micrograph::{FibreMap, Micrograph};
 use plateau_core::surface::{
-    Body, Extension, HeightSynthesis, Length, Patch, Preparation, RawHeights, Texture, fibre_fraction, set_back_resin,
+    Body, Extension, HeightParameters, HeightSynthesis, Length, Patch, Preparation, RawHeights, Texture,
+    fibre_fraction, set_back_resin,
 };
 
 use super::error::{FileError, SurfaceError};
+use super::files::{detect, read};
 use super::format::Format;
-use super::options::{Lay, ProfileError, ReadOptions};
-use super::read::{detect, read};
+use super::measured::{Lay, ProfileError, ReadOptions};
 use super::{hdf5, image};
 use crate::input::{self, digested};
 use crate::limits;

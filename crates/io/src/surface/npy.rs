@@ -9,8 +9,7 @@ use thiserror::Error;
 use zip::ZipArchive;
 
 use super::format::Format;
-use super::measured::Measured;
-use super::options::{MOST_POINTS, ReadOptions, inflated};
+use super::measured::{MOST_POINTS, Measured, ReadOptions, inflated};
 use super::stored::{Kind, Number};
 use crate::memory::{NoRoom, refuse_beyond};
 use crate::text::short;

@@ -62,29 +62,22 @@ impl From<SimulationError> for Unfinished {
 
 /// Why there are no runs to compare.
 #[derive(Debug, Error)]
+#[allow(missing_docs)] // The messages say what they mean.
 pub enum PlanError {
     /// The scene does not take the time acceleration of the reference.
     #[error(transparent)]
     Scene(#[from] SceneError),
-    /// The reference is not finer than the scene.
     #[error("the reference has time_acceleration = {reference}: expected {}", expected(*own, *needs_model))]
     NotFiner {
-        /// Time acceleration of the reference.
         reference: f64,
-        /// That of the scene.
         own: f64,
         /// Whether nothing but the model itself judges runs of the scene.
         needs_model: bool,
     },
-    /// Nothing can be compared with the reference.
     #[error(
         "nothing is coarser than the reference with time_acceleration = {reference}: choose other ladders or a longer duration"
     )]
-    NothingToRun {
-        /// Time acceleration of the reference.
-        reference: f64,
-    },
-    /// The budget does not suffice.
+    NothingToRun { reference: f64 },
     #[error(
         "the budget of {} is too small: at {} steps/s, as measured, a reference with time_acceleration = {reference} needs a \
          budget of {}; give --budget {} or more{}",
@@ -92,9 +85,7 @@ pub enum PlanError {
         or_model(*reference, *of_model)
     )]
     TooSmall {
-        /// The budget, s.
         budget: f64,
-        /// Steps per second.
         speed: f64,
         /// Time acceleration of the reference that needs the smallest budget.
         reference: f64,

@@ -1,10 +1,10 @@
-//! Ladders: runs of a scene with one of its keys set to several values.
+//! Ladders: runs of a scene with one of its keys set to several values; and the cells of the runs, where the cell is a numerical setting.
 
 use std::path::PathBuf;
 
+use plateau_core::model::mesh::Mesh;
+use plateau_core::model::state::InitialSurfaces;
 use plateau_io::scene::{self, Scene, SceneError};
-
-use super::cells::Cells;
 
 /// Time accelerations that are tried, besides the scene's own: they have small common multiples, so that there are windows
 /// of whole revolutions of all of them.
@@ -165,8 +165,58 @@ impl Rung {
     }
 }
 
+/// Length of cells along the sliding direction, against the scene's.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Cells {
+    /// Half as long.
+    Halved,
+    /// The scene's.
+    Own,
+    /// Twice as long.
+    Doubled,
+}
+
+impl Cells {
+    /// Every so many columns of the halved cells there is one of these.
+    fn stride(self) -> usize {
+        match self {
+            Self::Halved => 1,
+            Self::Own => 2,
+            Self::Doubled => 4,
+        }
+    }
+
+    /// Columns of the disc and of the pin, from those of the scene's mesh; none where the disc's cannot be divided. A pin with an
+    /// odd number of columns gets half a doubled cell more.
+    pub fn columns(self, own: &Mesh) -> Option<[usize; 2]> {
+        let [disc, pin] = [own.disc_columns(), own.pin_columns()].map(|columns| 2 * columns);
+        (disc % self.stride() == 0).then_some([disc / self.stride(), pin.div_ceil(self.stride())])
+    }
+
+    /// Wall time of a run against that with the scene's cells: columns, and steps, are in inverse proportion to a cell's length.
+    pub fn work(self) -> f64 {
+        (2.0 / self.stride() as f64).powi(2)
+    }
+
+    /// Samples surfaces that were made on the mesh of halved cells: the same physical surfaces.
+    #[must_use]
+    pub fn sample(self, surfaces: &InitialSurfaces, rows: usize) -> InitialSurfaces {
+        fn columns<T: Copy>(values: &[T], rows: usize, stride: usize) -> Vec<T> {
+            values.chunks(rows).step_by(stride).flatten().copied().collect()
+        }
+        let stride = self.stride();
+        InitialSurfaces {
+            disc_height: columns(&surfaces.disc_height, rows, stride),
+            pin_height: columns(&surfaces.pin_height, rows, stride),
+            pin_base: columns(&surfaces.pin_base, rows, stride),
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
+    use plateau_core::model::state;
+
     use super::*;
 
     fn base(sets: &[&str]) -> Base {
@@ -235,5 +285,22 @@ mod tests {
         assert!(refused.to_string().contains("give operation.duration"), "{refused}");
         let half = rung.clone().lasting(0.5 * rung.scene.duration);
         assert!(half.scene.steps.abs_diff(rung.scene.steps / 2) <= 1, "{}", half.scene.steps);
+    }
+
+    #[test]
+    fn every_second_and_fourth_column_is_sampled() {
+        let own = Mesh::new(2, 6, 3, 0.010, 0.011).unwrap();
+        let columns = [Cells::Halved, Cells::Own, Cells::Doubled].map(|cells| cells.columns(&own));
+        assert_eq!(columns, [Some([12, 6]), Some([6, 3]), Some([3, 2])]);
+        assert_eq!(Cells::Doubled.columns(&Mesh::new(2, 7, 3, 0.010, 0.011).unwrap()), None);
+        let numbers = |columns: usize| (0..2 * columns).map(|number| number as f64).collect();
+        let finest = InitialSurfaces {
+            disc_height: numbers(12),
+            pin_height: numbers(6),
+            pin_base: vec![state::Base::Primary; 12],
+        };
+        let doubled = Cells::Doubled.sample(&finest, 2);
+        assert_eq!(doubled.disc_height, [0.0, 1.0, 8.0, 9.0, 16.0, 17.0]);
+        assert_eq!((doubled.pin_height.as_slice(), doubled.pin_base.len()), ([0.0, 1.0, 8.0, 9.0].as_slice(), 4));
     }
 }

@@ -2,27 +2,25 @@
 
 use std::time::Instant;
 
-use plateau_core::acceleration::smoothness::Smoothness;
+use plateau_core::acceleration::scout::Smoothness;
 use plateau_core::model::state::InitialSurfaces;
 use plateau_core::simulation::Execution;
 use plateau_io::dataset_file::now;
-use plateau_io::number;
 use plateau_io::scene::Scene;
-use plateau_io::surface;
+use plateau_io::{number, surface};
 
-use super::cells::Cells;
 use super::error::{AccuracyError, PlanError, Unfinished, enough};
 use super::ladder::{Base, Ladder, Rung, Step, steps, time_accelerations};
 use super::quantity::Course;
 use super::reference::{Provenance, ReadReference, Reference};
 use super::report::{Measured, OwnError, Report, Row};
-use super::run::{Outcome, make, try_steps};
-use super::windows::{LEAST_WINDOW, Windows, common_multiple};
+use crate::accuracy::ladder::Cells;
+use crate::accuracy::quantity::{LEAST_WINDOW, Windows, common_multiple};
+use crate::accuracy::reference::{Outcome, make, try_steps};
 use crate::error::{InputError, RunError};
 use crate::execution;
 use crate::execution::cores;
-use crate::options::Observer;
-use crate::options::Program;
+use crate::options::{Observer, Program};
 
 /// Part of the budget that the reference and its check may take.
 const FOR_REFERENCE: f64 = 0.5;

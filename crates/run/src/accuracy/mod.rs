@@ -2,25 +2,19 @@
 //!
 //! | what | where |
 //! |---|---|
-//! | windows of physical time | `windows` |
-//! | quantities, their course over windows, and its errors | `quantity` |
-//! | half and twice as long cells, and their surfaces | `cells` |
-//! | runs that are a scene with some keys set | `ladder` |
-//! | one run, taken and timed | `run` |
-//! | a reference, made or read | `reference` |
+//! | quantities, their course over windows of physical time, and its errors | `quantity` |
+//! | runs that are a scene with some keys set, or half and twice as long cells | `ladder` |
+//! | one run, taken and timed; a reference, made or read | `reference` |
 //! | the reference and all runs within a budget, one after the other | [`measure()`] |
 //! | all that was found, and what is advised | [`Report`] |
 //! | why nothing was | [`AccuracyError`] |
 
-mod cells;
 mod error;
 mod ladder;
 mod measure;
 mod quantity;
 mod reference;
 mod report;
-mod run;
-mod windows;
 
 pub use error::{AccuracyError, PlanError, ReferenceError, Unfinished};
 pub use ladder::{Base, Ladder, Rung};

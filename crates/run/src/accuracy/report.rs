@@ -3,7 +3,7 @@
 use super::ladder::{Ladder, Rung};
 use super::quantity::{COMPARED, COUNT, Compared, QuantityError, Values, greatest};
 use super::reference::Reference;
-use super::windows::Windows;
+use crate::accuracy::quantity::Windows;
 
 /// All that was found.
 #[derive(Debug, Clone)]

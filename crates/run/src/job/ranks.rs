@@ -9,8 +9,8 @@ use plateau_core::model::parameters::Parameters;
 use plateau_core::model::state::InitialSurfaces;
 use plateau_core::simulation::{Execution, Simulation, SimulationError};
 
-use super::work_queue::{Agreement, PieceEnd, WorkQueue};
 use crate::error::{InputError, RunError, RunFailure};
+use crate::job::{Agreement, PieceEnd, WorkQueue};
 
 /// Between two looks for ranks that want work.
 const PAUSE: Duration = Duration::from_millis(1);

@@ -12,10 +12,10 @@ use plateau_io::study::record::{Identity, dataset_of};
 use plateau_io::temporary::Temporary;
 use plateau_io::{number, text};
 
-use super::error::SweepError;
-use super::observer::SweepObserver;
 use super::resolved::Resolved;
+use crate::error::SweepError;
 use crate::execution;
+use crate::sweep::warnings::SweepObserver;
 
 /// Folder of the study's journal.
 pub fn journal_folder(study: &Study) -> PathBuf {

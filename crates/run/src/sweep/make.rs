@@ -6,8 +6,8 @@ use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::thread;
 use std::time::Duration;
 
-use plateau_core::observe::drift::pulse_time;
 use plateau_core::observe::event::event_quantities;
+use plateau_core::observe::running_in::pulse_time;
 use plateau_core::observe::{Quantity, Sample, quantities};
 use plateau_core::simulation::{Execution, Simulation, SimulationError};
 use plateau_io::scene::Scene;
@@ -17,9 +17,8 @@ use plateau_io::study::response::Response;
 use plateau_io::surface::{self, Loaded, SurfaceError};
 
 use super::under_way::UnderWay;
-use crate::assembly::Assembly;
+use crate::assembly::{Assembly, Sink};
 use crate::error::RunError;
-use crate::time_loop::Sink;
 
 /// Observer of one run of a study.
 pub trait Watcher: Sync {

@@ -14,8 +14,8 @@ use plateau_io::run_file::checkpoint::{self, SimulationState};
 use plateau_io::temporary::Temporary;
 use serde::{Deserialize, Serialize};
 
-use super::observer::SweepObserver;
 use crate::assembly::Assembly;
+use crate::sweep::warnings::SweepObserver;
 
 /// Folder of locks and states, in that of the results.
 const FOLDER: &str = "under-way";

@@ -89,9 +89,5 @@ pub(super) fn box_behnken(centre: usize, factors: &[Factor]) -> Result<Design, D
 }
 
 #[cfg(test)]
-#[path = "../../tests/unit/design/central_composite.rs"]
+#[path = "../../tests/unit/design/response_surface.rs"]
 mod tests;
-
-#[cfg(test)]
-#[path = "../../tests/unit/design/box_behnken.rs"]
-mod box_behnken_tests;

@@ -198,13 +198,5 @@ pub(super) fn morris(trajectories: usize, levels: usize, seed: u64, factors: &[F
 }
 
 #[cfg(test)]
-#[path = "../../tests/unit/design/latin_hypercube.rs"]
+#[path = "../../tests/unit/design/sampled.rs"]
 mod tests;
-
-#[cfg(test)]
-#[path = "../../tests/unit/design/sobol.rs"]
-mod sobol_tests;
-
-#[cfg(test)]
-#[path = "../../tests/unit/design/morris.rs"]
-mod morris_tests;

@@ -1,12 +1,7 @@
 //! `plateau surface`: what measured and prepared surfaces are like.
 
-mod comparison;
-mod describe;
-mod document;
-mod figure_data;
+mod data;
 mod recorded;
-mod subject;
-mod text;
 
 use std::path::{Path, PathBuf};
 
@@ -19,10 +14,9 @@ use crate::failure::Failure;
 use crate::hand_over::{self, hand_over};
 use crate::message;
 use crate::output;
-use crate::table::print;
-use figure_data::FigureData;
+use crate::output::print;
+use data::Data;
 use recorded::NamedHeights;
-use subject::Subject;
 
 /// More surfaces make no legible picture.
 const MOST_PLOTTED: usize = 12;
@@ -33,11 +27,15 @@ pub fn surface(arguments: &SurfaceArguments) -> Result<(), Failure> {
         return hand_over("surface", std::iter::once("convert".into()).chain(handed.arguments.clone()));
     }
     refuse_impossible(arguments)?;
-    // What is drawn is written down while it is there, so that not all heights are held.
-    let temporary = draws(arguments).then(hand_over::temporary_folder).transpose()?;
-    let folder = temporary.as_ref().map(|folder| folder.path()).or(arguments.figure_data.as_deref());
-    let mut figures = folder.map(FigureData::new);
-    let mut subjects = Vec::new();
+    // Heights are written down one after the other, so that not all are held.
+    let temporary;
+    let folder = if let Some(folder) = &arguments.figure_data {
+        folder
+    } else {
+        temporary = hand_over::temporary_folder()?;
+        temporary.path()
+    };
+    let mut data = Data::new(folder);
     let level = arguments.level.unwrap_or(Level::Plane);
     for path in &arguments.files {
         let mut found = match recorded::of(path, arguments)? {
@@ -55,18 +53,13 @@ pub fn surface(arguments: &SurfaceArguments) -> Result<(), Failure> {
             let [one] = &mut found[..] else { return Err(several(path, &found)) };
             convert(path, one, to, arguments.force)?;
         }
-        for heights in found {
-            let figures = figures.as_mut().filter(|_| draws_surfaces(arguments));
-            subjects.push(Subject::of_heights(heights, level, figures)?);
-        }
+        found.into_iter().try_for_each(|heights| data.add_file(heights, level))?;
     }
-    let mut read = Vec::new();
-    if let Some(path) = &arguments.prepare {
-        let (prepared, inputs) = prepared(path, arguments, figures.as_mut())?;
-        subjects.extend(prepared);
-        read = inputs;
-    }
-    tell(&subjects, arguments, &read, figures.as_ref())
+    let read = match &arguments.prepare {
+        Some(path) => prepared(path, arguments, &mut data)?,
+        None => Vec::new(),
+    };
+    tell(arguments, &read, &data)
 }
 
 /// Refuses to convert several maps of a run into one file.
@@ -78,15 +71,6 @@ fn several(path: &Path, found: &[NamedHeights]) -> Failure {
             "--to converts one surface, and these are {count}: say which with --dataset disc/height and --at TIME"
         ),
     )
-}
-
-fn draws(arguments: &SurfaceArguments) -> bool {
-    arguments.plot.is_some() || arguments.preview.is_some()
-}
-
-/// Whether heights are drawn, and not the fibre map alone.
-fn draws_surfaces(arguments: &SurfaceArguments) -> bool {
-    arguments.plot.is_some() || arguments.figure_data.is_some()
 }
 
 /// Refuses what cannot be done, before anything is read.
@@ -157,12 +141,8 @@ fn convert(path: &Path, from: &mut NamedHeights, to: &Path, force: bool) -> Resu
     })
 }
 
-/// What a scene makes of its disc and pin, with the files that it reads.
-fn prepared(
-    path: &Path,
-    arguments: &SurfaceArguments,
-    mut figures: Option<&mut FigureData>,
-) -> Result<([Subject; 2], Vec<PathBuf>), Failure> {
+/// Adds what a scene makes of its disc and pin; gives the files that it reads.
+fn prepared(path: &Path, arguments: &SurfaceArguments, data: &mut Data) -> Result<Vec<PathBuf>, Failure> {
     let scene = scene::load(path, &[]).map_err(Failure::of_scene)?;
     for warning in &scene.warnings {
         message::warning(warning);
@@ -170,14 +150,13 @@ fn prepared(
     let (loaded, patches) = surface::load_with_patches(&scene).map_err(Failure::input)?;
     loaded.warnings().for_each(message::warning);
     let Loaded { surfaces, report, inputs, .. } = loaded;
-    let inputs = scene.files.iter().chain(&inputs).map(|(path, _)| path.clone()).collect();
     let (mesh, level) = (&scene.parameters.mesh, arguments.level.unwrap_or(Level::None));
-    if let (Some(figures), true) = (&mut figures, arguments.preview.is_some() || arguments.figure_data.is_some()) {
+    if arguments.preview.is_some() || arguments.figure_data.is_some() {
         let micrograph = surface::micrograph(&scene).map_err(Failure::input)?;
-        figures.fibre_map(mesh, &surfaces.pin_base, micrograph.as_ref().map(|(map, pixel)| (map, *pixel)))?;
+        data.fibre_map(mesh, &surfaces.pin_base, micrograph.as_ref().map(|(map, pixel)| (map, *pixel)))?;
     }
-    let figures = figures.filter(|_| draws_surfaces(arguments));
-    Ok((Subject::of_scene(path, mesh, surfaces, patches, &report, level, figures)?, inputs))
+    data.add_scene(path, mesh, surfaces, patches, &report, level)?;
+    Ok(scene.files.iter().chain(&inputs).map(|(path, _)| path.clone()).collect())
 }
 
 /// An error of a file.
@@ -193,26 +172,27 @@ fn refuse_many(surfaces: usize) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Draws and prints.
-fn tell(
-    subjects: &[Subject],
-    arguments: &SurfaceArguments,
-    read: &[PathBuf],
-    figures: Option<&FigureData>,
-) -> Result<(), Failure> {
+/// Describes, draws and prints.
+fn tell(arguments: &SurfaceArguments, read: &[PathBuf], data: &Data) -> Result<(), Failure> {
+    // A run file has several.
+    if arguments.plot.is_some() {
+        refuse_many(data.count())?;
+    }
+    let folder = data.finish()?;
+    // Who only writes a file needs no package.
+    let only_writes = arguments.to.is_some() && !arguments.json;
+    let described = if only_writes && hand_over::answering("surface").is_none() {
+        message::warning("the Python package tells the parameters, and is not here: pip install 'plateau-brake[all]'");
+        String::new()
+    } else {
+        hand_over::described(folder, arguments.json)?
+    };
     let mut drawings: Vec<(PathBuf, Vec<u8>)> = Vec::new();
-    if let Some(data) = figures {
-        // A run file has several.
-        if arguments.plot.is_some() {
-            refuse_many(data.count())?;
-        }
-        let folder = data.finish()?;
-        for (kind, place) in [("surfaces", &arguments.plot), ("fibre-map", &arguments.preview)] {
-            let Some(place) = place else { continue };
-            let options = if arguments.relief && kind == "surfaces" { &["--relief"][..] } else { &[] };
-            let pages = hand_over::draw(kind, folder, hand_over::format_of(place).as_slice(), options)?;
-            drawings.extend(pages.into_iter().map(|(name, content)| (of_page(place, kind, &name), content)));
-        }
+    for (kind, place) in [("surfaces", &arguments.plot), ("fibre-map", &arguments.preview)] {
+        let Some(place) = place else { continue };
+        let options = if arguments.relief && kind == "surfaces" { &["--relief"][..] } else { &[] };
+        let pages = hand_over::draw(kind, folder, hand_over::format_of(place).as_slice(), options)?;
+        drawings.extend(pages.into_iter().map(|(name, content)| (of_page(place, kind, &name), content)));
     }
     // Before the first is written: either all are, or none.
     let inputs: Vec<PathBuf> = arguments.files.iter().chain(&arguments.prepare).chain(read).cloned().collect();
@@ -229,10 +209,10 @@ fn tell(
         return Ok(());
     }
     if arguments.json {
-        return print(&document::document(subjects)?);
+        return print(&described);
     }
     let written: String = taken.iter().map(|path| format!("\nwrote {}\n", path.display())).collect();
-    print(&(text::text(subjects) + &written))
+    print((described + &written).trim_start_matches('\n'))
 }
 
 /// Where a page of a figure of this kind goes: the first to the named file, further ones beside it with the end of their names.

@@ -15,9 +15,9 @@ use serde::Serialize;
 
 use crate::arguments::CollectArguments;
 use crate::failure::Failure;
-use crate::table::{csv_table, list, print, print_json, table};
+use crate::output::{csv_table, list, print, print_json, table};
 use crate::terminal::Messages;
-use crate::{output, version};
+use crate::{output, program};
 
 /// Failed runs that are listed.
 const LISTED: usize = 10;
@@ -114,8 +114,8 @@ fn attributes(plan: &Plan, collected: &Collected) -> Result<Vec<(&'static str, A
     let mut attributes = vec![
         ("title", text(&study.title)),
         ("state", text(state)),
-        ("program", Attribute::Text(version::program())),
-        ("source_revision", text(version::REVISION)),
+        ("program", Attribute::Text(program::name())),
+        ("source_revision", text(program::REVISION)),
         ("study", Attribute::Text(read(&study.path)?)),
         ("design", text(&study.design)),
         ("collected", Attribute::Text(now())),

@@ -12,7 +12,7 @@ use serde::Serialize;
 
 use crate::arguments::PlanArguments;
 use crate::failure::Failure;
-use crate::table::{columns, csv_table, list, print, print_json, table};
+use crate::output::{columns, csv_table, list, print, print_json, table};
 use crate::terminal::Messages;
 use crate::{message, output};
 

@@ -4,17 +4,18 @@
 //! Errors inside the MPI library end the whole job by themselves, as the MPI standard has it (`MPI_ERRORS_ARE_FATAL`,
 //! MPI 3.1, section 8.3).
 
+use std::cell::Cell;
 use std::rc::Rc;
-use std::thread;
 use std::time::Duration;
+use std::{fmt, thread};
 
 use ::mpi::datatype::PartitionMut;
+use ::mpi::environment::{Threading, Universe};
+use ::mpi::topology::SimpleCommunicator;
 use ::mpi::traits::{Communicator as _, CommunicatorCollectives, Destination, Equivalence, Source};
 use ::mpi::{Count, Rank, Tag};
 
-use super::mpi_job::{Job, LARGEST_TAG, MpiError};
-use super::work_requests::WorkRequests;
-use super::{CommError, Communicator};
+use crate::engine::comm::{CommError, Communicator};
 
 /// Words beyond which a message of `all_gather` goes in a second round every time: rare long messages must not make
 /// the many short ones slow.
@@ -189,4 +190,113 @@ fn tag(boundary: usize) -> Result<Tag, MpiError> {
 /// Refuses a number of words that MPI cannot count.
 fn count(words: usize) -> Result<(), MpiError> {
     if words > Count::MAX as usize { Err(MpiError::Length { words }) } else { Ok(()) }
+}
+
+/// Largest tag that every MPI library takes (MPI 3.1, section 8.1.2).
+const LARGEST_TAG: usize = 32_767;
+
+/// Bytes for halo messages on their way. As all ranks meet in every step, these are the messages of two steps at most.
+/// The system gives memory only for the part that is used.
+const SEND_BUFFER: usize = 64 << 20;
+
+/// Why ranks cannot talk to each other.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[allow(missing_docs)] // The messages say what they mean.
+pub enum MpiError {
+    #[error("MPI was started before in this process")]
+    StartedBefore,
+    #[error("this MPI library gives thread support {found:?}, at least Funneled is needed: use one built with threads")]
+    Threads { found: Threading },
+    #[error("the ring has a sector {boundary}, MPI tells at most {LARGEST_TAG} apart: use fewer ranks or columns")]
+    Boundary { boundary: usize },
+    #[error("a message of {words} words, MPI takes at most {}: use a smaller mesh", Count::MAX)]
+    Length { words: usize },
+    #[error("rank {from} sent {found} words for the boundary of sector {boundary}, expected {expected}")]
+    Halo { from: usize, boundary: usize, found: usize, expected: usize },
+}
+
+/// What ends with MPI; a job that is dropped before this rank is done ends all ranks.
+struct Job {
+    finished: Cell<bool>,
+    world: SimpleCommunicator,
+    /// Ends MPI when it is dropped, and waits for the other ranks then.
+    _universe: Universe,
+}
+
+impl Job {
+    /// Starts MPI.
+    fn start() -> Result<Self, MpiError> {
+        let (mut universe, threading) =
+            ::mpi::initialize_with_threading(Threading::Funneled).ok_or(MpiError::StartedBefore)?;
+        if threading < Threading::Funneled {
+            return Err(MpiError::Threads { found: threading });
+        }
+        universe.set_buffer_size(SEND_BUFFER);
+        Ok(Self { finished: Cell::new(false), world: universe.world(), _universe: universe })
+    }
+
+    /// This rank is done: from here on MPI may end in good order.
+    fn finish(&self) {
+        self.finished.set(true);
+    }
+
+    /// All ranks.
+    fn world(&self) -> &SimpleCommunicator {
+        &self.world
+    }
+}
+
+impl Drop for Job {
+    fn drop(&mut self) {
+        if !self.finished.get() || thread::panicking() {
+            self.world.abort(1);
+        }
+    }
+}
+
+impl fmt::Debug for Job {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Job").field("rank", &self.world.rank()).field("size", &self.world.size()).finish()
+    }
+}
+
+/// Tag of requests to rank 0, and of its answers.
+const TAG: Tag = 0;
+/// The answer when there is nothing more to do.
+const NOTHING: u64 = u64::MAX;
+
+/// One end of a queue at rank 0 of pieces of independent work for the ranks of the job: rank 0 answers, the others ask. Who is done asks
+/// for the next piece, so quick ranks get more of them.
+#[derive(Debug)]
+pub struct WorkRequests {
+    job: Rc<Job>,
+}
+
+impl WorkRequests {
+    fn new(job: Rc<Job>) -> Self {
+        Self { job }
+    }
+
+    /// On rank 0: who asks and with which word, if somebody does.
+    pub fn request(&self) -> Option<(usize, u64)> {
+        let anybody = self.job.world().any_process();
+        let status = anybody.immediate_probe_with_tag(TAG)?;
+        let from = self.job.world().process_at_rank(status.source_rank());
+        let (word, _) = from.receive_with_tag::<u64>(TAG);
+        Some((status.source_rank().unsigned_abs() as usize, word))
+    }
+
+    /// On rank 0: the answer to a rank that asked.
+    pub fn answer(&self, rank: usize, piece: Option<usize>) {
+        let word = piece.map_or(NOTHING, |piece| piece as u64);
+        self.job.world().process_at_rank(rank as Rank).send_with_tag(&word, TAG);
+    }
+
+    /// On another rank: tells rank 0 a word and waits for the next piece; none when there are no more.
+    pub fn ask(&self, word: u64) -> Option<usize> {
+        let first = self.job.world().process_at_rank(0);
+        first.send_with_tag(&word, TAG);
+        let (answer, _) = first.receive_with_tag::<u64>(TAG);
+        (answer != NOTHING).then_some(answer as usize)
+    }
 }

@@ -24,8 +24,7 @@ use super::transport::pass_against_sliding;
 use super::worn_column::{wear_and_note, wear_any_and_note};
 use crate::engine::lanes::{Lanes, Mask};
 use crate::engine::parts::{Needs, build_up};
-use crate::engine::pin_strips::PinStrips;
-use crate::engine::strips::DiscSector;
+use crate::engine::strips::{DiscSector, PinStrips};
 
 /// Columns of a strip with something out of the ordinary after which it is not looked for any more.
 const MOST_UNUSUAL: usize = 12;

@@ -5,8 +5,7 @@ use super::pairs::Pairs;
 use super::reading::{Bracket, BracketLanes, Reading, StripReading};
 use crate::engine::lanes::{Lanes, Mask};
 use crate::engine::parts::{Needs, build_up};
-use crate::engine::pin_strips::PinStrips;
-use crate::engine::strips::DiscSector;
+use crate::engine::strips::{DiscSector, PinStrips};
 
 /// Columns of pairs: the pin's from `first` on lie over the sector's from `over` on.
 #[derive(Debug, Clone, Copy)]

@@ -2,10 +2,9 @@
 
 use super::pairs::{PLAIN_PAIRS, PLATEAU, Pairs, RESIN, lanes_of, pair_of_lane};
 use crate::engine::coefficients::StatusPair;
-use crate::engine::exact::RowIntegers;
+use crate::engine::exact::{Quantum, RowIntegers};
 use crate::engine::lanes::{Chunk, Integers, LANES, Lanes, Mask};
 use crate::engine::parts::build_up;
-use crate::engine::quantum::Quantum;
 use serde::{Deserialize, Serialize};
 
 /// Displacements between which the next load balance is expected.

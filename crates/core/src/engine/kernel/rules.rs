@@ -4,9 +4,9 @@ use super::edge::Edge;
 use super::pairs::{ChunkTable, Entries};
 use super::reading::{Bracket, BracketLanes};
 use crate::engine::coefficients::Coefficients;
+use crate::engine::exact::Quantum;
 use crate::engine::lanes::{Integers, Lanes};
 use crate::engine::parts::Needs;
-use crate::engine::quantum::Quantum;
 use crate::model::material::Status;
 use crate::model::parameters::Parameters;
 

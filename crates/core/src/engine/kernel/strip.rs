@@ -4,8 +4,7 @@ use super::read::Span;
 use super::worn::Cells;
 use crate::engine::lanes::{Chunk, LANES, Lanes, Mask};
 use crate::engine::parts::build_up;
-use crate::engine::pin_strips::{PinStrip, PinStrips};
-use crate::engine::strips::DiscSector;
+use crate::engine::strips::{DiscSector, PinStrip, PinStrips};
 use std::ops::Range;
 
 /// A strip of a span.

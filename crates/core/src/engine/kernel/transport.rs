@@ -18,8 +18,7 @@ use super::worn::{Worn, wear};
 use super::worn_column::wear_and_note;
 use crate::engine::lanes::{Chunk, Integers, LANES, Lanes, Mask};
 use crate::engine::parts::{Needs, build_up};
-use crate::engine::pin_strips::PinStrips;
-use crate::engine::strips::DiscSector;
+use crate::engine::strips::{DiscSector, PinStrips};
 
 /// Finds what the first column of a span means to the one behind it, from the state at the start of the step.
 pub type ReachOf =

@@ -8,8 +8,7 @@ use super::rules::{Conditions, Rules};
 use crate::engine::coefficients::StatusPair;
 use crate::engine::lanes::{Chunk, LANES};
 use crate::engine::parts::{Needs, build_up};
-use crate::engine::pin_strips::PinStrips;
-use crate::engine::strips::DiscSector;
+use crate::engine::strips::{DiscSector, PinStrips};
 use crate::model::material::Status;
 
 /// A pair of cells at the start of a step; heights in m.

@@ -4,12 +4,10 @@ use super::Worker;
 use crate::engine::coefficients::StatusPair;
 use crate::engine::comm::Communicator;
 use crate::engine::contact::{Carried, Verdict};
-use crate::engine::exact::{ExactSum, Unit, of_words, words};
+use crate::engine::exact::{ExactSum, Quantum, Unit, of_words, words};
 use crate::engine::kernel::{Bracket, Span};
-use crate::engine::quantum::Quantum;
 use crate::engine::sector::Segment;
-use crate::model::error::ContactError;
-use crate::model::error::SimulationError;
+use crate::model::error::{ContactError, SimulationError};
 use crate::model::state::pin_status;
 
 /// Readings of one step; Newton's method needs few, this bound only keeps rounding from going round in circles.

@@ -9,9 +9,8 @@ use crate::engine::debris::Debris;
 use crate::engine::kernel::{Bracket, Conditions, Edge, Span};
 use crate::engine::lanes::LANES;
 use crate::engine::parts::Needs;
-use crate::engine::pin_strips::PinStrips;
 use crate::engine::sector::{Partition, Segment};
-use crate::engine::strips::strips;
+use crate::engine::strips::{PinStrips, strips};
 use crate::model::error::SimulationError;
 
 /// Words of a pin column of so many rows on its way to another worker, with what it loses where plateaus form.

@@ -1,20 +1,23 @@
-//! Holder – 8 pin layers – contact – 8 disc layers – air (model 11, one chain).
+//! Holder – 8 pin layers – contact – 8 disc layers – air (model 11, one chain), and its sub-steps by implicit Euler.
 
 use serde::{Deserialize, Serialize};
 
-use super::repeated;
-use super::sub_step::{NODES, SubStep};
-use super::{Substance, Thermal};
-use crate::model::running_sum::RunningSum;
+use crate::model::heat::{Substance, Thermal};
+use crate::model::sums::RunningSum;
 
+/// Heat capacities of the chain, from the holder to the disc's last layer.
+const NODES: usize = 16;
 /// Layers of each body.
 const LAYERS: usize = NODES / 2;
 /// By how much each layer is thicker than the one nearer to the contact.
 const GROWTH: f64 = 1.4;
 /// Longest sub-step, s.
 const LONGEST: f64 = 0.1;
-/// More sub-steps than these are taken at once (`repeated.rs`), at a cost that hardly depends on how many they are.
+/// More sub-steps than these are taken at once (`Exchange`), at a cost that hardly depends on how many they are.
 const MOST_ONE_BY_ONE: u64 = 10_000;
+
+/// θ of every node, K.
+type Excess = [f64; NODES];
 
 /// What the contact does to heat.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -162,7 +165,7 @@ impl Chain {
         let step = SubStep::new(time, capacity, conductance, outward, gain);
         if count > MOST_ONE_BY_ONE {
             let mut excess = state.excess();
-            state.lost.add(repeated::advance(&step, &mut excess, count));
+            state.lost.add(advance_repeatedly(&step, &mut excess, count));
             state.excess = excess.map(RunningSum::from);
         } else {
             let mut excess = state.excess();
@@ -218,5 +221,184 @@ impl Chain {
             lost,
             residual: if gained == 0.0 { 0.0 } else { (gained - lost - stored) / gained },
         }
+    }
+}
+
+/// A sub-step of the chain under a power that does not change.
+struct SubStep {
+    /// Its length, s.
+    pub time: f64,
+    /// Of each node, J/K.
+    pub capacity: [f64; NODES],
+    /// To the next node, W/K.
+    pub conductance: [f64; NODES - 1],
+    /// To the ambient, W/K.
+    pub outward: [f64; NODES],
+    /// Power of friction into each node, W.
+    pub power: [f64; NODES],
+    elimination: Elimination,
+}
+
+impl SubStep {
+    /// Over a time (s) with these heat capacities (J/K), conductances to the next node and outward (W/K), and powers
+    /// (W).
+    pub fn new(
+        time: f64,
+        capacity: [f64; NODES],
+        conductance: [f64; NODES - 1],
+        outward: [f64; NODES],
+        power: [f64; NODES],
+    ) -> Self {
+        let elimination = Elimination::new(&capacity.map(|capacity| capacity / time), &conductance, &outward);
+        Self { time, capacity, conductance, outward, power, elimination }
+    }
+
+    /// By how much each node gets warmer, K.
+    pub fn rise(&self, excess: &Excess) -> Excess {
+        let mut gain = self.power;
+        for node in 0..NODES {
+            gain[node] -= self.outward[node] * excess[node];
+            if let Some(conductance) = self.conductance.get(node) {
+                let flow = conductance * (excess[node] - excess[node + 1]);
+                gain[node] -= flow;
+                gain[node + 1] += flow;
+            }
+        }
+        // Solved for the rise, not for the temperature: what is stored keeps its digits over many sub-steps.
+        self.elimination.solve(gain)
+    }
+
+    /// θ of every node, K, that balances what flows into each, W: nothing is subtracted, so where all flows are positive every one
+    /// keeps its digits.
+    pub fn balanced(&self, inflow: [f64; NODES]) -> Excess {
+        self.elimination.solve(inflow)
+    }
+
+    /// Heat that goes to the ambient in a sub-step that ends with these temperatures, J.
+    pub fn lost(&self, excess: &Excess) -> f64 {
+        let flows = self.outward.iter().zip(excess).map(|(outward, excess)| outward * excess);
+        flows.sum::<f64>() * self.time
+    }
+}
+
+/// Gaussian elimination of a symmetric tridiagonal matrix, done once for many right-hand sides.
+struct Elimination {
+    /// Of each row, what the row before takes off it.
+    factor: [f64; NODES],
+    pivot: [f64; NODES],
+    /// To the next row, negative off the diagonal.
+    conductance: [f64; NODES - 1],
+}
+
+impl Elimination {
+    fn new(inertia: &[f64; NODES], conductance: &[f64; NODES - 1], outward: &[f64; NODES]) -> Self {
+        let (mut factor, mut pivot) = ([0.0; NODES], [0.0; NODES]);
+        // What a pivot is without the link to the next node: a sum of what is positive, so that nothing cancels.
+        let mut own = 0.0;
+        for node in 0..NODES {
+            let before = if node == 0 { 0.0 } else { conductance[node - 1] };
+            factor[node] = if node == 0 { 0.0 } else { before / pivot[node - 1] };
+            own = inertia[node] + outward[node] + factor[node] * own;
+            pivot[node] = own + conductance.get(node).copied().unwrap_or(0.0);
+        }
+        Self { factor, pivot, conductance: *conductance }
+    }
+
+    fn solve(&self, mut values: [f64; NODES]) -> [f64; NODES] {
+        for node in 1..NODES {
+            values[node] += self.factor[node] * values[node - 1];
+        }
+        values[NODES - 1] /= self.pivot[NODES - 1];
+        for node in (0..NODES - 1).rev() {
+            values[node] = (values[node] + self.conductance[node] * values[node + 1]) / self.pivot[node];
+        }
+        values
+    }
+}
+
+/// Very many equal sub-steps of the chain at once, for a pause may last for years.
+///
+/// A sub-step is a linear map, and the map of twice as many sub-steps is that map applied twice. The map is kept as the heat that
+/// each node gives to each other one, which is the same in both directions, and to the ambient. All of it is positive and only
+/// added and multiplied, so every part keeps its digits, also where the capacities are very unlike; what stays in a node is its
+/// capacity less what it gives, so no heat is lost or made.
+struct Exchange {
+    /// Heat that a node at 1 K gives to each other one, J/K, and what stays in it.
+    given: [[f64; NODES]; NODES],
+    /// Heat that it gives to the ambient, J/K.
+    lost: [f64; NODES],
+    /// What the power alone makes of a chain at the temperature of the ambient, K.
+    heated: Excess,
+    /// Heat of the power that goes to the ambient, J.
+    lost_of_power: f64,
+}
+
+/// Takes so many sub-steps; the heat lost in them, J.
+fn advance_repeatedly(step: &SubStep, excess: &mut Excess, count: u64) -> f64 {
+    let (mut exchange, mut left, mut lost) = (Exchange::of(step), count, 0.0);
+    loop {
+        if left % 2 == 1 {
+            lost += dot(&exchange.lost, excess) + exchange.lost_of_power;
+            *excess = exchange.after(&step.capacity, excess);
+        }
+        left /= 2;
+        if left == 0 {
+            return lost;
+        }
+        exchange = exchange.twice(&step.capacity);
+    }
+}
+
+fn dot(one: &[f64; NODES], other: &[f64; NODES]) -> f64 {
+    one.iter().zip(other).map(|(one, other)| one * other).sum()
+}
+
+impl Exchange {
+    /// A single sub-step.
+    fn of(step: &SubStep) -> Self {
+        let (mut given, mut lost) = ([[0.0; NODES]; NODES], [0.0; NODES]);
+        for node in 0..NODES {
+            let mut inflow = [0.0; NODES];
+            inflow[node] = step.capacity[node] / step.time;
+            let excess = step.balanced(inflow);
+            given[node] = std::array::from_fn(|other| step.capacity[other] * excess[other]);
+            lost[node] = step.lost(&excess);
+        }
+        let heated = step.balanced(step.power);
+        Self::new(&step.capacity, given, lost, heated, step.lost(&heated))
+    }
+
+    /// Of nodes with these capacities (J/K), with what stays in them.
+    fn new(
+        capacity: &[f64; NODES],
+        given: [[f64; NODES]; NODES],
+        lost: [f64; NODES],
+        heated: Excess,
+        lost_of_power: f64,
+    ) -> Self {
+        // The same in both directions, also as it is rounded.
+        let one_way = |node: usize, other: usize| given[node.min(other)][node.max(other)];
+        let mut given: [[f64; NODES]; NODES] = std::array::from_fn(|node| {
+            std::array::from_fn(|other| if other == node { 0.0 } else { one_way(node, other) })
+        });
+        for (node, given) in given.iter_mut().enumerate() {
+            given[node] = (capacity[node] - given.iter().sum::<f64>() - lost[node]).max(0.0);
+        }
+        Self { given, lost, heated, lost_of_power }
+    }
+
+    /// θ of every node after them, K.
+    fn after(&self, capacity: &[f64; NODES], excess: &Excess) -> Excess {
+        std::array::from_fn(|node| dot(&self.given[node], excess) / capacity[node] + self.heated[node])
+    }
+
+    /// Twice as many.
+    fn twice(&self, capacity: &[f64; NODES]) -> Self {
+        // θ of each node that a node at 1 K brings about, K.
+        let excess = self.given.map(|given| std::array::from_fn(|node| given[node] / capacity[node]));
+        let given = excess.map(|excess: Excess| std::array::from_fn(|node| dot(&excess, &self.given[node])));
+        let lost = std::array::from_fn(|node| self.lost[node] + dot(&excess[node], &self.lost));
+        let lost_of_power = 2.0 * self.lost_of_power + dot(&self.lost, &self.heated);
+        Self::new(capacity, given, lost, self.after(capacity, &self.heated), lost_of_power)
     }
 }

@@ -67,3 +67,32 @@ fn refuses_what_is_no_ring() {
     assert!(matches!(Mesh::new((1 << 22) + 1, 10, 5, 1.0, 2.0), Err(MeshError::TooMany { name: "rows", .. })));
     assert!(matches!(Mesh::new(1, (1 << 24) + 1, 5, 1.0, 2.0), Err(MeshError::TooMany { name: "disc_columns", .. })));
 }
+
+#[test]
+fn a_circle_has_as_many_columns_as_its_longest_arc() {
+    // The longest arc by trying every radius, where the closed form is the function's own.
+    for (radius, mean) in [(5e-3, 22e-3), (1e-3, 22e-3), (20e-3, 22e-3)] {
+        let angle: f64 = 1e-4;
+        let half = |r: f64| (radius * radius - (r - mean) * (r - mean)).max(0.0).sqrt() / r;
+        let longest = (0..=100_000).map(|place| half(mean - radius + 2.0 * radius * f64::from(place) / 1e5));
+        let longest = 2.0 * longest.fold(0.0, f64::max) / angle;
+        let columns = columns_of_disc(radius, mean, angle).unwrap();
+        assert!((columns - longest).abs() <= 0.5 + 1e-4 * longest, "{columns} of {longest}");
+    }
+    assert_eq!(columns_of_disc(22e-3, 22e-3, 1e-3), None);
+}
+
+#[test]
+fn chords_are_symmetric_and_those_that_go_beyond_the_columns_are_none() {
+    let disc = Outline::Disc { radius: 2.4 };
+    // Columns of one metre at a radius of 1000 m: centres at ±0.5, ±1.5, ±2.5 or at 0, ±1, ±2, ±3 m.
+    let chord = |columns, across| disc.chord(columns, 1e-3, 1e3, across);
+    assert_eq!(chord(6, 0.0), Some(1..5));
+    assert_eq!(chord(7, 0.0), Some(1..6));
+    assert_eq!(chord(7, 2.3), Some(3..4));
+    assert_eq!(chord(6, 2.39), Some(0..0));
+    assert_eq!(chord(7, 2.5), Some(0..0));
+    assert_eq!(chord(5, 0.0), Some(0..5));
+    assert_eq!(chord(3, 0.0), None);
+    assert_eq!(Outline::Rectangle.chord(3, 1e-3, 1e3, 0.0), Some(0..3));
+}

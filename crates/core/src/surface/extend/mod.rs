@@ -6,19 +6,17 @@
 //! distribution, z = T(g) (Grigoriu 1984, see [`translation`](super::synthesis::translation)). From a profile they come as
 //! those of a surface without a direction ([`line`]).
 
-mod line;
 mod statistics;
 
-use line::Line;
 use rayon::prelude::*;
-use statistics::{Quantiles, Reach, Spectrum};
+use statistics::{Line, Quantiles, Reach, Spectrum};
 
-use super::level::{Level, level, mean, rms};
-use super::preparation_error::PreparationError;
+use super::error::PreparationError;
+use super::heights::{mean, rms};
+use super::level::{Level, level};
 use super::random::{Random, Stream};
 use super::resample::{cell_averages, whole_cells};
-use super::synthesis::planar::{self, Plane};
-use super::synthesis::spectrum::Grid;
+use super::synthesis::planar::{self, Grid, Plane};
 use super::synthesis::translation::Translation;
 use super::{Body, Length, Patch};
 use crate::model::mesh::Mesh;
@@ -93,7 +91,7 @@ pub(super) fn extend(
         // The preparation warns of it.
         return Ok(vec![mean(&patch.heights); body.columns(mesh) * mesh.rows()]);
     };
-    let mut plane = Plane::new(&grid);
+    let mut plane = Plane::of(&grid);
     let power =
         gaussian_power(correlation, &Translation::of(|x| quantiles.normal(x), QUADRATURE_STEP, 0.0), &mut plane);
     let stream = if body == Body::Disc { Stream::DiscExtension } else { Stream::PinExtension };
@@ -128,7 +126,7 @@ fn statistics_of_patch(
         if long_waves > MUCH { ": measure a larger area" } else { "" }
     ));
     report.extend(few_heights(&cells));
-    let correlation = autocorrelation(spectrum.power, &mut Plane::new(&grid));
+    let correlation = autocorrelation(spectrum.power, &mut Plane::of(&grid));
     report.extend(Reach::of(&correlation, &grid, &cells).remarks(long_waves > MUCH, patch, body, mesh));
     Ok(Some(Statistics { grid, correlation, quantiles }))
 }

@@ -14,7 +14,7 @@
 
 use std::f64::consts::TAU;
 
-use super::SynthesisError;
+use crate::surface::error::SynthesisError;
 
 /// Points and weights of the trapezoidal rule for means over the standard normal distribution, from −`reach` to `reach`.
 ///

@@ -4,19 +4,16 @@
 //! and its heights are given the distribution of Johnson's system with the skewness and kurtosis asked for, z = T(g).
 //! As that changes the autocorrelation, g is made with the one that becomes the right one (see [`translation`]).
 
-mod error;
 mod johnson;
 pub(super) mod planar;
-pub(super) mod spectrum;
 pub(super) mod translation;
 
-pub use error::SynthesisError;
-
 use johnson::Johnson;
-use spectrum::Grid;
+use planar::Grid;
 use translation::Translation;
 
 use super::Body;
+use super::error::SynthesisError;
 use super::random::{Random, Stream};
 use crate::model::mesh::Mesh;
 
@@ -118,10 +115,10 @@ impl HeightSynthesis {
                 refuse_too_large(&grid)?;
                 let power = match texture {
                     Texture::Correlation { along, across } => {
-                        spectrum::gaussian_on(&grid, along / grid.column_width, across / grid.row_height)
+                        planar::gaussian_on(&grid, along / grid.column_width, across / grid.row_height)
                     }
                     Texture::PowerLaw { hurst, roll_off, short_cutoff } => {
-                        spectrum::power_law_on(&grid, hurst, roll_off, short_cutoff)
+                        planar::power_law_on(&grid, hurst, roll_off, short_cutoff)
                     }
                 };
                 planar::field(&grid, power, translation.as_ref(), &mut random)

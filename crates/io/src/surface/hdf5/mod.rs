@@ -1,7 +1,6 @@
 //! Heights and fibre maps in HDF5 files, netCDF-4 and run files among them: shape (columns, rows) unless the dimensions are named
 //! x and y, heights in m.
 
-mod error;
 mod netcdf;
 
 use std::path::Path;
@@ -14,17 +13,14 @@ use plateau_core::model::state::Base;
 use plateau_core::observe::{Map, MapValues};
 use plateau_core::surface::{Body, Patch};
 
+use super::error::Hdf5Error;
 use super::format::Format;
-use super::measured::Measured;
-use super::options::{MOST_POINTS, agreed_pitch};
-use crate::hdf5_file::writing::write_text;
-use crate::hdf5_file::{self, in_words, text_attribute};
+use super::measured::{MOST_POINTS, Measured, agreed_pitch};
+use crate::hdf5_file::{self, in_words, text_attribute, write_text};
 use crate::memory::refuse_beyond;
 use crate::number;
 use crate::run_file::{ReadError, RunFile, State, map_path};
 use crate::text::short;
-
-pub use error::Hdf5Error;
 
 /// Datasets named in a message.
 const NAMED: usize = 12;

@@ -4,9 +4,9 @@
 use hdf5::types::{FloatSize, Reference, TypeDescriptor, VarLenArray};
 use hdf5::{Dataset, Location, ObjectReference1, ReferencedObject};
 
-use super::error::Hdf5Error;
 use crate::hdf5_file::{refuse_hollow, text_attribute, texts_of};
 use crate::number;
+use crate::surface::error::Hdf5Error;
 use crate::text::short;
 use crate::units::{self, Dimension};
 

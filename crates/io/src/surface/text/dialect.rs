@@ -1,8 +1,8 @@
 //! The numbers of a line: what parts them, their decimal mark, told from all lines or refused where these can be read in two ways, and the
 //! words for points without a height.
 
-use super::error::TextError;
 use crate::delimited::{Decimal, Separator};
+use crate::surface::error::TextError;
 
 /// What is wrong with a cell.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -4,12 +4,11 @@
 use std::ops::Range;
 
 use super::dialect::{Dialect, Fault, is_comment, number, shown, starts_numbers};
-use super::error::TextError;
 use super::header::{Header, Names};
 use crate::delimited::{Decimal, Kind, Separator, starts};
+use crate::surface::error::TextError;
 use crate::surface::format::Format;
-use crate::surface::measured::Measured;
-use crate::surface::options::{ReadOptions, agreed, agreed_pitch};
+use crate::surface::measured::{Measured, ReadOptions, agreed, agreed_pitch};
 
 /// Lines that are looked at: no header of an instrument is nearly as long.
 const MOST_LINES: usize = 1000;

@@ -1,0 +1,88 @@
+//! What the workers of one simulation tell each other.
+
+#[cfg(feature = "mpi")]
+pub mod mpi;
+pub(crate) mod threads;
+
+use thiserror::Error;
+
+use crate::model::error::SimulationError;
+
+/// Why workers cannot go on together.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[allow(missing_docs)] // The messages say what they mean.
+pub enum CommError {
+    #[error("worker {worker} failed: {message}")]
+    Worker { worker: usize, message: String },
+    /// MPI.
+    #[cfg(feature = "mpi")]
+    #[error(transparent)]
+    Mpi(#[from] mpi::MpiError),
+}
+
+impl From<CommError> for SimulationError {
+    fn from(error: CommError) -> Self {
+        Self::Worker { message: error.to_string() }
+    }
+}
+
+/// How a worker reaches the others.
+///
+/// All workers take the same steps and call [`Communicator::all_gather`] equally often; so nobody is more than one
+/// call ahead.
+pub trait Communicator {
+    /// Which of the workers this one is.
+    fn rank(&self) -> usize;
+
+    /// How many workers there are.
+    fn size(&self) -> usize;
+
+    /// Hands a pin column that crosses the lower boundary of sector `boundary` to worker `to`.
+    ///
+    /// It may arrive as late as [`Communicator::receive_halo`] asks for it; this call never waits for the receiver. At
+    /// most one column crosses a boundary between two calls of [`Communicator::all_gather`].
+    ///
+    /// # Errors
+    /// [`CommError`] when a worker failed.
+    fn send_halo(&mut self, boundary: usize, to: usize, words: &[u64]) -> Result<(), CommError>;
+
+    /// The column that worker `from` handed over at this boundary in this step.
+    ///
+    /// # Errors
+    /// [`CommError`] when a worker failed.
+    fn receive_halo(&mut self, boundary: usize, from: usize, words: &mut [u64]) -> Result<(), CommError>;
+
+    /// Gathers a message from every worker, one's own included, and gives them to `each` in the order of the workers;
+    /// lengths may differ from worker to worker and from call to call.
+    ///
+    /// # Errors
+    /// [`CommError`] when a worker failed.
+    fn all_gather(&mut self, words: &[u64], each: &mut dyn FnMut(usize, &[u64])) -> Result<(), CommError>;
+}
+
+/// Nobody else to talk to.
+#[derive(Debug, Clone, Copy)]
+pub struct Single;
+
+impl Communicator for Single {
+    fn rank(&self) -> usize {
+        0
+    }
+
+    fn size(&self) -> usize {
+        1
+    }
+
+    fn send_halo(&mut self, _boundary: usize, to: usize, _words: &[u64]) -> Result<(), CommError> {
+        unreachable!("worker {to} of one")
+    }
+
+    fn receive_halo(&mut self, _boundary: usize, from: usize, _words: &mut [u64]) -> Result<(), CommError> {
+        unreachable!("worker {from} of one")
+    }
+
+    fn all_gather(&mut self, words: &[u64], each: &mut dyn FnMut(usize, &[u64])) -> Result<(), CommError> {
+        each(0, words);
+        Ok(())
+    }
+}

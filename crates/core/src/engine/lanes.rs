@@ -1,0 +1,233 @@
+//! Eight cells at a time: what the kernels ask of a processor.
+//!
+//! The kernels are written once, in terms of `Lanes`; each implementation does the eight cells in as few instructions
+//! as its instruction set allows. Every operation rounds as IEEE 754 says and touches no other lane, so all of them give
+//! the same bits.
+
+#[cfg(target_arch = "x86_64")]
+mod split;
+#[cfg(target_arch = "x86_64")]
+mod whole;
+
+use std::array::from_fn;
+use std::ops::{Add, BitAnd, BitOr, Mul, Not, Sub};
+
+#[cfg(target_arch = "x86_64")]
+pub(crate) use split::{Avx2, Sse2};
+#[cfg(target_arch = "x86_64")]
+pub(crate) use whole::Avx512;
+
+/// Rows of a strip, which the kernels do at a time.
+pub const LANES: usize = 8;
+
+/// Eight numbers of one strip in one column.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[repr(C, align(64))]
+pub struct Chunk(pub [f64; LANES]);
+
+/// Eight integers of one strip.
+pub type IntegerChunk = [i64; LANES];
+
+/// Which of eight cells are meant.
+pub(crate) trait Mask: Copy + BitAnd<Output = Self> + BitOr<Output = Self> + Not<Output = Self> {
+    /// Whether any is.
+    fn any(self) -> bool;
+    /// One bit for each, the first row lowest.
+    fn byte(self) -> u8;
+    /// From one bit for each.
+    fn of_byte(byte: u8) -> Self;
+}
+
+/// Eight 64-bit integers, which wrap.
+pub(crate) trait Integers: Copy {
+    /// What goes with which of them.
+    type Mask;
+    /// The same number eight times.
+    fn splat(value: i64) -> Self;
+    /// From memory.
+    fn load(chunk: &IntegerChunk) -> Self;
+    /// To memory.
+    fn store(self, chunk: &mut IntegerChunk);
+    /// Sums.
+    fn plus(self, other: Self) -> Self;
+    /// Differences.
+    fn minus(self, other: Self) -> Self;
+    /// Sums where the mask says so, else as they are.
+    fn plus_where(self, mask: Self::Mask, other: Self) -> Self;
+}
+
+/// Eight double-precision numbers.
+pub(crate) trait Lanes: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> {
+    /// Which of them are meant.
+    type Mask: Mask;
+    /// Their bits.
+    type Integers: Integers<Mask = Self::Mask>;
+    /// The same number eight times.
+    fn splat(value: f64) -> Self;
+    /// From memory.
+    fn load(chunk: &Chunk) -> Self;
+    /// To memory.
+    fn store(self, chunk: &mut Chunk);
+    /// self < other.
+    fn below(self, other: Self) -> Self::Mask;
+    /// self ≥ other.
+    fn at_least(self, other: Self) -> Self::Mask;
+    /// The lesser of each; `other` where they are equal.
+    fn lesser(self, other: Self) -> Self;
+    /// The greater of each; `other` where they are equal.
+    fn greater(self, other: Self) -> Self;
+    /// `yes` where the mask says so, else `no`.
+    fn select(mask: Self::Mask, yes: Self, no: Self) -> Self;
+    /// Their bits as integers.
+    fn bits(self) -> Self::Integers;
+
+    /// Sums where the mask says so, else as they are.
+    #[inline(always)]
+    fn plus_where(self, mask: Self::Mask, other: Self) -> Self {
+        Self::select(mask, self + other, self)
+    }
+
+    /// As they are where the mask says so, else 0.
+    #[inline(always)]
+    fn only(self, mask: Self::Mask) -> Self {
+        Self::select(mask, self, Self::splat(0.0))
+    }
+}
+
+/// Eight numbers.
+#[derive(Clone, Copy)]
+pub struct Portable([f64; LANES]);
+
+/// Eight answers.
+#[derive(Clone, Copy)]
+pub struct Answers([bool; LANES]);
+
+/// Eight integers.
+#[derive(Clone, Copy)]
+pub struct Words([i64; LANES]);
+
+macro_rules! lane_by_lane {
+    ($kind:ident, $trait:ident, $method:ident, $operator:tt) => {
+        impl $trait for $kind {
+            type Output = Self;
+            #[inline(always)]
+            fn $method(self, other: Self) -> Self {
+                Self(from_fn(|lane| self.0[lane] $operator other.0[lane]))
+            }
+        }
+    };
+}
+lane_by_lane!(Portable, Add, add, +);
+lane_by_lane!(Portable, Sub, sub, -);
+lane_by_lane!(Portable, Mul, mul, *);
+lane_by_lane!(Answers, BitAnd, bitand, &);
+lane_by_lane!(Answers, BitOr, bitor, |);
+
+impl Not for Answers {
+    type Output = Self;
+    #[inline(always)]
+    fn not(self) -> Self {
+        Self(self.0.map(|answer| !answer))
+    }
+}
+
+impl Mask for Answers {
+    #[inline(always)]
+    fn any(self) -> bool {
+        self.0.into_iter().any(|answer| answer)
+    }
+
+    #[inline(always)]
+    fn byte(self) -> u8 {
+        self.0.into_iter().enumerate().fold(0, |byte, (lane, answer)| byte | u8::from(answer) << lane)
+    }
+
+    #[inline(always)]
+    fn of_byte(byte: u8) -> Self {
+        Self(from_fn(|lane| byte >> lane & 1 == 1))
+    }
+}
+
+impl Integers for Words {
+    type Mask = Answers;
+
+    #[inline(always)]
+    fn splat(value: i64) -> Self {
+        Self([value; LANES])
+    }
+
+    #[inline(always)]
+    fn load(chunk: &IntegerChunk) -> Self {
+        Self(*chunk)
+    }
+
+    #[inline(always)]
+    fn store(self, chunk: &mut IntegerChunk) {
+        *chunk = self.0;
+    }
+
+    #[inline(always)]
+    fn plus(self, other: Self) -> Self {
+        Self(from_fn(|lane| self.0[lane].wrapping_add(other.0[lane])))
+    }
+
+    #[inline(always)]
+    fn minus(self, other: Self) -> Self {
+        Self(from_fn(|lane| self.0[lane].wrapping_sub(other.0[lane])))
+    }
+
+    #[inline(always)]
+    fn plus_where(self, mask: Answers, other: Self) -> Self {
+        Self(from_fn(|lane| if mask.0[lane] { self.0[lane].wrapping_add(other.0[lane]) } else { self.0[lane] }))
+    }
+}
+
+impl Lanes for Portable {
+    type Mask = Answers;
+    type Integers = Words;
+
+    #[inline(always)]
+    fn splat(value: f64) -> Self {
+        Self([value; LANES])
+    }
+
+    #[inline(always)]
+    fn load(chunk: &Chunk) -> Self {
+        Self(chunk.0)
+    }
+
+    #[inline(always)]
+    fn store(self, chunk: &mut Chunk) {
+        chunk.0 = self.0;
+    }
+
+    #[inline(always)]
+    fn below(self, other: Self) -> Answers {
+        Answers(from_fn(|lane| self.0[lane] < other.0[lane]))
+    }
+
+    #[inline(always)]
+    fn at_least(self, other: Self) -> Answers {
+        Answers(from_fn(|lane| self.0[lane] >= other.0[lane]))
+    }
+
+    #[inline(always)]
+    fn lesser(self, other: Self) -> Self {
+        Self::select(self.below(other), self, other)
+    }
+
+    #[inline(always)]
+    fn greater(self, other: Self) -> Self {
+        Self::select(other.below(self), self, other)
+    }
+
+    #[inline(always)]
+    fn select(mask: Answers, yes: Self, no: Self) -> Self {
+        Self(from_fn(|lane| if mask.0[lane] { yes.0[lane] } else { no.0[lane] }))
+    }
+
+    #[inline(always)]
+    fn bits(self) -> Words {
+        Words(self.0.map(|value| value.to_bits() as i64))
+    }
+}

@@ -1,0 +1,528 @@
+//! A pin on a disc, from its first step to its last (model section 4).
+
+pub mod checkpoint;
+mod control;
+mod plain;
+mod workers;
+
+use std::sync::Arc;
+
+#[cfg(feature = "mpi")]
+use crate::engine::comm::Communicator as _;
+#[cfg(feature = "mpi")]
+use crate::engine::comm::mpi::Mpi;
+pub use crate::engine::execution::{Engine, Execution};
+#[cfg(feature = "mpi")]
+use crate::engine::kernel::InstructionSet;
+#[cfg(feature = "mpi")]
+use crate::engine::parts::Needs;
+use crate::model::accounts::{AccountsReport, Resting};
+use crate::model::clock::Clock;
+use crate::model::cycle::Kind;
+pub use crate::model::error::SimulationError;
+use crate::model::heat::account::HeatModel;
+use crate::model::heat::passing;
+pub use crate::model::memory::Course;
+use crate::model::memory::Heights;
+use crate::model::mesh::Mesh;
+use crate::model::parameters::Parameters;
+use crate::model::state::{Base, Disc, InitialSurfaces, Pin};
+use crate::observe::extra::{self, Extra};
+use crate::observe::schedule::Moment;
+use crate::observe::{ABSENT, Map, MapValues, QUANTITIES, Quantity, Sample, Snapshot, quantities};
+use crate::simulation::checkpoint::{Checkpoint, LastContact};
+use crate::simulation::workers::Workers;
+
+/// A pin on a disc, and everything that happened to them so far.
+#[derive(Debug)]
+pub struct Simulation {
+    parameters: Arc<Parameters>,
+    pin_base: Vec<Base>,
+    execution: Execution,
+    workers: Workers,
+    clock: Clock,
+    contact: Option<LastContact>,
+    resting: Option<LastMoment>,
+}
+
+/// The accounts at the moment that was asked for last: those after it may follow from them.
+#[derive(Debug)]
+struct LastMoment {
+    /// Steps done, the step that the moment belongs to, and whether it is in a pause.
+    of: (u64, u64, bool),
+    /// When it is, s.
+    until: f64,
+    accounts: Resting,
+}
+
+impl Simulation {
+    /// The state at t = 0, no build-up and no debris, on one worker.
+    ///
+    /// # Errors
+    /// [`SimulationError`] when the surfaces do not fit the mesh or hold a height that is not finite.
+    pub fn new(parameters: Parameters, surfaces: InitialSurfaces) -> Result<Self, SimulationError> {
+        Self::with_execution(parameters, surfaces, Execution::default())
+    }
+
+    /// The same, carried out in a certain way.
+    ///
+    /// # Errors
+    /// [`SimulationError`] as [`Simulation::new`], and when there are no more threads to be had.
+    pub fn with_execution(
+        parameters: Parameters,
+        surfaces: InitialSurfaces,
+        execution: Execution,
+    ) -> Result<Self, SimulationError> {
+        Self::with_disc_turned(parameters, surfaces, execution, 0)
+    }
+
+    /// The same with the disc turned by `columns` columns: step n faces the columns that step n + `columns` would face.
+    ///
+    /// # Errors
+    /// [`SimulationError`] as [`Simulation::with_execution`].
+    pub fn with_disc_turned(
+        parameters: Parameters,
+        surfaces: InitialSurfaces,
+        mut execution: Execution,
+        columns: u64,
+    ) -> Result<Self, SimulationError> {
+        let mesh = &parameters.mesh;
+        check(mesh, &surfaces)?;
+        execution.engine = execution.engine.of(&parameters);
+        // A sector has at least two columns.
+        let most = if execution.engine == Engine::Plain { 1 } else { (mesh.disc_columns() / 2).max(1) };
+        execution.workers = execution.workers.clamp(1, most);
+        let (parameters, pin_base) = (Arc::new(parameters), surfaces.pin_base.clone());
+        let workers = Workers::start(&parameters, surfaces, execution, columns)?;
+        let clock = parameters.clock();
+        Ok(Self { parameters, pin_base, execution, workers, clock, contact: None, resting: None })
+    }
+
+    /// The same as [`Simulation::new`] on the ranks of an MPI job, of which this process is one (feature `mpi`).
+    ///
+    /// All ranks must make the same calls in the same order, and get the same answers. Where there are more ranks than
+    /// sectors, the last ones have no cells and only keep pace.
+    ///
+    /// # Errors
+    /// [`SimulationError`] as [`Simulation::new`]; [`SimulationError::PlainOnRanks`] where debris is pooled.
+    #[cfg(feature = "mpi")]
+    pub fn on_ranks(
+        parameters: Parameters,
+        surfaces: InitialSurfaces,
+        instructions: InstructionSet,
+        communicator: Mpi,
+    ) -> Result<Self, SimulationError> {
+        check(&parameters.mesh, &surfaces)?;
+        if Needs::of(&parameters).pools {
+            return Err(SimulationError::PlainOnRanks { ranks: communicator.size() });
+        }
+        let parameters = Arc::new(parameters);
+        let execution = Execution { workers: communicator.size(), instructions, ..Execution::default() };
+        let workers = Workers::on_ranks(&parameters, &surfaces, execution, communicator);
+        let (clock, pin_base) = (parameters.clock(), surfaces.pin_base);
+        Ok(Self { parameters, pin_base, execution, workers, clock, contact: None, resting: None })
+    }
+
+    /// One step: see the table in [`crate`].
+    ///
+    /// # Errors
+    /// [`SimulationError::Contact`] when no displacement carries the load, [`SimulationError::Worker`] when a worker
+    /// failed.
+    pub fn advance(&mut self) -> Result<(), SimulationError> {
+        self.advance_to(self.steps_done() + 1)
+    }
+
+    /// Takes steps until `step` of them are done.
+    ///
+    /// # Errors
+    /// As [`Simulation::advance`].
+    pub fn advance_to(&mut self, step: u64) -> Result<(), SimulationError> {
+        self.workers.advance_to(step, true)
+    }
+
+    /// The same where no sample and no map of pressure is taken after the last of the steps: its pressures are not kept.
+    ///
+    /// # Errors
+    /// As [`Simulation::advance`].
+    pub fn pass_to(&mut self, step: u64) -> Result<(), SimulationError> {
+        self.workers.advance_to(step, false)
+    }
+
+    /// Has the coming steps stand for another number of revolutions than those so far (model 4.6).
+    ///
+    /// # Errors
+    /// As [`Simulation::advance`].
+    pub fn accelerate(&mut self, acceleration: f64) -> Result<(), SimulationError> {
+        self.workers.accelerate(acceleration)?;
+        self.resting = None;
+        Arc::make_mut(&mut self.parameters).time_acceleration = acceleration;
+        self.clock = self.clock.changed(self.steps_done(), self.parameters.step_time());
+        Ok(())
+    }
+
+    /// Goes on from a checkpoint of a simulation with the same parameters, time acceleration apart, and the same initial
+    /// surfaces: the coming steps are bit for bit those that it would have taken.
+    ///
+    /// # Errors
+    /// [`SimulationError::Checkpoint`] and [`SimulationError::OtherState`] when it is of another mesh or scene,
+    /// [`SimulationError::Worker`] when a worker failed.
+    pub fn restore(&mut self, checkpoint: &Checkpoint) -> Result<(), SimulationError> {
+        checkpoint.check(&self.parameters.mesh)?;
+        let (found, expected) = (checkpoint.engine().name(), self.execution.engine.name());
+        if found != expected {
+            return Err(SimulationError::OtherEngine { found, expected });
+        }
+        let (memory, engine) = self.workers.memory()?;
+        if let Some(what) = checkpoint.misfit(&memory, engine.as_ref()) {
+            return Err(SimulationError::OtherState { what });
+        }
+        self.workers.restore(checkpoint)?;
+        self.resting = None;
+        self.clock = checkpoint.clock();
+        self.contact = checkpoint.contact.clone();
+        Arc::make_mut(&mut self.parameters).time_acceleration = checkpoint.memory.time_acceleration;
+        Ok(())
+    }
+
+    /// What the simulation was told.
+    pub fn parameters(&self) -> &Parameters {
+        &self.parameters
+    }
+
+    /// Base of every pin cell, column by column.
+    pub fn pin_base(&self) -> &[Base] {
+        &self.pin_base
+    }
+
+    /// How it is carried out.
+    pub fn execution(&self) -> Execution {
+        self.execution
+    }
+
+    /// What the steps so far were like.
+    pub fn course(&self) -> Course {
+        self.workers.course()
+    }
+
+    /// Steps done.
+    pub fn steps_done(&self) -> u64 {
+        self.course().steps
+    }
+
+    /// Steps that are done when t is at least `time` (s) for the first time, with what the coming steps are told now; of a cycle, the
+    /// last that ends no later.
+    pub fn steps_until(&self, time: f64) -> u64 {
+        match &self.parameters.cycle {
+            Some(cycle) => cycle.steps_done(time, self.parameters.step_angle()),
+            None => self.clock.steps_until(time),
+        }
+    }
+
+    /// t, s.
+    pub fn time(&self) -> f64 {
+        self.course().time
+    }
+}
+
+/// Refuses surfaces that do not fit the mesh or have a height that is not finite.
+fn check(mesh: &Mesh, surfaces: &InitialSurfaces) -> Result<(), SimulationError> {
+    if !surfaces.fits(mesh) {
+        return Err(SimulationError::Size { disc: mesh.disc_cells(), pin: mesh.pin_cells() });
+    }
+    let is_absent = |surface: &str, cell: usize| surface == "pin" && !mesh.is_present(cell);
+    for (surface, heights) in [("disc", &surfaces.disc_height), ("pin", &surfaces.pin_height)] {
+        let refused = heights.iter().enumerate().filter(|(_, height)| !height.is_finite());
+        let count = refused.filter(|(cell, _)| !is_absent(surface, *cell)).count();
+        if count > 0 {
+            return Err(SimulationError::Height { surface, count });
+        }
+    }
+    Ok(())
+}
+
+impl Simulation {
+    /// The reported quantities after the last step.
+    ///
+    /// # Errors
+    /// [`SimulationError::Worker`] when a worker failed, [`SimulationError::NotWatched`] after [`Simulation::pass_to`],
+    /// [`SimulationError::NotFinite`] when an amount is no number.
+    pub fn sample(&mut self) -> Result<Sample, SimulationError> {
+        if let Some(contact) = self.last_contact() {
+            return Ok(contact.sample.clone());
+        }
+        let sample = self.workers.sample()?;
+        // A ratio may have nothing to be a ratio of.
+        let amounts = || QUANTITIES.iter().filter(|quantity| quantity.unit != "1");
+        let name = |place| format!("the {}", amounts().nth(place).map_or("", |quantity| quantity.long_name));
+        self.refuse_not_finite(amounts().map(|quantity| quantity.value(&sample)), name)?;
+        let AccountsReport { friction, heat, emission } = sample.accounts;
+        let parts = [
+            ("the work of friction", friction.map(|friction| friction.work)),
+            ("the heat lost", heat.map(|heat| heat.lost)),
+            ("the temperature of the disc", heat.map(|heat| heat.disc)),
+            ("the number of airborne particles", emission.map(|emission| emission.number)),
+        ];
+        for (name, value) in parts {
+            self.refuse_not_finite(value.into_iter(), |_| name.to_owned())?;
+        }
+        Ok(sample)
+    }
+
+    /// Keeps what the last step showed, which in a pause is reported again and again, and also by who goes on from a checkpoint
+    /// of the pause.
+    ///
+    /// # Errors
+    /// As [`Simulation::sample`].
+    pub fn keep_contact(&mut self) -> Result<(), SimulationError> {
+        if self.last_contact().is_none() {
+            let [pressure] = self.fields([Map::Pressure])?;
+            self.contact = Some(LastContact { sample: self.sample()?, pressure });
+        }
+        Ok(())
+    }
+
+    /// What is kept, if it is of the last step.
+    fn last_contact(&self) -> Option<&LastContact> {
+        self.contact.as_ref().filter(|contact| contact.sample.step == self.steps_done())
+    }
+
+    /// The same at a moment that the last step belongs to, with series on request. Each of those takes about as long as the
+    /// maps that it is measured of.
+    ///
+    /// In a pause (model 9) without load nothing touches and there is no displacement; a pin that stands touches as in the
+    /// step.
+    ///
+    /// # Errors
+    /// As [`Simulation::sample`], of all quantities.
+    pub fn sample_at(&mut self, moment: &Moment, extras: &[&Extra]) -> Result<Sample, SimulationError> {
+        let mut sample = self.sample()?;
+        if let (Some(cycle), Some(pause)) = (self.parameters.cycle.clone(), moment.pause) {
+            let loaded = cycle.loaded_until(moment.time) - cycle.loaded_until(sample.time);
+            sample.contact_area_integral += sample.contact_area * loaded;
+            sample.sliding_distance = cycle.angle_at(moment.time) * self.parameters.mesh.mean_radius();
+            sample.time = moment.time;
+            sample.accounts = self.accounts_at(moment)?;
+            if pause == Kind::Lifted {
+                (sample.displacement, sample.contact_area, sample.contact_ratio) = (f64::NAN, 0.0, 0.0);
+                (sample.mean_pressure, sample.max_pressure) = (0.0, 0.0);
+            }
+        }
+        for extra in extras {
+            let Some(request) = &extra.request else { continue };
+            let maps = self.snapshot_at(moment, request.maps)?.maps;
+            let fields: Vec<Vec<f64>> = maps.into_iter().map(|(_, values)| values.into_numbers()).collect();
+            extra.record(&mut sample, (request.measure)(&self.parameters, &fields));
+        }
+        self.refuse_overflow(&sample, extras)?;
+        Ok(sample)
+    }
+
+    /// Refuses a sample in which something is infinite, or an amount is no number that the model always has. A ratio may have
+    /// nothing to be a ratio of; where nothing touches there is no displacement, no temperature of the contact.
+    fn refuse_overflow(&self, sample: &Sample, extras: &[&Extra]) -> Result<(), SimulationError> {
+        let of_accounts = [&extra::FRICTION, &extra::HEAT, &extra::EMISSION];
+        let quantities = quantities(extras).chain(of_accounts.into_iter().flat_map(|extra| extra.quantities));
+        let wrong = |quantity: &&Quantity| {
+            let value = quantity.value(sample);
+            let is_amount = ["m", "kg"].contains(&quantity.unit) || quantity.name == "particle_number";
+            value.is_infinite()
+                || (value.is_nan() && is_amount && quantity.name != "displacement" && quantity.is_of(sample))
+        };
+        let error = |quantity: &Quantity| SimulationError::NotFinite {
+            step: self.steps_done(),
+            what: format!("the {}", quantity.long_name),
+            found: quantity.value(sample),
+        };
+        quantities.into_iter().find(wrong).map_or(Ok(()), |quantity| Err(error(quantity)))
+    }
+
+    /// Friction, heat and emission at a moment that the last step belongs to; none of them where the scene asks for none.
+    ///
+    /// # Errors
+    /// [`SimulationError::Worker`] when a worker failed.
+    pub fn accounts_at(&mut self, moment: &Moment) -> Result<AccountsReport, SimulationError> {
+        let parameters = &self.parameters;
+        if parameters.friction.is_none() && parameters.emission.is_none() {
+            return Ok(AccountsReport::default());
+        }
+        let of = (self.steps_done(), moment.step, moment.pause.is_some());
+        let accounts = match self.resting.take() {
+            Some(resting) if resting.of == of && resting.until <= moment.time => Some(resting.accounts),
+            _ => {
+                let after = |accounts| Resting::new(accounts, moment.step, parameters.step_angle(), moment.pause);
+                self.workers.accounts(parameters)?.map(after)
+            }
+        };
+        let Some(mut accounts) = accounts else { return Ok(AccountsReport::default()) };
+        let report = accounts.report(moment.time, moment.pause);
+        self.resting = Some(LastMoment { of, until: moment.time, accounts });
+        Ok(report)
+    }
+
+    /// The maps asked for, as they are now. Cells beyond the pin's outline are NaN, and have the status [`ABSENT`].
+    ///
+    /// # Errors
+    /// [`SimulationError::Worker`] when a worker failed, [`SimulationError::NotWatched`] for pressures after
+    /// [`Simulation::pass_to`], [`SimulationError::NotFinite`] when a value is no number.
+    pub fn snapshot(&mut self, maps: &[Map]) -> Result<Snapshot, SimulationError> {
+        let Course { steps, time, .. } = self.course();
+        self.snapshot_at(&Moment { step: steps, time, ..Moment::default() }, maps)
+    }
+
+    /// The same at a moment that the last step belongs to: in a pause without load all pressures are 0.
+    ///
+    /// # Errors
+    /// As [`Simulation::snapshot`].
+    pub fn snapshot_at(&mut self, moment: &Moment, maps: &[Map]) -> Result<Snapshot, SimulationError> {
+        let mut values = Vec::with_capacity(maps.len());
+        for map in maps {
+            let found = match map {
+                Map::Pressure => MapValues::Float(self.pressures_at(moment)?),
+                Map::Temperature => MapValues::Float(self.temperatures_at(moment)?),
+                map => self.field(*map)?,
+            };
+            values.push((*map, self.outlined(*map, found)));
+        }
+        Ok(Snapshot { time: moment.time, maps: values })
+    }
+
+    /// A map in which the cells beyond the pin's outline are told from the others.
+    fn outlined(&self, map: Map, mut values: MapValues) -> MapValues {
+        if !map.on_disc() {
+            for cell in self.parameters.mesh.absent_cells() {
+                match &mut values {
+                    MapValues::Float(values) => values[cell] = f64::NAN,
+                    MapValues::Status(statuses) => statuses[cell] = ABSENT,
+                }
+            }
+        }
+        values
+    }
+
+    /// p of every pin cell at a moment, Pa; 0 beyond the pin's outline.
+    fn pressures_at(&mut self, moment: &Moment) -> Result<Vec<f64>, SimulationError> {
+        if moment.pause == Some(Kind::Lifted) {
+            return Ok(vec![0.0; self.parameters.mesh.pin_cells()]);
+        }
+        match self.last_contact() {
+            Some(contact) => Ok(contact.pressure.clone()),
+            None => Ok(self.field(Map::Pressure)?.into_numbers()),
+        }
+    }
+
+    /// T of every pin cell at a moment, K; no numbers where the pin is lifted, or no heat is reckoned.
+    fn temperatures_at(&mut self, moment: &Moment) -> Result<Vec<f64>, SimulationError> {
+        let pressure = self.pressures_at(moment)?;
+        let AccountsReport { friction, heat, .. } = self.accounts_at(moment)?;
+        let (Some(model), Some(friction), Some(heat)) = (HeatModel::of(&self.parameters), friction, heat) else {
+            return Ok(vec![f64::NAN; pressure.len()]);
+        };
+        let speed = self.parameters.mean_speed_of(moment.step);
+        let moves = moment.pause.is_none() && moment.step > 0;
+        let flux =
+            if moves { heat.share * friction.coefficient * speed * self.parameters.mesh.mean_radius() } else { 0.0 };
+        Ok(passing::temperatures(model.passing(), &self.parameters.mesh, &pressure, flux, heat.face, speed))
+    }
+
+    /// One map that the workers have; 0 beyond the pin's outline.
+    fn field(&mut self, map: Map) -> Result<MapValues, SimulationError> {
+        let found = self.workers.snapshot(&[map])?.maps.into_iter().next();
+        let mut values = found.map_or(MapValues::Float(Vec::new()), |(_, values)| values);
+        if !map.on_disc() {
+            // What the workers keep there is their own affair.
+            for cell in self.parameters.mesh.absent_cells() {
+                match &mut values {
+                    MapValues::Float(values) => values[cell] = 0.0,
+                    MapValues::Status(statuses) => statuses[cell] = 0,
+                }
+            }
+        }
+        if let MapValues::Float(values) = &values {
+            let name = |place| format!("cell {place} of {}", map.name());
+            self.refuse_not_finite(values.iter().copied(), name)?;
+        }
+        Ok(values)
+    }
+
+    /// The disc as it is now.
+    ///
+    /// # Errors
+    /// [`SimulationError::Worker`] when a worker failed.
+    pub fn disc(&mut self) -> Result<Disc, SimulationError> {
+        let [height, substrate] = self.fields([Map::DiscHeight, Map::DiscSubstrate])?;
+        Ok(Disc { height, substrate })
+    }
+
+    /// z_d of every disc cell as it is now, m, column by column.
+    ///
+    /// # Errors
+    /// [`SimulationError::Worker`] when a worker failed.
+    pub fn disc_height(&mut self) -> Result<Vec<f64>, SimulationError> {
+        let [height] = self.fields([Map::DiscHeight])?;
+        Ok(height)
+    }
+
+    /// The pin as it is now; heights beyond its outline are 0.
+    ///
+    /// # Errors
+    /// [`SimulationError::Worker`] when a worker failed.
+    pub fn pin(&mut self) -> Result<Pin, SimulationError> {
+        let [height, substrate] = self.fields([Map::PinHeight, Map::PinSubstrate])?;
+        Ok(Pin { height, substrate, base: self.pin_base.clone() })
+    }
+
+    fn fields<const COUNT: usize>(&mut self, maps: [Map; COUNT]) -> Result<[Vec<f64>; COUNT], SimulationError> {
+        let mut fields = [const { Vec::new() }; COUNT];
+        for (field, map) in fields.iter_mut().zip(maps) {
+            *field = self.field(map)?.into_numbers();
+        }
+        Ok(fields)
+    }
+
+    /// The complete state, to go on from later.
+    ///
+    /// # Errors
+    /// [`SimulationError::Worker`] when a worker failed, [`SimulationError::NotFinite`] when a height is no number.
+    pub fn checkpoint(&mut self) -> Result<Checkpoint, SimulationError> {
+        let [disc_height, disc_substrate] = self.fields([Map::DiscHeight, Map::DiscSubstrate])?;
+        let [pin_height, pin_substrate] = self.fields([Map::PinHeight, Map::PinSubstrate])?;
+        let (memory, engine) = self.workers.memory()?;
+        let rows = self.parameters.mesh.rows();
+        let fields = [
+            ("height of the disc", &disc_height),
+            ("substrate of the disc", &disc_substrate),
+            ("height of the pin", &pin_height),
+            ("substrate of the pin", &pin_substrate),
+        ];
+        for (name, values) in fields {
+            let name = |cell| format!("the {name} at (column {}, row {})", cell / rows, cell % rows);
+            self.refuse_not_finite(values.iter().copied(), name)?;
+        }
+        let contact = self.last_contact().cloned();
+        let heights = Heights { disc_height, disc_substrate, pin_height, pin_substrate };
+        Ok(Checkpoint { heights, contact, memory, engine })
+    }
+
+    /// Looks at all heights: one that is no number is followed by others, and shows in no series for a while.
+    ///
+    /// # Errors
+    /// [`SimulationError::NotFinite`], and [`SimulationError::Worker`] when a worker failed.
+    pub fn check_heights(&mut self) -> Result<(), SimulationError> {
+        self.checkpoint().map(drop)
+    }
+
+    /// Refuses what is no number, which `name` names by its place.
+    fn refuse_not_finite(
+        &self,
+        mut values: impl Iterator<Item = f64>,
+        name: impl Fn(usize) -> String,
+    ) -> Result<(), SimulationError> {
+        let mut place = 0;
+        let found = values.find(|value| {
+            place += 1;
+            !value.is_finite()
+        });
+        let error = |found| SimulationError::NotFinite { step: self.steps_done(), what: name(place - 1), found };
+        found.map_or(Ok(()), |found| Err(error(found)))
+    }
+}

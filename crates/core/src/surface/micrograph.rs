@@ -1,0 +1,435 @@
+//! The pin's fibre map from a micrograph of its face.
+
+use thiserror::Error;
+
+use super::Length;
+use super::gaussian_filter::mirrored;
+use crate::model::mesh::Mesh;
+use crate::model::state::Base;
+
+/// How a picture becomes a fibre map; the steps are done in the order of the fields.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Micrograph {
+    /// Distance of neighbouring pixels, m.
+    pub pixel: f64,
+    /// Quarters of a turn, counterclockwise, that bring the sliding direction to the right and outward to the top.
+    pub quarters: u8,
+    /// Standard deviation of the Gaussian that smooths the grey levels, m.
+    pub smooth: Option<f64>,
+    /// The grey level that parts fibre and resin.
+    pub threshold: Threshold,
+    /// Which side of the threshold is fibre.
+    pub fibres: Fibres,
+    /// Area of the smallest region that stays, m²; first specks of fibre are removed, then holes in fibre.
+    pub despeckle: Option<f64>,
+}
+
+/// The grey level that parts fibre and resin.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Threshold {
+    /// The level at which the variance between the two classes is largest.
+    Otsu,
+    /// This level, from black 0 to white 1.
+    Level(f64),
+}
+
+/// Which pixels are fibre.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Fibres {
+    /// Those brighter than the threshold.
+    Bright,
+    /// Those not brighter than the threshold.
+    Dark,
+}
+
+/// A fibre map and what it was made of.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FibreMap {
+    /// Base of every pin cell, column by column: fibre if that covers at least half of the cell's area.
+    pub base: Vec<Base>,
+    /// The picture's grey levels, turned.
+    pub grey: Picture<f32>,
+    /// Where the turned picture shows fibre.
+    pub fibre: Picture<bool>,
+    /// What was done, one step a line, for people.
+    pub report: Vec<String>,
+}
+
+/// Why a picture gives no fibre map.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[allow(missing_docs)] // The messages say what they mean.
+pub enum MicrographError {
+    #[error(
+        "a picture of {width} x {height} with {pixels} pixels, expected width times height grey levels from 0 to 1, at \
+         least one"
+    )]
+    Picture { width: usize, height: usize, pixels: usize },
+    #[error("{key} is {found}, expected {expected}")]
+    Value { key: &'static str, found: f64, expected: &'static str },
+    #[error(
+        "smooth = {} is {sigma:.1} pixels, expected at most a quarter of the picture's shorter side of {side} pixels",
+        Length(*smooth)
+    )]
+    Smooth { smooth: f64, sigma: f64, side: usize },
+    #[error("all pixels have the same grey level, so there is no threshold between fibre and resin; use uniform")]
+    Uniform,
+    #[error(
+        "the picture is {} by {}, the pin {} by {}: a pixel of at least {} lets the picture cover it",
+        Length(*width), Length(*height), Length(pin.0), Length(pin.1), Length(*pixel)
+    )]
+    Small { width: f64, height: f64, pin: (f64, f64), pixel: f64 },
+}
+
+impl Micrograph {
+    /// Makes the fibre map of grey levels from black 0 to white 1. [`PinPlane`] tells how the picture lies on the pin.
+    ///
+    /// # Errors
+    /// [`MicrographError`] when picture or parameters make no sense or the picture does not cover the pin.
+    pub fn fibre_map(&self, grey: Picture<f32>, mesh: &Mesh) -> Result<FibreMap, MicrographError> {
+        self.check(&grey)?;
+        let mut report = Vec::new();
+        let grey = grey.turned(self.quarters);
+        if !self.quarters.is_multiple_of(4) {
+            report.push(format!("turned counterclockwise by {} deg", 90 * u16::from(self.quarters % 4)));
+        }
+        let smoothed = self.smooth.filter(|sigma| *sigma > 0.0).map(|sigma| {
+            report.push(format!("smoothed by a Gaussian of standard deviation {}", Length(sigma)));
+            smooth(&grey, sigma / self.pixel)
+        });
+        let mut fibre = self.part(smoothed.as_ref().unwrap_or(&grey), &mut report)?;
+        drop(smoothed);
+        report.push(format!("fibre fraction of the picture {:.4}", fibre.fraction()));
+        if let Some(area) = self.despeckle {
+            self.remove_specks(&mut fibre, area, &mut report);
+        }
+        let fractions = fractions(&fibre, self.pixel, mesh)?;
+        let covered: f64 = fractions.iter().zip(mesh.pin_areas()).map(|(fraction, area)| fraction * area).sum();
+        report.push(format!("fibre fraction of the picture on the pin {:.4}", covered / mesh.pin_area()));
+        let base =
+            fractions.iter().map(|fraction| if *fraction >= 0.5 { Base::Primary } else { Base::Resin }).collect();
+        Ok(FibreMap { base, grey, fibre, report })
+    }
+
+    fn part(&self, grey: &Picture<f32>, report: &mut Vec<String>) -> Result<Picture<bool>, MicrographError> {
+        let (threshold, from) = match self.threshold {
+            Threshold::Otsu => (otsu(&grey.pixels).ok_or(MicrographError::Uniform)?, " (Otsu)"),
+            Threshold::Level(level) => (level, ""),
+        };
+        let side = match self.fibres {
+            Fibres::Bright => "brighter",
+            Fibres::Dark => "darker",
+        };
+        report.push(format!("fibre is what is {side} than the grey level {threshold:.4}{from}"));
+        let bright = self.fibres == Fibres::Bright;
+        let pixels = grey.pixels.iter().map(|level| (f64::from(*level) > threshold) == bright).collect();
+        Ok(Picture { width: grey.width, height: grey.height, pixels })
+    }
+
+    fn remove_specks(&self, fibre: &mut Picture<bool>, area: f64, report: &mut Vec<String>) {
+        // Rounding must not make a speck of as many pixels as fit into the area.
+        let smallest = libm::ceil(area / (self.pixel * self.pixel) * (1.0 - 1e-9)) as usize;
+        let specks = despeckle(fibre, true, smallest);
+        let holes = despeckle(fibre, false, smallest);
+        report.push(format!(
+            "{specks} specks of fibre and {holes} holes of fewer than {smallest} pixels removed, fibre fraction of the \
+             picture then {:.4}",
+            fibre.fraction()
+        ));
+    }
+
+    fn check(&self, grey: &Picture<f32>) -> Result<(), MicrographError> {
+        let Picture { width, height, ref pixels } = *grey;
+        let levels = pixels.iter().all(|level| (0.0..=1.0).contains(level));
+        if pixels.is_empty() || width.checked_mul(height) != Some(pixels.len()) || !levels {
+            return Err(MicrographError::Picture { width, height, pixels: pixels.len() });
+        }
+        let refuse = |key, found, expected| Err(MicrographError::Value { key, found, expected });
+        if !(self.pixel > 0.0 && self.pixel.is_finite()) {
+            return refuse("pixel", self.pixel, "a positive, finite length in m");
+        }
+        if let Threshold::Level(level) = self.threshold
+            && !(0.0..=1.0).contains(&level)
+        {
+            return refuse("threshold", level, "a grey level from 0 to 1");
+        }
+        if let Some(area) = self.despeckle
+            && !(area >= 0.0 && area.is_finite())
+        {
+            return refuse("despeckle", area, "a finite area in m^2, not negative");
+        }
+        let side = width.min(height);
+        match self.smooth {
+            Some(smooth) if !(smooth >= 0.0 && smooth.is_finite()) => {
+                refuse("smooth", smooth, "a finite length in m, not negative")
+            }
+            Some(smooth) if smooth / self.pixel > 0.25 * side as f64 => {
+                Err(MicrographError::Smooth { smooth, sigma: smooth / self.pixel, side })
+            }
+            _ => Ok(()),
+        }
+    }
+}
+
+/// A picture; its first line is at the top.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Picture<T> {
+    /// Pixels of a line.
+    pub width: usize,
+    /// Lines.
+    pub height: usize,
+    /// Pixels, line by line.
+    pub pixels: Vec<T>,
+}
+
+impl<T: Copy> Picture<T> {
+    /// Turned counterclockwise by quarters of a turn.
+    fn turned(self, quarters: u8) -> Self {
+        let Self { width, height, ref pixels } = self;
+        let old = |x: usize, y: usize| pixels[y * width + x];
+        match quarters % 4 {
+            // What was the right edge is the new top.
+            1 => Self::from_fn(height, width, |x, y| old(width - 1 - y, x)),
+            2 => Self::from_fn(width, height, |x, y| old(width - 1 - x, height - 1 - y)),
+            3 => Self::from_fn(height, width, |x, y| old(y, height - 1 - x)),
+            _ => self,
+        }
+    }
+
+    fn from_fn(width: usize, height: usize, pixel: impl Fn(usize, usize) -> T) -> Self {
+        let pixels = (0..height).flat_map(|y| (0..width).map(move |x| (x, y))).map(|(x, y)| pixel(x, y)).collect();
+        Self { width, height, pixels }
+    }
+}
+
+impl Picture<bool> {
+    /// Fraction of the pixels that are set.
+    pub fn fraction(&self) -> f64 {
+        self.pixels.iter().filter(|pixel| **pixel).count() as f64 / self.pixels.len() as f64
+    }
+}
+
+/// The kernel ends after this many standard deviations.
+const REACH: f64 = 4.0;
+
+/// Pixels that a kernel of this standard deviation (pixels) reaches to either side.
+fn reach(sigma: f64) -> usize {
+    (REACH * sigma).round() as usize
+}
+
+/// Smooths with a Gaussian kernel of standard deviation `sigma` (pixels), cut off at four of them; beyond its edges the
+/// picture is continued by its mirror image.
+fn smooth(picture: &Picture<f32>, sigma: f64) -> Picture<f32> {
+    let Picture { width, height, ref pixels } = *picture;
+    let reach = reach(sigma);
+    let kernel = kernel(sigma, reach);
+    let mut along = Vec::with_capacity(pixels.len());
+    for line in pixels.chunks_exact(width) {
+        let padded: Vec<f64> = (0..width + 2 * reach).map(|at| f64::from(line[mirrored(at, reach, width)])).collect();
+        along.extend(
+            padded.windows(kernel.len()).map(|part| part.iter().zip(&kernel).map(|(p, k)| p * k).sum::<f64>() as f32),
+        );
+    }
+    let mut smoothed = Vec::with_capacity(pixels.len());
+    let mut sums = vec![0.0; width];
+    for y in 0..height {
+        sums.fill(0.0);
+        for (offset, weight) in kernel.iter().enumerate() {
+            let from = mirrored(y + offset, reach, height) * width;
+            sums.iter_mut().zip(&along[from..from + width]).for_each(|(sum, level)| *sum += weight * f64::from(*level));
+        }
+        smoothed.extend(sums.iter().map(|sum| *sum as f32));
+    }
+    Picture { width, height, pixels: smoothed }
+}
+
+fn kernel(sigma: f64, reach: usize) -> Vec<f64> {
+    let weights: Vec<f64> = (0..=2 * reach)
+        .map(|at| {
+            let place = (at as f64 - reach as f64) / sigma;
+            libm::exp(-0.5 * place * place)
+        })
+        .collect();
+    let sum: f64 = weights.iter().sum();
+    weights.iter().map(|weight| weight / sum).collect()
+}
+
+/// Grey levels that are told apart: those of 16 bits. Those of 8 bits are every 257th of them.
+const LEVELS: usize = 1 << 16;
+
+/// The grey level, 0 to 1, that parts darker pixels from brighter ones so that the variance between the two classes,
+/// ω₁ω₂(μ₁ − μ₂)², is largest (Otsu 1979, DOI 10.1109/TSMC.1979.4310076, eq. 14); of several such levels the darkest.
+/// It lies half a level of 16 bits above the brightest of the darker class. None if all pixels are alike.
+fn otsu(levels: &[f32]) -> Option<f64> {
+    let top = (LEVELS - 1) as f64;
+    let mut histogram = vec![0.0; LEVELS];
+    for level in levels {
+        histogram[((f64::from(*level) * top).round() as usize).min(LEVELS - 1)] += 1.0;
+    }
+    let total = levels.len() as f64;
+    let sum: f64 = histogram.iter().enumerate().map(|(level, count)| level as f64 * count).sum();
+    let (mut darker, mut darker_sum) = (0.0, 0.0);
+    let (mut best, mut threshold) = (0.0, None);
+    for (level, count) in histogram.iter().enumerate() {
+        darker += count;
+        darker_sum += level as f64 * count;
+        let brighter = total - darker;
+        if darker == 0.0 || brighter == 0.0 {
+            continue;
+        }
+        let distance = darker_sum / darker - (sum - darker_sum) / brighter;
+        let variance = darker * brighter * distance * distance;
+        if variance > best {
+            (best, threshold) = (variance, Some((level as f64 + 0.5) / top));
+        }
+    }
+    threshold
+}
+
+/// Turns every region of `value` of fewer than `smallest` pixels into its opposite; gives their number. Pixels belong
+/// together that share a side.
+fn despeckle(picture: &mut Picture<bool>, value: bool, smallest: usize) -> usize {
+    let Picture { width, ref mut pixels, .. } = *picture;
+    let mut seen = vec![false; pixels.len()];
+    let mut region = Vec::new();
+    let mut specks = 0;
+    for start in 0..pixels.len() {
+        if pixels[start] != value || seen[start] {
+            continue;
+        }
+        seen[start] = true;
+        region.clear();
+        region.push(start);
+        let mut next = 0;
+        while let Some(&pixel) = region.get(next) {
+            next += 1;
+            for neighbour in neighbours(pixel, width, pixels.len()).into_iter().flatten() {
+                if pixels[neighbour] == value && !seen[neighbour] {
+                    seen[neighbour] = true;
+                    region.push(neighbour);
+                }
+            }
+        }
+        if region.len() < smallest {
+            specks += 1;
+            region.iter().for_each(|pixel| pixels[*pixel] = !value);
+        }
+    }
+    specks
+}
+
+/// Pixels that share a side with this one.
+fn neighbours(pixel: usize, width: usize, count: usize) -> [Option<usize>; 4] {
+    let x = pixel % width;
+    [
+        (x > 0).then(|| pixel - 1),
+        (x + 1 < width).then_some(pixel + 1),
+        pixel.checked_sub(width),
+        (pixel + width < count).then_some(pixel + width),
+    ]
+}
+
+/// Points of a cell along either direction: at least this many, and at least [`PER_PIXEL`] for every pixel, up to
+/// [`MOST_POINTS`].
+const FEWEST_POINTS: usize = 8;
+const PER_PIXEL: f64 = 2.0;
+const MOST_POINTS: usize = 64;
+
+/// Lengths that differ by less than this are the same length.
+const SAME_LENGTH: f64 = 1e-9;
+
+/// Where the picture lies: its middle on the pin's middle (mean radius, middle of the columns), its lines along the
+/// sliding direction there, its top outward. The point at the radius r and the angle φ from the middle column has
+/// x = r sin φ and y = r cos φ − mean radius.
+#[derive(Debug, Clone, Copy)]
+pub struct PinPlane<'a> {
+    mesh: &'a Mesh,
+}
+
+impl<'a> PinPlane<'a> {
+    /// The plane of this mesh's pin.
+    pub fn new(mesh: &'a Mesh) -> Self {
+        Self { mesh }
+    }
+
+    /// The pin cell at a point of the plane, m, if there is one.
+    pub fn cell(&self, x: f64, y: f64) -> Option<usize> {
+        let (mesh, y) = (self.mesh, y + self.mesh.mean_radius());
+        let row = (libm::hypot(x, y) - self.inner_radius()) / mesh.row_height();
+        let column = libm::atan2(x, y) / mesh.column_angle() + 0.5 * mesh.pin_columns() as f64;
+        let inside = (0.0..mesh.rows() as f64).contains(&row) && (0.0..mesh.pin_columns() as f64).contains(&column);
+        inside.then(|| column as usize * mesh.rows() + row as usize)
+    }
+
+    /// Half the extent of the smallest picture that covers the pin, m.
+    pub fn half_extent(&self) -> (f64, f64) {
+        let (mesh, inner) = (self.mesh, self.inner_radius());
+        if mesh.is_rectangle() {
+            return self.half_extent_of(inner, inner + mesh.rows() as f64 * mesh.row_height(), mesh.pin_columns());
+        }
+        let of_row = |row: usize| {
+            let inner = inner + row as f64 * mesh.row_height();
+            self.half_extent_of(inner, inner + mesh.row_height(), mesh.chord(row).len())
+        };
+        let rows = (0..mesh.rows()).filter(|row| !mesh.chord(*row).is_empty()).map(of_row);
+        rows.fold((0.0, 0.0), |(across, up): (f64, f64), (own_across, own_up)| (across.max(own_across), up.max(own_up)))
+    }
+
+    /// The same of so many columns between two radii, m.
+    fn half_extent_of(&self, inner: f64, outer: f64, columns: usize) -> (f64, f64) {
+        let mesh = self.mesh;
+        let angle = 0.5 * columns as f64 * mesh.column_angle();
+        let quarter = std::f64::consts::FRAC_PI_2;
+        let across = if angle < quarter { outer * libm::sin(angle) } else { outer };
+        // The lowest point is a corner of the innermost row, or of the outermost where the pin spans half the ring.
+        let lowest = (inner * libm::cos(angle)).min(outer * libm::cos(angle));
+        (across, (outer - mesh.mean_radius()).max(mesh.mean_radius() - lowest))
+    }
+
+    fn inner_radius(&self) -> f64 {
+        self.mesh.mean_radius() - 0.5 * self.mesh.rows() as f64 * self.mesh.row_height()
+    }
+}
+
+/// Fraction of every pin cell that is set, column by column: the mean over points that stand for equal shares of angle
+/// and radius, weighted by the radius.
+fn fractions(picture: &Picture<bool>, pixel: f64, mesh: &Mesh) -> Result<Vec<f64>, MicrographError> {
+    let plane = PinPlane::new(mesh);
+    let (across, up) = plane.half_extent();
+    let (width, height) = (picture.width as f64 * pixel, picture.height as f64 * pixel);
+    if 0.5 * width < across * (1.0 - SAME_LENGTH) || 0.5 * height < up * (1.0 - SAME_LENGTH) {
+        let needed = (2.0 * across / picture.width as f64).max(2.0 * up / picture.height as f64);
+        return Err(MicrographError::Small { width, height, pin: (2.0 * across, 2.0 * up), pixel: needed });
+    }
+    let points = |cell: f64| ((libm::ceil(PER_PIXEL * cell / pixel)) as usize).clamp(FEWEST_POINTS, MOST_POINTS);
+    let per_column = points(mesh.column_width());
+    let per_row = points(mesh.row_height());
+    let radii: Vec<f64> = (0..mesh.rows() * per_row)
+        .map(|point| plane.inner_radius() + (point as f64 + 0.5) / per_row as f64 * mesh.row_height())
+        .collect();
+    let directions: Vec<(f64, f64)> = (0..mesh.pin_columns() * per_column)
+        .map(|point| {
+            let column = (point as f64 + 0.5) / per_column as f64 - 0.5 * mesh.pin_columns() as f64;
+            let angle = column * mesh.column_angle();
+            (libm::sin(angle), libm::cos(angle))
+        })
+        .collect();
+    let mut fractions = Vec::with_capacity(mesh.pin_cells());
+    for column in directions.chunks_exact(per_column) {
+        for row in radii.chunks_exact(per_row) {
+            let (mut set, mut all) = (0.0, 0.0);
+            for radius in row {
+                let hits = column.iter().filter(|(sin, cos)| {
+                    let (x, y) = (radius * sin, radius * cos - mesh.mean_radius());
+                    // Casts saturate, so what rounding puts outside belongs to the outermost pixels.
+                    let x = ((x + 0.5 * width) / pixel) as usize;
+                    let y = ((0.5 * height - y) / pixel) as usize;
+                    picture.pixels[y.min(picture.height - 1) * picture.width + x.min(picture.width - 1)]
+                });
+                set += radius * hits.count() as f64;
+                all += radius * per_column as f64;
+            }
+            fractions.push(set / all);
+        }
+    }
+    Ok(fractions)
+}

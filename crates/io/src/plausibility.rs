@@ -1,0 +1,554 @@
+//! Input that is legal but cannot be meant: a wrong unit, a slip of the pen.
+//!
+//! | known | rules |
+//! |---|---|
+//! | from the scene alone | [`of_scene`] |
+//! | with its surfaces | [`of_surfaces`] |
+//! | from what a run recorded | [`Recorded`] |
+//!
+//! Each is a list of rules. A rule belongs to the key that is most likely wrong; it looks, and tells what it found, the
+//! bound and what to do. `docs/scenes.md` lists them all.
+
+use std::ops::RangeInclusive;
+
+use plateau_core::model::first_contact::FirstContact;
+use plateau_core::model::heat::{Substance, Thermal};
+use plateau_core::model::material::{Material, Materials, Status};
+use plateau_core::model::mesh::Mesh;
+use plateau_core::model::parameters::Parameters;
+use plateau_core::observe::Sample;
+use plateau_core::surface::{HeightSynthesis, Length, Texture};
+
+use crate::scene::{BaseSource, HeightSettings, HeightSource, Origin, Scene, Warning};
+use crate::surface::Loaded;
+
+/// The part of the modulus of a plateau that the mean pressure cannot reach in earnest: beyond it nothing is elastic, and
+/// the overlap is a tenth of the foundation.
+const LARGEST_STRAIN: f64 = 0.1;
+
+/// Look at a subject, and the key that is named when it cannot be meant.
+struct Rule<Subject> {
+    key: &'static str,
+    look: fn(&Subject) -> Option<Finding>,
+}
+
+/// Finding of a rule.
+struct Finding {
+    /// The value found, in words, with its number.
+    found: String,
+    /// The bound that it misses, with its number.
+    bound: String,
+    /// Advice.
+    advice: &'static str,
+}
+
+/// Warnings of the rules, for keys that the scene gives and that no warning has named yet.
+///
+/// Where a key has its default, the key that this follows from is named.
+fn apply<Subject>(rules: &[Rule<Subject>], subject: &Subject, scene: &Scene) -> Vec<Warning> {
+    let mut warnings: Vec<Warning> = Vec::new();
+    for Rule { key, look } in rules {
+        let place = scene.places.get(*key).filter(|place| **place != Origin::Default);
+        let named = scene.warnings.iter().chain(&warnings).any(|warning| warning.key == *key);
+        let (Some(place), false) = (place, named) else { continue };
+        if let Some(Finding { found, bound, advice }) = look(subject) {
+            let (place, key, advice) = (place.clone(), (*key).to_owned(), advice.to_owned());
+            warnings.push(Warning { place, key, found, bound, advice });
+        }
+    }
+    warnings
+}
+
+/// Young's modulus of the softest plateau, Pa.
+fn softest_plateau(materials: &Materials) -> f64 {
+    let Materials { disc_primary, disc_secondary, pin_primary, pin_secondary, .. } = materials;
+    let plateaus = [disc_primary, disc_secondary, pin_primary, pin_secondary];
+    plateaus.map(|plateau| plateau.youngs_modulus).into_iter().fold(f64::INFINITY, f64::min)
+}
+
+/// Says that a mean pressure is more than the plateaus bear; `what` is the pressure in words.
+fn too_much_pressure(pressure: f64, modulus: f64, what: &str) -> Option<Finding> {
+    (pressure > LARGEST_STRAIN * modulus).then(|| Finding {
+        found: format!("{what} {}", pressure_in_words(pressure)),
+        bound: format!("more than a tenth of the softest plateau's modulus of {}", pressure_in_words(modulus)),
+        advice: "check the force, the size of the pin in [mesh] and the moduli in [materials]",
+    })
+}
+
+/// Says that an overlap is more than the foundation is high; `what` is the overlap in words.
+fn too_much_overlap(overlap: f64, foundation_height: f64, what: &str) -> Option<Finding> {
+    (overlap > foundation_height).then(|| Finding {
+        found: format!("{what} {}", Length(overlap)),
+        bound: format!("more than the foundation's height of {}", Length(foundation_height)),
+        advice: "check the foundation's height, the force and the moduli in [materials]",
+    })
+}
+
+/// Four significant digits, without the zeros that would pretend more.
+fn number(value: f64) -> String {
+    if value == 0.0 || !value.is_finite() {
+        return value.to_string();
+    }
+    // As it is rounded: 9.9996 is 10.
+    let scientific = format!("{value:.3e}");
+    let rounded: f64 = scientific.parse().unwrap_or(value);
+    if (1e-3..1e6).contains(&rounded.abs()) {
+        rounded.to_string()
+    } else {
+        let (digits, exponent) = scientific.split_once('e').unwrap_or((&scientific, "0"));
+        let digits = digits.trim_end_matches('0').trim_end_matches('.');
+        format!("{digits}e{exponent}")
+    }
+}
+
+/// A pressure in the unit that suits it, Pa to GPa.
+fn pressure_in_words(value: f64) -> String {
+    let units = [(1e9, "GPa"), (1e6, "MPa"), (1e3, "kPa")];
+    let (pascals, unit) = units.into_iter().find(|(pascals, _)| value >= *pascals).unwrap_or((1.0, "Pa"));
+    format!("{} {unit}", number(value / pascals))
+}
+
+/// Young's moduli of what brakes are made of, soft rubber and diamond included, Pa.
+const MODULI: RangeInclusive<f64> = 1e3..=1e12;
+/// No brake slides faster, m/s.
+const FASTEST: f64 = 200.0;
+/// No brake slides as long, s: a year.
+const LONGEST: f64 = 365.25 * 86_400.0;
+/// Cells that a correlation length must have: with fewer, heights of neighbours are all but independent.
+const LEAST_CELLS: f64 = 2.0;
+/// Correlation lengths that a patch must have: with fewer, a few hills are repeated over and over.
+const LEAST_LENGTHS: f64 = 10.0;
+/// Part that rounding may take off a length that was given as a whole number of others.
+const ROUNDING: f64 = 1e-9;
+
+const RULES: &[Rule<Scene>] = &[
+    Rule { key: "operation.normal_force", look: nominal_pressure },
+    Rule { key: "operation.rotational_speed", look: sliding_speed },
+    Rule { key: "operation.sliding_speed", look: sliding_speed },
+    Rule { key: "operation.duration", look: duration },
+    Rule {
+        key: "materials.disc_primary.youngs_modulus",
+        look: |scene| modulus(&scene.parameters.materials.disc_primary),
+    },
+    Rule {
+        key: "materials.disc_secondary.youngs_modulus",
+        look: |scene| modulus(&scene.parameters.materials.disc_secondary),
+    },
+    Rule {
+        key: "materials.pin_primary.youngs_modulus",
+        look: |scene| modulus(&scene.parameters.materials.pin_primary),
+    },
+    Rule {
+        key: "materials.pin_secondary.youngs_modulus",
+        look: |scene| modulus(&scene.parameters.materials.pin_secondary),
+    },
+    Rule { key: "materials.pin_resin.youngs_modulus", look: |scene| modulus(&scene.parameters.materials.pin_resin) },
+    Rule {
+        key: "disc.surface.synthetic.correlation_length",
+        look: |scene| correlation_length(scene, &scene.disc_surface, "disc"),
+    },
+    Rule {
+        key: "disc.surface.synthetic.correlation_length_across",
+        look: |scene| correlation_length_across(scene, &scene.disc_surface),
+    },
+    Rule { key: "disc.surface.synthetic.patch", look: patch },
+    Rule {
+        key: "pin.surface.synthetic.correlation_length",
+        look: |scene| correlation_length(scene, &scene.pin_surface, "pin"),
+    },
+    Rule {
+        key: "pin.surface.synthetic.correlation_length_across",
+        look: |scene| correlation_length_across(scene, &scene.pin_surface),
+    },
+    Rule { key: "pin.base.synthetic.fibre_length", look: fibre_length },
+    Rule { key: "plateaus.transport_length", look: transport_length },
+];
+
+/// Values that cannot be meant, as far as the scene tells without its surfaces.
+pub fn of_scene(scene: &Scene) -> Vec<Warning> {
+    let mut warnings = apply(RULES, scene, scene);
+    warnings.extend(apply(DISSIPATION_RULES, scene, scene));
+    warnings
+}
+
+fn nominal_pressure(scene: &Scene) -> Option<Finding> {
+    let parameters = &scene.parameters;
+    let pressure = parameters.usual_load() / parameters.mesh.pin_area();
+    too_much_pressure(pressure, softest_plateau(&parameters.materials), "a nominal pressure of")
+}
+
+fn sliding_speed(scene: &Scene) -> Option<Finding> {
+    let speed = scene.parameters.angular_velocity * scene.parameters.mesh.mean_radius();
+    (speed > FASTEST * (1.0 + ROUNDING)).then(|| Finding {
+        found: format!("sliding at {} m/s at the mean radius", number(speed)),
+        bound: format!("more than {FASTEST} m/s"),
+        advice: "check the speed, its unit and the radii in [mesh]",
+    })
+}
+
+fn duration(scene: &Scene) -> Option<Finding> {
+    let parameters = &scene.parameters;
+    if parameters.cycle.is_some() {
+        return None;
+    }
+    let duration = scene.steps as f64 * parameters.step_time();
+    (duration > LONGEST * (1.0 + ROUNDING)).then(|| Finding {
+        found: format!("sliding for {} s", number(duration)),
+        bound: "longer than a year".to_owned(),
+        advice: "check the duration and its unit",
+    })
+}
+
+/// Below two columns, what a transport length is rounded to decides too much (model 4L).
+fn transport_length(scene: &Scene) -> Option<Finding> {
+    let mesh = &scene.parameters.mesh;
+    let columns = scene.parameters.plateaus.transport_length? / mesh.column_width();
+    let found = || format!("a transport length of {} cells", number(columns));
+    if columns > mesh.pin_columns() as f64 * (1.0 + ROUNDING) {
+        let bound = format!("longer than the pin, which has {}", mesh.pin_columns());
+        return Some(Finding { found: found(), bound, advice: "check its unit" });
+    }
+    (columns < 2.0 * (1.0 - ROUNDING)).then(|| Finding {
+        found: found(),
+        bound: "fewer than 2, so that its rounding to whole cells shows".to_owned(),
+        advice: "take a finer mesh or a longer transport length",
+    })
+}
+
+fn modulus(material: &Material) -> Option<Finding> {
+    let modulus = material.youngs_modulus;
+    let [least, most] = [MODULI.start(), MODULI.end()].map(|bound| pressure_in_words(*bound));
+    (!MODULI.contains(&modulus)).then(|| Finding {
+        found: format!("a modulus of {}", pressure_in_words(modulus)),
+        bound: format!("outside of {least} to {most}"),
+        advice: "check its unit",
+    })
+}
+
+/// Settings of synthetic heights, if they are synthetic.
+fn synthesis(heights: &HeightSettings) -> Option<&HeightSynthesis> {
+    match &heights.source {
+        HeightSource::Synthetic(synthesis) => Some(synthesis),
+        HeightSource::File { .. } | HeightSource::Flat => None,
+    }
+}
+
+/// One length for both directions may be as short as the shorter side of a cell allows; one of its own for the sliding
+/// direction only as short as the cell along it.
+fn correlation_length(scene: &Scene, heights: &HeightSettings, body: &str) -> Option<Finding> {
+    let mesh = &scene.parameters.mesh;
+    let across = format!("{body}.surface.synthetic.correlation_length_across");
+    let cell = if scene.places.contains_key(&across) { mesh.column_width() } else { shorter_side(mesh) };
+    too_few_cells(lengths(heights)?[0], cell)
+}
+
+fn correlation_length_across(scene: &Scene, heights: &HeightSettings) -> Option<Finding> {
+    too_few_cells(lengths(heights)?[1], scene.parameters.mesh.row_height())
+}
+
+/// The correlation lengths along and across the sliding direction, m. A power law has none; where it begins is checked as
+/// heights are made.
+fn lengths(heights: &HeightSettings) -> Option<[f64; 2]> {
+    match synthesis(heights)?.texture {
+        Texture::Correlation { along, across } => Some([along, across]),
+        Texture::PowerLaw { .. } => None,
+    }
+}
+
+fn shorter_side(mesh: &Mesh) -> f64 {
+    mesh.column_width().min(mesh.row_height())
+}
+
+fn too_few_cells(length: f64, cell: f64) -> Option<Finding> {
+    (length < LEAST_CELLS * cell * (1.0 - ROUNDING)).then(|| Finding {
+        found: format!("{}, which is {} cells of {}", Length(length), number(length / cell), Length(cell)),
+        bound: format!("less than {LEAST_CELLS} cells"),
+        advice: "heights of neighbouring cells are all but independent: check its unit, or make the mesh finer",
+    })
+}
+
+fn patch(scene: &Scene) -> Option<Finding> {
+    let (patch, [length, _]) = (synthesis(&scene.disc_surface)?.patch?, lengths(&scene.disc_surface)?);
+    (patch < LEAST_LENGTHS * length * (1.0 - ROUNDING)).then(|| Finding {
+        found: format!(
+            "{}, which is {} correlation lengths of {}",
+            Length(patch),
+            number(patch / length),
+            Length(length)
+        ),
+        bound: format!("less than {LEAST_LENGTHS} of them"),
+        advice: "a few hills are repeated over and over: give a longer patch, or leave it out",
+    })
+}
+
+fn fibre_length(scene: &Scene) -> Option<Finding> {
+    let BaseSource::Synthetic(synthesis) = &scene.pin_base else { return None };
+    let mesh = &scene.parameters.mesh;
+    let [along, across] = [mesh.pin_columns() as f64 * mesh.column_width(), mesh.rows() as f64 * mesh.row_height()];
+    (synthesis.fibre_length > along.max(across) * (1.0 + ROUNDING)).then(|| Finding {
+        found: format!("fibres of {}", Length(synthesis.fibre_length)),
+        bound: format!("longer than the pin of {} by {}", Length(along), Length(across)),
+        advice: "check its unit, and the size of the pin in [mesh]",
+    })
+}
+
+/// Ambient temperatures at which brakes are used, K.
+const AMBIENT: RangeInclusive<f64> = 200.0..=400.0;
+/// From air to diamond, W/(m K).
+const CONDUCTIVITY: RangeInclusive<f64> = 0.02..=2500.0;
+/// From foam to osmium, kg/m³.
+const DENSITY: RangeInclusive<f64> = 10.0..=23_000.0;
+/// From gold to water, J/(kg K).
+const SPECIFIC_HEAT: RangeInclusive<f64> = 100.0..=4200.0;
+/// No film that shears is stronger than what it lies on, Pa.
+const STRONGEST: f64 = 1e9;
+
+/// Rules of friction, heat and emission.
+const DISSIPATION_RULES: &[Rule<Scene>] = &[
+    Rule { key: "friction.shear_strength", look: shear_strength },
+    Rule { key: "thermal.ambient", look: ambient },
+    Rule { key: "thermal.disc.conductivity", look: |scene| substance(&thermal(scene)?.disc.substance) },
+    Rule {
+        key: "thermal.disc.coating.conductivity",
+        look: |scene| substance(&thermal(scene)?.disc.coating?.substance),
+    },
+    Rule { key: "thermal.disc.coating.thickness", look: coating_thickness },
+    Rule { key: "thermal.pin.conductivity", look: |scene| substance(&thermal(scene)?.pin.substance) },
+    Rule { key: "thermal.pin.area", look: pin_area },
+    Rule { key: "emission.pin_density", look: |scene| density(scene.parameters.emission.as_ref()?.pin_density) },
+    Rule { key: "emission.disc_density", look: |scene| density(scene.parameters.emission.as_ref()?.disc_density) },
+];
+
+fn thermal(scene: &Scene) -> Option<&Thermal> {
+    scene.parameters.thermal.as_deref()
+}
+
+fn shear_strength(scene: &Scene) -> Option<Finding> {
+    let strength = scene.parameters.friction?.primary.shear_strength;
+    (strength > STRONGEST).then(|| Finding {
+        found: format!("a shear strength of {}", pressure_in_words(strength)),
+        bound: format!("more than {}", pressure_in_words(STRONGEST)),
+        advice: "check its unit",
+    })
+}
+
+fn ambient(scene: &Scene) -> Option<Finding> {
+    let ambient = thermal(scene)?.ambient;
+    outside(ambient, AMBIENT, "an ambient temperature of", "K", "check its unit: degC or K")
+}
+
+/// Of the three properties, the first that is out of all proportion.
+fn substance(substance: &Substance) -> Option<Finding> {
+    let advice = "check the units of conductivity, density and specific heat";
+    outside(substance.conductivity, CONDUCTIVITY, "a conductivity of", "W/(m K)", advice)
+        .or_else(|| outside(substance.density, DENSITY, "a density of", "kg/m^3", advice))
+        .or_else(|| outside(substance.specific_heat, SPECIFIC_HEAT, "a specific heat of", "J/(kg K)", advice))
+}
+
+/// Heat goes through the coating into the disc; the coating of a brake disc is a small part of it.
+fn coating_thickness(scene: &Scene) -> Option<Finding> {
+    let disc = &thermal(scene)?.disc;
+    let thickness = disc.coating?.thickness;
+    (thickness > disc.thickness).then(|| Finding {
+        found: format!("a coating of {}", Length(thickness)),
+        bound: format!("more than the disc below it, {}", Length(disc.thickness)),
+        advice: "check both thicknesses and their units",
+    })
+}
+
+fn density(density: f64) -> Option<Finding> {
+    outside(density, DENSITY, "a density of", "kg/m^3", "check its unit")
+}
+
+fn outside(value: f64, range: RangeInclusive<f64>, what: &str, unit: &str, advice: &'static str) -> Option<Finding> {
+    (!range.contains(&value)).then(|| Finding {
+        found: format!("{what} {} {unit}", number(value)),
+        bound: format!("outside of {} to {} {unit}", number(*range.start()), number(*range.end())),
+        advice,
+    })
+}
+
+/// The pin of the mesh is a part of the pin that heat sees, or all of it; its corners may reach beyond a round pin.
+fn pin_area(scene: &Scene) -> Option<Finding> {
+    let (area, of_mesh) = (thermal(scene)?.pin.area, scene.parameters.mesh.pin_area());
+    (area < 0.5 * of_mesh).then(|| Finding {
+        found: format!("{} mm^2", number(area * 1e6)),
+        bound: format!("less than half of the {} mm^2 of the pin in [mesh]", number(of_mesh * 1e6)),
+        advice: "check its unit",
+    })
+}
+
+/// Fraction of the points that a cutoff takes off peaks alone: from here on it is in the valleys.
+const HALF: f64 = 0.5;
+
+/// Subject of the rules.
+struct Beginning {
+    disc_cutoff: Option<Cutoff>,
+    pin_cutoff: Option<Cutoff>,
+    contact: Option<FirstContact>,
+    foundation_height: f64,
+    softest_plateau: f64,
+}
+
+/// A cutoff and what it did.
+struct Cutoff {
+    /// Height above the mean, m.
+    height: f64,
+    /// Fraction of the points that stood higher.
+    cut: f64,
+}
+
+const SURFACE_RULES: &[Rule<Beginning>] = &[
+    Rule { key: "disc.prepare.cutoff", look: |beginning| useless(beginning.disc_cutoff.as_ref()) },
+    Rule { key: "pin.prepare.cutoff", look: |beginning| useless(beginning.pin_cutoff.as_ref()) },
+    Rule { key: "operation.normal_force", look: pressure_of_the_first_step },
+    Rule { key: "contact.foundation_height", look: overlap_of_the_first_step },
+];
+
+/// Values that cannot be meant, now that the surfaces are known, of keys that `scene.warnings` does not name yet.
+pub fn of_surfaces(scene: &Scene, loaded: &Loaded) -> Vec<Warning> {
+    let parameters = &scene.parameters;
+    // Where heights are flat nothing can be cut, and whoever tries a flat disc in a scene need not take its cutoff away.
+    let cutoff = |heights: &HeightSettings, cut: Option<f64>| match heights.source {
+        HeightSource::Flat => None,
+        HeightSource::File { .. } | HeightSource::Synthetic(_) => {
+            Some(Cutoff { height: heights.preparation.cutoff?, cut: cut? })
+        }
+    };
+    let beginning = Beginning {
+        disc_cutoff: cutoff(&scene.disc_surface, loaded.disc_cut),
+        pin_cutoff: cutoff(&scene.pin_surface, loaded.pin_cut),
+        contact: FirstContact::of(parameters, &loaded.surfaces),
+        foundation_height: parameters.foundation_height,
+        softest_plateau: softest_plateau(&parameters.materials),
+    };
+    apply(SURFACE_RULES, &beginning, scene)
+}
+
+fn useless(cutoff: Option<&Cutoff>) -> Option<Finding> {
+    let Cutoff { height, cut } = *cutoff?;
+    let (bound, advice) = if cut == 0.0 {
+        ("no point at all", "no peak is so high: check its unit, or say cutoff = \"none\"")
+    } else if cut >= HALF {
+        (
+            "half of them or more",
+            "it is meant for the peaks: check its unit, and what prepare.level takes out before it",
+        )
+    } else {
+        return None;
+    };
+    Some(Finding {
+        found: format!("at {} above the mean it cuts {} % of the points", Length(height), number(100.0 * cut)),
+        bound: bound.to_owned(),
+        advice,
+    })
+}
+
+fn pressure_of_the_first_step(beginning: &Beginning) -> Option<Finding> {
+    let pressure = beginning.contact?.mean_pressure;
+    too_much_pressure(pressure, beginning.softest_plateau, "in the first step a mean contact pressure of")
+}
+
+fn overlap_of_the_first_step(beginning: &Beginning) -> Option<Finding> {
+    let overlap = beginning.contact?.largest_overlap;
+    too_much_overlap(overlap, beginning.foundation_height, "in the first step an overlap of")
+}
+
+/// Extent to which a filled fraction may leave 0 to 1: a disc that wears opens a little before the first debris fills it.
+const SLACK: f64 = 1e-3;
+
+/// A number and when it was reached, s.
+#[derive(Debug, Clone, Copy)]
+struct Reached {
+    value: f64,
+    time: f64,
+}
+
+/// The extremes of what a run recorded.
+#[derive(Debug)]
+pub struct Recorded {
+    parameters: Parameters,
+    mean_pressure: Reached,
+    /// m: what the largest pressure takes in the stiffest pair that there is. A softer pair overlaps more.
+    overlap: Reached,
+    /// The one furthest outside of 0 to 1, if any is outside by more than [`SLACK`].
+    filled_fraction: Option<Reached>,
+}
+
+const RECORDED_RULES: &[Rule<Recorded>] = &[
+    Rule { key: "operation.normal_force", look: pressure },
+    Rule { key: "contact.foundation_height", look: overlap },
+    Rule { key: "materials.disc_primary.specific_wear_rate", look: filled_fraction },
+];
+
+impl Recorded {
+    /// Nothing recorded yet of a run with these parameters.
+    pub fn new(parameters: &Parameters) -> Self {
+        let none = Reached { value: 0.0, time: 0.0 };
+        Self { parameters: parameters.clone(), mean_pressure: none, overlap: none, filled_fraction: None }
+    }
+
+    /// Takes note of a sample.
+    pub fn add(&mut self, sample: &Sample) {
+        let reached = |value| Reached { value, time: sample.time };
+        if sample.mean_pressure > self.mean_pressure.value {
+            self.mean_pressure = reached(sample.mean_pressure);
+        }
+        let overlap = sample.max_pressure / largest_stiffness(&self.parameters, sample);
+        if overlap > self.overlap.value {
+            self.overlap = reached(overlap);
+        }
+        let beyond = |fraction: f64| (-fraction).max(fraction - 1.0);
+        let so_far = self.filled_fraction.map_or(SLACK, |filled| beyond(filled.value));
+        if beyond(sample.filled_fraction) > so_far {
+            self.filled_fraction = Some(reached(sample.filled_fraction));
+        }
+    }
+
+    /// Values that cannot be meant, of keys that `scene.warnings` does not name yet.
+    pub fn warnings(&self, scene: &Scene) -> Vec<Warning> {
+        apply(RECORDED_RULES, self, scene)
+    }
+}
+
+/// k of the stiffest pair whose statuses a sample has, Pa/m.
+fn largest_stiffness(parameters: &Parameters, sample: &Sample) -> f64 {
+    let pin = [
+        (Status::Resin, sample.pin_none),
+        (Status::Primary, sample.pin_primary),
+        (Status::Secondary, sample.pin_secondary),
+    ];
+    let disc = [(false, 1.0 - sample.disc_secondary), (true, sample.disc_secondary)];
+    let mut largest = 0.0_f64;
+    for (pin, _) in pin.into_iter().filter(|(_, area)| *area > 0.0) {
+        for (disc_secondary, _) in disc.into_iter().filter(|(_, area)| *area > 0.0) {
+            largest = largest.max(parameters.materials.combined_modulus(pin, disc_secondary));
+        }
+    }
+    largest / parameters.foundation_height
+}
+
+fn pressure(recorded: &Recorded) -> Option<Finding> {
+    let Reached { value, time } = recorded.mean_pressure;
+    let what = format!("at {} s a mean contact pressure of", number(time));
+    too_much_pressure(value, softest_plateau(&recorded.parameters.materials), &what)
+}
+
+fn overlap(recorded: &Recorded) -> Option<Finding> {
+    let Reached { value, time } = recorded.overlap;
+    let what = format!("at {} s an overlap of at least", number(time));
+    too_much_overlap(value, recorded.parameters.foundation_height, &what)
+}
+
+fn filled_fraction(recorded: &Recorded) -> Option<Finding> {
+    let Reached { value, time } = recorded.filled_fraction?;
+    Some(Finding {
+        found: format!("at {} s a filled fraction of {}", number(time), number(value)),
+        bound: format!("outside of 0 to 1 by more than {SLACK}"),
+        advice: "the disc wears deeper than its lowlands were: check the wear rate, or do not use the filled fraction",
+    })
+}
+
+#[cfg(test)]
+#[path = "../tests/unit/plausibility.rs"]
+mod tests;

@@ -1,0 +1,176 @@
+//! The processes that run one scene together: this one alone, or with feature `mpi` the ranks that `mpirun` started.
+//! Either way a [`Job`] looks the same. What they agree on between steps, and work of independent pieces, shared among the threads of
+//! a process.
+
+#[cfg(feature = "mpi")]
+mod ranks;
+
+use std::collections::VecDeque;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::{Mutex, MutexGuard, PoisonError};
+
+#[cfg(not(feature = "mpi"))]
+pub use alone::Job;
+#[cfg(feature = "mpi")]
+pub use ranks::Job;
+
+/// Agreement of the processes of a job between steps.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Agreement {
+    /// The signal that asks the run to stop, if there was one.
+    pub signal: Option<u8>,
+    /// Tells whether the state is to be kept.
+    pub save: bool,
+    /// Steps before the next agreement.
+    pub steps: u64,
+}
+
+/// End of a piece of shared work.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum PieceEnd {
+    /// It is done.
+    Done,
+    /// It failed; the others go on.
+    Failed,
+    /// No more is to be begun.
+    Stopped,
+    /// Another process is at it: it is to be looked at again after the others.
+    Later,
+}
+
+/// Hands out pieces, each once, or again where it was to be later.
+#[derive(Debug)]
+pub struct WorkQueue {
+    pieces: Mutex<VecDeque<usize>>,
+    failures: AtomicUsize,
+    most_failures: usize,
+    stopped: AtomicBool,
+}
+
+impl WorkQueue {
+    /// These pieces, until so many have failed.
+    pub fn new(pieces: &[usize], most_failures: Option<usize>) -> Self {
+        let most_failures = most_failures.unwrap_or(usize::MAX);
+        let pieces = Mutex::new(pieces.iter().copied().collect());
+        Self { pieces, failures: 0.into(), most_failures, stopped: false.into() }
+    }
+
+    /// The next piece.
+    pub fn next(&self) -> Option<usize> {
+        if self.stopped.load(Ordering::Relaxed) || self.failures.load(Ordering::Relaxed) >= self.most_failures {
+            return None;
+        }
+        self.waiting().pop_front()
+    }
+
+    fn waiting(&self) -> MutexGuard<'_, VecDeque<usize>> {
+        self.pieces.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Takes note of how a piece ended.
+    pub fn note(&self, piece: usize, end: PieceEnd) {
+        match end {
+            PieceEnd::Done => {}
+            PieceEnd::Failed => drop(self.failures.fetch_add(1, Ordering::Relaxed)),
+            PieceEnd::Later => self.waiting().push_back(piece),
+            PieceEnd::Stopped => self.stopped.store(true, Ordering::Relaxed),
+        }
+    }
+
+    /// Does pieces until there are no more.
+    pub fn work(&self, work: &(dyn Fn(usize) -> PieceEnd + Sync)) {
+        while let Some(piece) = self.next() {
+            self.note(piece, work(piece));
+        }
+    }
+
+    /// Does all pieces, on so many threads, or as many as there are pieces.
+    pub fn share(
+        &self,
+        jobs: usize,
+        work: &(dyn Fn(usize) -> PieceEnd + Sync),
+    ) -> Result<(), rayon::ThreadPoolBuildError> {
+        // A thread without a piece would only wait; thousands of them keep a machine busy.
+        let threads = jobs.min(self.waiting().len()).max(1);
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build()?;
+        pool.scope(|scope| (0..threads).for_each(|_| scope.spawn(|_| self.work(work))));
+        Ok(())
+    }
+}
+
+/// A process on its own.
+#[cfg(not(feature = "mpi"))]
+mod alone {
+    use plateau_core::engine::comm::CommError;
+    use plateau_core::model::parameters::Parameters;
+    use plateau_core::model::state::InitialSurfaces;
+    use plateau_core::simulation::{Execution, Simulation, SimulationError};
+
+    use super::{Agreement, PieceEnd, WorkQueue};
+    use crate::error::{RunError, RunFailure};
+
+    /// The processes that run a scene together; built without feature `mpi`, this one on its own.
+    #[derive(Debug)]
+    pub struct Job(());
+
+    impl Job {
+        /// Joins the other processes.
+        pub fn start() -> Result<Self, RunFailure> {
+            Ok(Self(()))
+        }
+
+        /// Tells whether this process writes the run file and talks to the user.
+        pub fn leads(&self) -> bool {
+            true
+        }
+
+        /// Number of processes.
+        pub fn ranks(&self) -> usize {
+            1
+        }
+
+        pub(crate) fn simulation(
+            &self,
+            parameters: Parameters,
+            surfaces: InitialSurfaces,
+            execution: Execution,
+        ) -> Result<Simulation, SimulationError> {
+            Simulation::with_execution(parameters, surfaces, execution)
+        }
+
+        /// Agrees with all processes: they stop and save if any was asked to.
+        pub fn agree(&mut self, own: Agreement) -> Result<Agreement, CommError> {
+            Ok(own)
+        }
+
+        pub(crate) fn compare(&mut self, _text: &str) -> Result<(), RunError> {
+            Ok(())
+        }
+
+        /// Does all pieces of independent work on as many threads as there are `jobs`, until so many have failed.
+        pub fn share(
+            &mut self,
+            pieces: &[usize],
+            jobs: usize,
+            most_failures: Option<usize>,
+            work: &(dyn Fn(usize) -> PieceEnd + Sync),
+        ) -> Result<(), RunFailure> {
+            Ok(WorkQueue::new(pieces, most_failures).share(jobs, work)?)
+        }
+
+        /// The sums of two counts over all processes.
+        pub fn sum(&mut self, one: usize, other: usize) -> Result<(usize, usize), CommError> {
+            Ok((one, other))
+        }
+
+        /// Leaves the other processes in good order.
+        pub fn finish(self) {}
+
+        /// Ends all processes with this exit status after `report` said why; this one, if it is alone, ends itself as it likes.
+        pub fn fail(self, _status: u8, _report: impl FnOnce()) {}
+    }
+}
+
+#[cfg(test)]
+#[path = "../tests/unit/job.rs"]
+mod tests;
