@@ -36,20 +36,22 @@ def check(scene: Path, *, set: Mapping[str, Any] | None = None, workers: int | s
     return dict(call(["check", file_name(scene, "a scene"), *_scene_arguments(set, workers)]))
 
 
-def collect(study: Path) -> Study:
+def collect(study: Path, *, force: bool = False) -> Study:
     """Collects the existing results of a study, complete or not, and opens them.
 
     Parameters
     ----------
     study : path
         The study, TOML.
+    force : bool
+        Replace tables even by ones with fewer finished runs.
 
     Returns
     -------
     Study
         Table and data; runs without result have the state ``missing`` or ``failed``.
     """
-    call(["sweep", "collect", file_name(study, "a study")])
+    call(["sweep", "collect", file_name(study, "a study"), *(["--force"] if force else [])])
     return open_study(study)
 
 

@@ -119,6 +119,7 @@ def sweep(
     workers: int | None = None,
     max_failures: int | None = None,
     retry: bool = False,
+    force: bool = False,
     progress: bool | None = None,
 ) -> Study:
     """Makes the missing runs of a study, and opens its results.
@@ -135,6 +136,8 @@ def sweep(
         Stop after this number of failed runs; by default the other runs continue.
     retry : bool
         Make failed runs again.
+    force : bool
+        Replace tables even by ones with fewer finished runs.
     progress : bool, optional
         Whether progress is shown; by default in notebooks and terminals.
 
@@ -155,4 +158,4 @@ def sweep(
     [5.0, 10.0]
     """
     make_missing(file_name(study, "a study"), progress, retry, jobs=jobs, workers=workers, max_failures=max_failures)
-    return collect(study)
+    return collect(study, force=force)

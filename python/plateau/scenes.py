@@ -159,7 +159,7 @@ def _source(scene: Any) -> tuple[str, str | None, Layers]:
         return scene._path, scene._text, scene._changes
     if scene is None or isinstance(scene, Mapping):
         return UNNAMED, "", ({"version": 1, **dict(_flat(scene or {}))},)
-    if isinstance(scene, str) and ("\n" in scene or "=" in scene):
+    if isinstance(scene, str) and ("\n" in scene or "=" in scene and not os.path.exists(scene)):
         return UNNAMED, scene, ()
     path = file_name(scene, "a scene")
     if "\0" in path:

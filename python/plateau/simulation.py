@@ -29,8 +29,11 @@ class Simulation:
 
     Between two steps its fields can be read and heights, load and speed be set. Fields are arrays of shape (columns, rows): of the disc
     (disc columns, rows) in its own frame, of the pin (pin columns, rows); axis 0 goes along the sliding direction, axis 1 outwards. Each
-    reading is a copy that stays as it is when the simulation goes on or is gone. z of both bodies grows away from the disc, so wear
-    lowers the disc and raises the pin.
+    reading is a copy, not to be changed, that stays as it is when the simulation goes on or is gone: a change goes into a ``copy()``
+    that is set. z of both bodies grows away from the disc, so wear lowers the disc and raises the pin. Columns of the disc come to the
+    pin at its column 0 and go on to larger ones.
+
+    The scene's duration and ``[output]`` do not count: it goes on as long as it is told to, and writes nothing.
 
     One thread uses it at a time; a fork and pickling are refused (`save` and `load` carry it elsewhere). Any number of simulations may
     exist side by side. A scene that has its run choose the time acceleration is refused.
@@ -104,7 +107,8 @@ class Simulation:
         steps : int, optional
             Number of steps, by default one.
         time : float or str, optional
-            Instead of it, the time to come to, s, or text with a unit. The last step ends there or up to one step later, of a cycle earlier.
+            Instead of it, the time to come to, s, or text with a unit; nothing is done where that has passed. The last step ends there or
+            up to one step later, of a cycle earlier.
         watch : bool
             Whether pressures of the last step are kept, which `pressure`, `sample` and `displacement` need. A single step of a small
             scene takes a fraction of the time without.
@@ -112,7 +116,7 @@ class Simulation:
         Raises
         ------
         RunFailed
-            If no displacement carries the load, or numbers leave their range.
+            If no displacement carries the load, or numbers leave their range. Nothing follows then.
         """
         if time is not None:
             if steps is not None:
@@ -140,7 +144,7 @@ class Simulation:
         pandas.DataFrame
             A row for each sample, as `sample`, by the number of its step.
         """
-        if steps is None and time is None:
+        if (steps is None) is (time is None):
             raise InputError("observe: expected a number of steps, or a time to come to")
         first = self.steps
         last = self._native.steps_until(quantity(time, "s")) if time is not None else first + _count(steps)
@@ -154,8 +158,9 @@ class Simulation:
         return pandas.DataFrame(rows).set_index("step") if rows else pandas.DataFrame()
 
     def sample(self) -> dict[str, float]:
-        """The series of a run file after the last step, in SI units (`units`); ``step`` and ``time`` first. Heights that were set since
-        do not show in it before the next step.
+        """The series of a run file after the last step, in SI units (`units`); ``step`` and ``time`` first. ``contact_area``,
+        ``friction_coefficient`` and pressures are of that one step, names with ``_mean`` of the last revolution. Heights that were set
+        since show in the roughness alone before the next step.
 
         Returns
         -------
@@ -195,12 +200,12 @@ class Simulation:
 
     @property
     def displacement(self) -> float:
-        """Displacement of the rigid pin in the last step, m; `sample` has it with all others."""
+        """Displacement of the rigid pin toward the disc in the last step, m, from where heights are 0; `sample` has it, too."""
         return float(self._native.sample()["displacement"])
 
     @property
     def revolution(self) -> int:
-        """Steps of a revolution: the columns of the disc."""
+        """Steps of a revolution, each of which stands for as many as the time acceleration: the columns of the disc."""
         return self._native.mesh[1]
 
     @property
@@ -271,7 +276,7 @@ class Simulation:
 
     @property
     def disc_substrate(self) -> "NDArray[np.float64]":
-        """Top of what is no compacted debris on the disc, m; it may be set."""
+        """The disc below its compacted debris, m; it may be set. Build-up is ``disc_height - disc_substrate``."""
         return self._numbers("disc_substrate")
 
     @disc_substrate.setter
@@ -289,7 +294,7 @@ class Simulation:
 
     @property
     def pin_substrate(self) -> "NDArray[np.float64]":
-        """Surface of what is no compacted debris on the pin, m, NaN outside a round pin; it may be set."""
+        """The pin below its compacted debris, m, NaN outside a round pin; it may be set. Build-up is ``pin_substrate - pin_height``."""
         return self._numbers("pin_substrate")
 
     @pin_substrate.setter
@@ -337,7 +342,8 @@ class Simulation:
         Raises
         ------
         InputError
-            If a shape is wrong, or a height is no finite number or on the wrong side of its substrate.
+            If a shape is wrong, or a height is no finite number, on the wrong side of its substrate, or above the highest initial height
+            of the disc, up to which debris fills it.
         """
         given = (disc_height, disc_substrate, pin_height, pin_substrate)
         rows, disc, pin, *_ = self._native.mesh

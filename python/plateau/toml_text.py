@@ -6,6 +6,7 @@ from json import dumps
 from typing import Any
 
 from plateau.errors import InputTypeError
+from plateau.units import text_of
 
 
 def toml_document(table: Mapping[str, Any]) -> str:
@@ -22,8 +23,7 @@ def toml_of(value: Any) -> str:
     '{ "rows" = 10, "title" = "µ" }'
     """
     if hasattr(value, "magnitude") and hasattr(value, "units"):
-        unit = f"{value.units:~C}".replace("**", "^").replace("*", " ")
-        return dumps(f"{float(value.magnitude)!r} {unit}", ensure_ascii=False)
+        return dumps(text_of(value), ensure_ascii=False)
     if hasattr(value, "tolist"):  # of NumPy
         value = value.tolist()
     if isinstance(value, bool):

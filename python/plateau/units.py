@@ -208,12 +208,27 @@ def in_si(number: str | float, unit: str, si: str, *, is_difference: bool = Fals
         raise InputError(f"{number} {unit} is too large a number") from None
 
 
+def text_of(number: Any) -> str:
+    """The text of a number with a unit, as of pint.
+
+    Raises
+    ------
+    InputTypeError
+        If its unit cannot be written.
+    """
+    try:
+        unit = f"{number.units:~C}"
+        return f"{float(number.magnitude)!r} {unit}".replace("**", "^").replace("*", " ")
+    except (TypeError, ValueError) as error:
+        raise InputTypeError(f"{number!r} is no number with a unit, as of pint: {error}") from None
+
+
 def quantity(said: object, si: str, *, is_difference: bool = False, needs_unit: bool = True) -> float:
     """A number in SI units, or text with a unit.
 
     Parameters
     ----------
-    said : int, float or str
+    said : int, float or str, or a number with a unit, as of pint
     si : str
         The SI unit.
     is_difference : bool
@@ -239,6 +254,8 @@ def quantity(said: object, si: str, *, is_difference: bool = False, needs_unit: 
     plateau.errors.InputError: "30 sec": unknown unit "sec", expected a number in s, or text with a unit
     """
     expected = "expected a number, or text with %" if si == "1" else f"expected a number in {si}, or text with a unit"
+    if hasattr(said, "magnitude") and hasattr(said, "units"):  # of pint
+        said = text_of(said)
     is_number = isinstance(said, Real) and not isinstance(said, bool)
     if is_number and math.isfinite(said):  # type: ignore[arg-type]
         return float(said)  # type: ignore[arg-type]

@@ -85,6 +85,10 @@ class Scenes(InFolder):
         rate = speed.replace({"materials.pin_primary.specific_wear_rate": Quantity(5e-5, "mm**3/N/m")})
         self.assertEqual(rate["materials.pin_primary.specific_wear_rate"], "5e-14 1/Pa")
 
+    def test_a_path_may_have_an_equals_sign(self):
+        pathlib.Path("a=b.toml").write_text(pathlib.Path("quick.toml").read_text())
+        self.assertEqual(plateau.Scene("a=b.toml")["mesh.rows"], 20)
+
     def test_errors_name_the_key_and_its_place(self):
         pathlib.Path("bad.toml").write_text('extends = "quick.toml"\n[mesh]\nrows = "x"\n')
         wrong = [
@@ -173,6 +177,15 @@ class Studies(InFolder):
         for wrong, message in [([short, short], "do not differ"), ([short, short.replace(maps_at=["1 s"])], "output.maps_at: .* a list")]:
             with self.assertRaisesRegex(plateau.InputError, message):
                 plateau.study.of_scenes(wrong, "wrong")
+        with self.assertRaisesRegex(plateau.InputError, "study.toml exists: .* force=True"):
+            plateau.study.of_scenes(scenes, "three")
+
+    def test_a_switch_is_a_factor(self):
+        scenes = [plateau.Scene("quick.toml", duration="2 s", formation=forms) for forms in (True, False)]
+        table = plateau.sweep(plateau.study.of_scenes(scenes, "switch", "deposited_disc:end"), progress=False).table
+        with_plateaus, without = table["deposited disc, end [m3]"]
+        self.assertGreater(with_plateaus, without)
+        self.assertEqual(without, 0.0)
 
 
 if __name__ == "__main__":

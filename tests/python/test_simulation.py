@@ -103,7 +103,7 @@ class Bits(InFolder):
             plateau.Simulation.load("no.state")
         with self.assertRaisesRegex(plateau.InputError, "none.state: there is no such state"):
             plateau.Simulation.load("none.state")
-        with self.assertRaisesRegex(plateau.InputError, "not a checkpoint of plateau"):
+        with self.assertRaisesRegex(plateau.InputError, "no state of a simulation: take another name"):
             simulation.save("no.state")
 
 
@@ -116,8 +116,9 @@ class Fields(InFolder):
         self.assertEqual(fields["disc_height"].shape, (690, 20))
         self.assertEqual(fields["pin_height"].shape, (40, 20))
         self.assertEqual(fields["pin_status"].dtype, np.uint8)
-        # They are the reader's own.
-        fields["disc_height"][:] = 0.0
+        # A change of them would be lost.
+        with self.assertRaisesRegex(ValueError, "read-only"):
+            fields["disc_height"][:] = 0.0
         np.testing.assert_array_equal(simulation.disc_height, kept["disc_height"])
         simulation.advance(50)
         del simulation
@@ -226,6 +227,48 @@ class Control(InFolder):
             simulation.sample()
 
 
+    def test_a_step_that_failed_is_followed_by_nothing(self):
+        for workers in (1, 2):
+            simulation = plateau.Simulation(QUICK, workers=workers)
+            simulation.advance(10)
+            simulation.normal_force = 1e300
+            with self.assertRaises(plateau.RunFailed):
+                simulation.advance()
+            for refused in (simulation.advance, simulation.sample, lambda: simulation.save("failed.state")):
+                with self.assertRaisesRegex(plateau.RunFailed, "the simulation failed: "):
+                    refused()
+            self.assertFalse(os.path.exists("failed.state"))
+
+    def test_a_cycle_ends(self):
+        points = [["0 s", "5 N", "850 rpm"], ["0.1 s", "6 N", "850 rpm"]]
+        simulation = plateau.Simulation(plateau.Scene(QUICK, operation={"cycle": {"points": points}, "duration": "0.1 s"}))
+        simulation.advance(time=1.0)
+        steps = simulation.steps
+        with self.assertRaisesRegex(plateau.InputError, f"the cycle ends at 0.1 s, after step {steps}"):
+            simulation.advance()
+        self.assertEqual(simulation.steps, steps)
+
+    def test_a_step_that_was_not_watched_can_be_saved_and_changed(self):
+        watched, passed = plateau.Simulation(QUICK), plateau.Simulation(QUICK)
+        watched.advance(20)
+        passed.advance(20, watch=False)
+        with self.assertRaisesRegex(plateau.InputError, "watch=True"):
+            passed.sample()
+        passed.pin_height = passed.pin_height
+        passed.save("passed.state")
+        again = plateau.Simulation.load("passed.state")
+        watched.advance(20)
+        again.advance(20)
+        self.assertEqual(state_of(again), state_of(watched))
+
+    def test_the_checkpoint_of_a_run_is_no_state(self):
+        plateau.run(QUICK, "kept.h5", set={"operation.duration": "1 s"})
+        with self.assertRaisesRegex(plateau.InputError, "no state of a simulation: take another name"):
+            plateau.Simulation(QUICK).save("kept.h5.checkpoint")
+        longer = plateau.run(QUICK, "kept.h5", extend_to="2 s")
+        self.assertEqual(longer.attrs["state"], "finished")
+
+
 class Processes(InFolder):
     def test_threads(self):
         alone = plateau.Simulation(QUICK)
@@ -242,7 +285,7 @@ class Processes(InFolder):
         busy.start()
         with self.assertRaisesRegex(plateau.InputError, "another thread uses this simulation"):
             while busy.is_alive():
-                alone.sample()
+                _ = alone.steps
         busy.join()
 
     def test_a_fork_is_refused_and_begins_anew(self):

@@ -41,6 +41,10 @@ pub struct Simulation {
     execution: Execution,
     workers: Workers,
     clock: Clock,
+    /// z_ref, m: the highest initial height of the disc.
+    reference_height: f64,
+    /// Speed of the last step, rad/s, where another one is told since.
+    last_speed: Option<f64>,
     contact: Option<LastContact>,
     resting: Option<LastMoment>,
 }
@@ -93,9 +97,11 @@ impl Simulation {
         let most = if execution.engine == Engine::Plain { 1 } else { (mesh.disc_columns() / 2).max(1) };
         execution.workers = execution.workers.clamp(1, most);
         let (parameters, pin_base) = (Arc::new(parameters), surfaces.pin_base.clone());
+        let reference_height = surfaces.reference_height();
         let workers = Workers::start(&parameters, surfaces, execution, columns)?;
         let clock = parameters.clock();
-        Ok(Self { parameters, pin_base, execution, workers, clock, contact: None, resting: None })
+        let (last_speed, contact, resting) = (None, None, None);
+        Ok(Self { parameters, pin_base, execution, workers, clock, reference_height, last_speed, contact, resting })
     }
 
     /// The same as [`Simulation::new`] on the ranks of an MPI job, of which this process is one (feature `mpi`).
@@ -119,8 +125,9 @@ impl Simulation {
         let parameters = Arc::new(parameters);
         let execution = Execution { workers: communicator.size(), instructions, ..Execution::default() };
         let workers = Workers::on_ranks(&parameters, &surfaces, execution, communicator);
-        let (clock, pin_base) = (parameters.clock(), surfaces.pin_base);
-        Ok(Self { parameters, pin_base, execution, workers, clock, contact: None, resting: None })
+        let (clock, reference_height, pin_base) = (parameters.clock(), surfaces.reference_height(), surfaces.pin_base);
+        let (last_speed, contact, resting) = (None, None, None);
+        Ok(Self { parameters, pin_base, execution, workers, clock, reference_height, last_speed, contact, resting })
     }
 
     /// One step: see the table in [`crate`].
@@ -137,7 +144,7 @@ impl Simulation {
     /// # Errors
     /// As [`Simulation::advance`].
     pub fn advance_to(&mut self, step: u64) -> Result<(), SimulationError> {
-        self.workers.advance_to(step, true)
+        self.take_steps(step, true)
     }
 
     /// The same where no sample and no map of pressure is taken after the last of the steps: its pressures are not kept.
@@ -145,7 +152,14 @@ impl Simulation {
     /// # Errors
     /// As [`Simulation::advance`].
     pub fn pass_to(&mut self, step: u64) -> Result<(), SimulationError> {
-        self.workers.advance_to(step, false)
+        self.take_steps(step, false)
+    }
+
+    fn take_steps(&mut self, step: u64, watched: bool) -> Result<(), SimulationError> {
+        if step > self.steps_done() {
+            self.last_speed = None;
+        }
+        self.workers.advance_to(step, watched)
     }
 
     /// Has the coming steps stand for another number of revolutions than those so far (model 4.6).
@@ -207,6 +221,11 @@ impl Simulation {
     /// Steps done.
     pub fn steps_done(&self) -> u64 {
         self.course().steps
+    }
+
+    /// Mean speed of the last step, rad/s, or of the coming ones if there was none.
+    pub fn last_speed(&self) -> f64 {
+        self.last_speed.unwrap_or_else(|| self.parameters.mean_speed_of(self.steps_done()))
     }
 
     /// Steps that are done when t is at least `time` (s) for the first time, with what the coming steps are told now; of a cycle, the
@@ -417,7 +436,7 @@ impl Simulation {
         let (Some(model), Some(friction), Some(heat)) = (HeatModel::of(&self.parameters), friction, heat) else {
             return Ok(vec![f64::NAN; pressure.len()]);
         };
-        let speed = self.parameters.mean_speed_of(moment.step);
+        let speed = self.last_speed.unwrap_or_else(|| self.parameters.mean_speed_of(moment.step));
         let moves = moment.pause.is_none() && moment.step > 0;
         let flux =
             if moves { heat.share * friction.coefficient * speed * self.parameters.mesh.mean_radius() } else { 0.0 };

@@ -26,9 +26,11 @@ fn heights(simulation: &mut Simulation) -> Heights {
     }
 }
 
-/// Steps under loads up and down, above the first one too, and with a pin that is lowered in part; the displacement of each part.
+/// Steps under loads up and down, above the first one too, with a pin that is lowered and a disc that is lowered and raised again in
+/// part; the displacement of each part.
 fn controlled(parameters: &Parameters, seed: u64, execution: Execution) -> (Vec<f64>, Checkpoint) {
     let mut simulation = start(parameters, seed, execution);
+    let highest = random_surfaces(&parameters.mesh, seed).reference_height();
     let (load, speed) = (parameters.normal_force, parameters.angular_velocity);
     let mut displacements = Vec::new();
     for (part, [of_load, of_speed]) in [[1.0, 1.0], [0.3, 2.0], [8.0, 0.5], [2.0, 0.1]].into_iter().enumerate() {
@@ -37,6 +39,13 @@ fn controlled(parameters: &Parameters, seed: u64, execution: Execution) -> (Vec<
         for cell in (part..moved.pin_height.len()).step_by(3) {
             moved.pin_height[cell] -= 1e-7;
             moved.pin_substrate[cell] -= 1e-7;
+        }
+        for cell in (part / 2..moved.disc_height.len()).step_by(5) {
+            let by = if part % 2 == 0 { -3e-7 } else { 3e-7 };
+            let (before, substrate) = (moved.disc_height[cell], moved.disc_substrate[cell]);
+            let height = (before + by).min(highest);
+            moved.disc_height[cell] = height;
+            moved.disc_substrate[cell] = if substrate == before { height } else { (substrate + by).min(height) };
         }
         simulation.set_heights(moved).expect("heights");
         simulation.advance_to(simulation.steps_done() + STEPS).expect("steps");
@@ -93,7 +102,8 @@ fn what_cannot_be_is_refused_and_changes_nothing() {
         assert!(matches!(simulation.operate(wrong, 1.0), Err(SimulationError::Operation { .. })));
         assert!(matches!(simulation.operate(1.0, wrong), Err(SimulationError::Operation { .. })));
     }
-    let wrong: [fn(&mut Heights); 3] = [
+    let wrong: [fn(&mut Heights); 4] = [
+        |heights| heights.disc_height[1] = 1e-3,
         |heights| heights.disc_height[1] = f64::NAN,
         |heights| heights.disc_height[1] = heights.disc_substrate[1] - 1e-6,
         |heights| heights.pin_height[1] = heights.pin_substrate[1] + 1e-6,

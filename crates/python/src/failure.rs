@@ -67,7 +67,7 @@ impl From<SweepError> for Failure {
 }
 
 impl From<SimulationError> for Failure {
-    /// Of what was given between two steps, or of a step that failed.
+    /// Failure of a step, or of what was given between two steps.
     fn from(error: SimulationError) -> Self {
         match error {
             SimulationError::Contact { .. }
@@ -75,6 +75,9 @@ impl From<SimulationError> for Failure {
             | SimulationError::NotFinite { .. }
             | SimulationError::Worker { .. }
             | SimulationError::Threads { .. } => Self::failed(error),
+            SimulationError::NotWatched { step } => {
+                Self::input(format!("the pressures of step {step} were not kept: advance with watch=True"))
+            }
             _ => Self::input(error),
         }
     }

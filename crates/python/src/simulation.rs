@@ -11,7 +11,7 @@ use plateau_core::simulation::{Engine, SimulationError};
 use plateau_io::{plausibility, scene as scenes, surface};
 use plateau_run::{Assembly, ExecutionOptions, Observer, execution, stiffness_warning};
 use pyo3::prelude::*;
-use pyo3::types::{PyByteArray, PyDict};
+use pyo3::types::{PyBytes, PyDict};
 
 use crate::background::{Correspondent, Post, in_background};
 use crate::failure::Failure;
@@ -46,6 +46,8 @@ struct Inner {
     inputs: Vec<(PathBuf, String)>,
     /// Load, speed and the largest load so far, where they were set between steps.
     operation: Option<[f64; 3]>,
+    /// Why a step failed: nothing follows.
+    failed: Option<String>,
 }
 
 impl Inner {
@@ -63,7 +65,18 @@ impl Inner {
         let options = ExecutionOptions { engine, ..ExecutionOptions::default() };
         let execution = execution::decide(&scene, 1, &options, &loaded.surfaces, &mut observer)?;
         let assembly = Assembly::new(&scene, loaded.surfaces, execution)?;
-        Ok(Self { scene, assembly, inputs: loaded.inputs, operation: None })
+        Ok(Self { scene, assembly, inputs: loaded.inputs, operation: None, failed: None })
+    }
+
+    /// Keeps sample and pressures of the last step, if they were, until there is another one.
+    fn keep_contact(&mut self) -> Result<(), SimulationError> {
+        if self.assembly.simulation.steps_done() == 0 {
+            return Ok(());
+        }
+        match self.assembly.simulation.keep_contact() {
+            Err(SimulationError::NotWatched { .. }) => Ok(()),
+            kept => kept,
+        }
     }
 
     fn operate(&mut self, load: f64, speed: f64, largest: f64) -> Result<(), SimulationError> {
@@ -92,12 +105,21 @@ impl Inner {
     fn advance(&mut self, py: Python<'_>, steps: u64, watched: bool, tell: Option<&Bound<'_, PyAny>>) -> PyResult<()> {
         let simulation = &mut self.assembly.simulation;
         let last = simulation.steps_done().saturating_add(steps);
+        if let Some(cycle) = &simulation.parameters().cycle {
+            let (end, most) = (cycle.duration(), simulation.steps_until(cycle.duration()));
+            if last > most {
+                return Err(Failure::input(format!("the cycle ends at {end} s, after step {most}")).raise(py, &[]));
+            }
+        }
         let mut count = 1;
         while simulation.steps_done() < last {
             let next = last.min(simulation.steps_done().saturating_add(count));
             let start = Instant::now();
             let taken = py.detach(|| if watched { simulation.advance_to(next) } else { simulation.pass_to(next) });
-            taken.map_err(|error| Failure::from(error).raise(py, &[]))?;
+            taken.map_err(|error| {
+                self.failed = Some(error.to_string());
+                Failure::from(error).raise(py, &[])
+            })?;
             py.check_signals()?;
             if let Some(tell) = tell {
                 tell.call1((steps + simulation.steps_done() - last, steps))?;
@@ -117,6 +139,9 @@ impl Simulation {
     fn with<T>(&self, py: Python<'_>, work: impl FnOnce(&mut Inner) -> Result<T, Failure>) -> PyResult<T> {
         let mut guard = self.lock().map_err(|failure| failure.raise(py, &[]))?;
         let inner = guard.as_mut().ok_or_else(|| Failure::failed("the simulation has ended").raise(py, &[]))?;
+        if let Some(error) = &inner.failed {
+            return Err(Failure::failed(format_args!("the simulation failed: {error}")).raise(py, &[]));
+        }
         work(inner).map_err(|failure| failure.raise(py, &[]))
     }
 
@@ -175,19 +200,18 @@ impl Simulation {
     /// Writes the state to a file.
     fn save(&self, py: Python<'_>, path: PathBuf) -> PyResult<()> {
         self.with(py, |inner| {
-            if inner.assembly.simulation.steps_done() > 0 {
-                inner.assembly.simulation.keep_contact()?;
-            }
-            let state = inner.assembly.checkpoint()?;
-            State::new(&inner.scene, &inner.inputs, inner.operation, state).write(&path)
+            py.detach(|| {
+                inner.keep_contact()?;
+                let state = inner.assembly.checkpoint()?;
+                State::new(&inner.scene, &inner.inputs, inner.operation, state).write(&path)
+            })
         })
     }
 
     /// Takes so many steps; pressures of the last are kept if it is watched.
     #[pyo3(signature = (steps, watch=true, tell=None))]
     fn advance(&self, py: Python<'_>, steps: u64, watch: bool, tell: Option<&Bound<'_, PyAny>>) -> PyResult<()> {
-        let mut guard = self.lock().map_err(|failure| failure.raise(py, &[]))?;
-        guard.as_mut().map_or(Ok(()), |inner| inner.advance(py, steps, watch, tell))
+        self.with(py, |inner| Ok(inner.advance(py, steps, watch, tell)))?
     }
 
     /// Steps that are done when a time (s) is reached.
@@ -263,7 +287,7 @@ impl Simulation {
     fn sample<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let (sample, quantities) = self.with(py, |inner| {
             let extras = inner.scene.extras(false);
-            Ok((inner.assembly.last_sample()?, quantities(&extras).collect::<Vec<_>>()))
+            Ok((py.detach(|| inner.assembly.last_sample())?, quantities(&extras).collect::<Vec<_>>()))
         })?;
         let row = PyDict::new(py);
         row.set_item("step", sample.step)?;
@@ -283,9 +307,9 @@ impl Simulation {
     }
 
     /// Bytes of a field, which are Python's own.
-    fn field<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyByteArray>> {
+    fn field<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyBytes>> {
         let bytes = self.with(py, |inner| py.detach(|| fields::bytes(&mut inner.assembly.simulation, name)))?;
-        Ok(PyByteArray::new(py, &bytes))
+        Ok(PyBytes::new(py, &bytes))
     }
 
     /// Takes over heights, m: of disc and its substrate, of pin and its substrate, each unless None.
@@ -296,11 +320,8 @@ impl Simulation {
         }
         self.with(py, |inner| {
             py.detach(|| {
+                inner.keep_contact()?;
                 let simulation = &mut inner.assembly.simulation;
-                // A sample and pressures are those of the last step, until there is another one.
-                if simulation.steps_done() > 0 {
-                    simulation.keep_contact()?;
-                }
                 let heights = fields::heights(simulation, numbers)?;
                 Ok(simulation.set_heights(heights)?)
             })

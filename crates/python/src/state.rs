@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 use crate::failure::Failure;
 use crate::program;
 
-/// All that it takes to go on.
+/// State of a simulation: all that it takes to go on.
 #[derive(Debug, Serialize, Deserialize)]
 pub struct State {
     /// Name, version and revision of the program.
@@ -38,7 +38,10 @@ impl State {
 
     /// Writes it; what was there before stays until it is complete.
     pub fn write(&self, path: &Path) -> Result<(), Failure> {
-        checkpoint::refuse_one_foreign(path, false)?;
+        if path.exists() && !matches!(checkpoint::read::<Self>(path, None), Ok(Some(_))) {
+            let shown = path.display();
+            return Err(Failure::input(format!("{shown} is there and no state of a simulation: take another name")));
+        }
         checkpoint::keep(path, self).map_err(|error| Failure::failed(format_args!("{}: {error}", path.display())))
     }
 

@@ -247,8 +247,7 @@ impl Assembly {
             CYCLE.record(&mut sample, [force, speed, cycle.contact_time_until(moment.time)]);
             ROAD.record(&mut sample, [cycle.road_distance_at(moment.time)]);
         } else if parameters.by_torque {
-            let speed = parameters.angular_velocity;
-            CYCLE.record(&mut sample, [self.simulation.course().load, speed, moment.time]);
+            CYCLE.record(&mut sample, [self.simulation.course().load, self.simulation.last_speed(), moment.time]);
         }
         if let Some(choice) = self.scout.as_ref().map(Scout::choice) {
             ACCELERATION.record(&mut sample, [choice.acceleration(), choice.error()]);

@@ -175,7 +175,7 @@ def compare(
         warnings.simplefilter("ignore", PlateauWarning)
         resolved = [tomllib.loads(call(["check", file, *flags])["scene"]) for file in files]
     usual = [(name, asked) for name, asked, needs in USUAL if not needs or all(needs in scene for scene in resolved)]
-    tables = [_response(name, asked) for name, asked in ([("", asked) for asked in responses] or usual)]
+    tables = [response_of(name, asked) for name, asked in ([("", asked) for asked in responses] or usual)]
     directory, made, cautions = Path(output), {}, []
     for name, file, scene in zip(names, files, resolved, strict=True):
         keys = _seed_keys(scene)

@@ -114,6 +114,11 @@ impl InitialSurfaces {
             && self.pin_height.len() == mesh.pin_cells()
             && self.pin_base.len() == mesh.pin_cells()
     }
+
+    /// z_ref, m: the highest height of the disc.
+    pub fn reference_height(&self) -> f64 {
+        self.disc_height.iter().copied().fold(f64::NEG_INFINITY, f64::max)
+    }
 }
 
 /// The state of disc, pin and debris between two steps (model 2).
@@ -136,6 +141,7 @@ pub struct State {
 impl State {
     /// n = 0: b = z in every cell, M = 0.
     pub fn new(parameters: &Parameters, surfaces: InitialSurfaces) -> Self {
+        let reference_height = surfaces.reference_height();
         let InitialSurfaces { disc_height, pin_height, pin_base } = surfaces;
         let pools = match parameters.plateaus.debris {
             DebrisRule::Local => 0,
@@ -143,7 +149,7 @@ impl State {
             DebrisRule::Track => parameters.mesh.rows(),
         };
         Self {
-            reference_height: disc_height.iter().copied().fold(f64::NEG_INFINITY, f64::max),
+            reference_height,
             disc: Disc { substrate: disc_height.clone(), height: disc_height },
             pin: Pin { substrate: pin_height.clone(), height: pin_height, base: pin_base },
             pools: vec![0.0; pools],

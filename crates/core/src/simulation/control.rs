@@ -25,6 +25,9 @@ impl Simulation {
             }
         }
         self.workers.operate(load, angular_velocity)?;
+        if self.steps_done() > 0 {
+            self.last_speed = Some(self.last_speed());
+        }
         self.resting = None;
         self.parameters = Arc::new(self.parameters.under(load, angular_velocity));
         self.clock = self.clock.changed(self.steps_done(), self.parameters.step_time());
@@ -37,7 +40,7 @@ impl Simulation {
     ///
     /// # Errors
     /// [`SimulationError::Checkpoint`] where the sizes are not those of the mesh, [`SimulationError::Cell`] for a height that is no
-    /// finite number or on the wrong side of its substrate, [`SimulationError::Worker`] when a worker failed.
+    /// finite number, on the wrong side of its substrate, or above the disc's highest initial height where debris fills the disc, [`SimulationError::Worker`] when a worker failed.
     pub fn set_heights(&mut self, mut heights: Heights) -> Result<(), SimulationError> {
         for cell in self.parameters.mesh.absent_cells() {
             for field in [&mut heights.pin_height, &mut heights.pin_substrate] {
@@ -71,6 +74,12 @@ impl Simulation {
             }
         }
         let forms = Needs::of(&self.parameters).forms;
+        let highest = self.reference_height;
+        if let Some(cell) = disc_height.iter().position(|height| forms && *height > highest) {
+            let expected =
+                format!("at most {highest:e} m, the disc's highest initial height, to which debris fills it");
+            return error("disc_height", cell, disc_height[cell], expected);
+        }
         let bodies =
             [("disc_height", disc_height, disc_substrate, 1.0), ("pin_height", pin_height, pin_substrate, -1.0)];
         for (name, height, substrate, sign) in bodies {
