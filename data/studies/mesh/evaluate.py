@@ -1,4 +1,4 @@
-"""What the cell does with both rules of local debris: writes mesh.json from the collected studies.
+"""What the cell does with both rules of local debris, and with a strength of the build-up: writes mesh.json from the collected studies.
 
 usage: evaluate.py, in the environment .venv of the checkout with PYTHONPATH=python
 """
@@ -19,6 +19,8 @@ from history import finished_runs, history  # noqa: E402
 #: Length of a cell along the sliding direction in um, by the columns of the disc.
 CELLS = {346: "100", 692: "50", 1384: "25", 2768: "12.5"}
 END = 3000.0
+#: Rules of studies that do not vary the transport length: with a strength it is 200 um.
+WITHOUT = {"strength": "strength", "cell": "none"}
 KEYS = ("filled", "contact_ratio", "run_in", "pin_secondary", "pressure_gini", "worn", "emitted")
 
 #: Numbers of a run, by rule, disc, rows, time acceleration, cell and set of surfaces.
@@ -26,15 +28,15 @@ Found = dict[tuple[str, str, int, float, str, int], dict[str, float]]
 
 
 def runs() -> Found:
-    """Return the numbers of every finished run of both studies."""
+    """Return the numbers of every finished run of the studies."""
     found: Found = {}
-    for study in ("length", "cell"):
+    for study in ("length", "strength", "cell"):
         for run, series in finished_runs(plateau.open_study(HERE / study).data):
             numbers = history(series, END)
             numbers["contact_ratio"] = numbers["contact_area_mean"] * (series["contact_ratio"] / series["contact_area"]).mean()
             numbers["worn"] = sum(series[name][-1] for name in ("worn_pin", "worn_resin", "worn_disc"))
             numbers["emitted"] = series["emitted"][-1]
-            length = f"{float(run['transport_length']) * 1e6:g}" if "transport_length" in run else "none"
+            length = f"{float(run['transport_length']) * 1e6:g}" if "transport_length" in run else WITHOUT[study]
             surfaces = re.search(r"set-(\d+)-", str(run["surfaces"].item()))
             assert surfaces, run["surfaces"]
             cell = CELLS[int(run["disc_columns"])]
@@ -65,7 +67,7 @@ def main() -> None:
     values: dict[str, object] = {}
     changes: dict[str, object] = {}
     cells = list(CELLS.values())
-    for length in ("200", "150", "100", "none"):
+    for length in ("200", "150", "100", "none", "strength"):
         values[length] = {
             heights: {cell: of for cell in cells if (of := mean(found, (length, heights, 20, 100.0, cell)))} for heights in ("1", "0.1", "0.01")
         }
@@ -82,7 +84,10 @@ def main() -> None:
         for heights in ("1", "0.1", "0.01")
     }
     accelerated = {
-        heights: compared(found, ("200", heights, 20, 1.0, "50"), ("200", heights, 20, 100.0, "50")) for heights in ("1", "0.1", "0.01")
+        length: {
+            heights: compared(found, (length, heights, 20, 1.0, "50"), (length, heights, 20, 100.0, "50")) for heights in ("1", "0.1", "0.01")
+        }
+        for length in ("200", "strength")
     }
     results = {"values": values, "changes": changes, "rows": rows, "acceleration": accelerated, "runs": len(found)}
     (HERE / "mesh.json").write_text(as_text(results))

@@ -1,4 +1,5 @@
-"""Write the points of the mesh study: with a transport length (`length.csv`) and with the plain rule (`cell.csv`)."""
+"""Write the points of the mesh study: with a transport length (`length.csv`), with a strength of the build-up, too (`strength.csv`), and
+with the plain rule (`cell.csv`)."""
 
 import csv
 from pathlib import Path
@@ -32,13 +33,15 @@ def write(name, columns, lines):
 
 
 def main() -> None:
-    """Write both tables."""
+    """Write the tables."""
     lines = []
     for length in ("200 um", "150 um", "100 um"):
         lines += [[*point, length] for point in points(MESHES, SETS)]
     lines += [[*point, "200 um"] for point in points(MESHES[1:3], FEW_SETS, rows=40)]
     lines += [[*point, "200 um"] for point in points(MESHES[1:2], [1], acceleration=1)]
     write("length.csv", [*COMMON, "transport length"], lines)
+    lines = [*points(MESHES[1:], SETS), *points(MESHES[1:2], [1], acceleration=1)]
+    write("strength.csv", COMMON, lines)
     write("cell.csv", COMMON, points(MESHES[:3], SETS))
 
 

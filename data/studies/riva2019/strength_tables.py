@@ -1,6 +1,7 @@
 """The tables of strength, levels and what the paper does not give, from strength.json, and of the mesh, from mesh.json."""
 
 import json
+from collections.abc import Iterable
 from pathlib import Path
 
 from discs import NAMES
@@ -153,6 +154,12 @@ def change(length: str, heights: str, what: str) -> str:
     return f"{shown(100 * found[0], '+.1f')} ± {shown(100 * found[1], '.1f')} %"
 
 
+def ratios(rule: str, key: str) -> str:
+    """A quantity of the rough disc over that of heights / 100, for every cell from 50 um down."""
+    rough, smooth = (value(f"mesh/values/{rule}/{heights}") for heights in ("1", "0.01"))
+    return ", ".join(shown(rough[cell][key][0] / smooth[cell][key][0], ".2f") for cell in CELLS[1:])
+
+
 def table_lengths() -> str:
     """Filling with every rule on the mesh of 25 um."""
     text = head("filled, %, cells of 25 µm", *NAMES.values())
@@ -162,18 +169,23 @@ def table_lengths() -> str:
     return text
 
 
-def table_mesh(length: str, *keys: str) -> str:
+def table_mesh(length: str, *keys: str, discs: Iterable[str] = NAMES) -> str:
     """Quantities on every mesh, and their change by the last halvings, with one transport length or the plain rule."""
     cells = [cell for cell in CELLS if cell in value(f"mesh/values/{length}/1")]
     halvings = [f"{coarse} to {fine}" for coarse, fine in zip(cells, cells[1:], strict=False)]
     text = head("quantity", "disc", *(f"{cell} µm" for cell in cells), *(f"{halving} µm, %" for halving in halvings[-2:]))
     for heading, key, factor, form in OF_MESH:
-        for heights, name in NAMES.items() if key in keys else ():
+        for heights in discs if key in keys else ():
             of = value(f"mesh/values/{length}/{heights}")
             changes = value(f"mesh/changes/{length}/{heights}")
             values = (with_error(of.get(cell, {}).get(key), factor, form) for cell in cells)
-            text += row(heading, name, *values, *(with_error(changes.get(halving, {}).get(key), 100, ".1f") for halving in halvings[-2:]))
+            text += row(heading, NAMES[heights], *values, *(with_error(changes.get(halving, {}).get(key), 100, ".1f") for halving in halvings[-2:]))
     return text
+
+
+def table_mesh_rough(length: str, *keys: str) -> str:
+    """The same for the rough disc alone."""
+    return table_mesh(length, *keys, discs=["1"])
 
 
 def table_halvings(*lengths: str) -> str:
@@ -187,11 +199,11 @@ def table_halvings(*lengths: str) -> str:
     return text
 
 
-def table_mesh_acceleration() -> str:
+def table_mesh_acceleration(rule: str) -> str:
     """What the time acceleration of 100 does."""
     names = {key: heading.split(",")[0] for heading, key, *_ in OF_MESH}
     text = head("m = 100 instead of 1, one set, change in %", *names.values())
     for heights, name in NAMES.items():
-        change = value(f"mesh/acceleration/{heights}")
+        change = value(f"mesh/acceleration/{rule}/{heights}")
         text += row(name, *(with_error(change[key], 100, ".1f") for key in names))
     return text

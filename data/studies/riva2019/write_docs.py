@@ -5,7 +5,7 @@ usage: write_docs.py [--check]: with --check only says whether they agree, as ex
 
 Templates have `{{path}}`, `{{path|format}}` and `{{path|factor|format}}`: a path in results.json, a factor and a Python
 format; with `*` in the path for the three discs, one after the other. `{{table NAME ARGUMENT...}}` is one of tables.py, friction_tables.py or strength_tables.py, `{{m runs}}` the
-time acceleration of a part of the study; `{{change LENGTH HEIGHTS HALVING QUANTITY}}` is one of the mesh; `{{last tenth HEIGHTS END}}` is the mean contact area of a run at m = 1 over the last tenth of the time to its end, mm².
+time acceleration of a part of the study; `{{change LENGTH HEIGHTS HALVING QUANTITY}}` is one of the mesh, `{{ratios LENGTH QUANTITY}}` those of the rough disc to the smoothest; `{{last tenth HEIGHTS END}}` is the mean contact area of a run at m = 1 over the last tenth of the time to its end, mm².
 """
 
 import re
@@ -45,6 +45,8 @@ def filled_in(template: str) -> str:
             return m_of(what.removeprefix("m "))
         if what.startswith("change "):
             return strength_tables.change(*what.removeprefix("change ").split(maxsplit=2))
+        if what.startswith("ratios "):
+            return strength_tables.ratios(*what.removeprefix("ratios ").split())
         if what.startswith("last tenth "):
             heights, end = what.removeprefix("last tenth ").split()
             return last_tenth(heights, float(end))
