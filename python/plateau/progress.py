@@ -28,7 +28,7 @@ class Progress:
         self._start = self._last = time.monotonic()
 
     def tell(self, kind: str, said: Any) -> None:
-        """Takes a warning, a note or how far all is."""
+        """Takes a warning, or how far all is."""
         if kind == "warning":
             warnings.warn(said, PlateauWarning, stacklevel=self._stacklevel)
         elif kind == "progress":

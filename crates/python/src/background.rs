@@ -21,20 +21,20 @@ const LOOK: Duration = Duration::from_millis(50);
 /// Number of the signal of Ctrl-C.
 const INTERRUPT: u8 = 2;
 
-/// What the work says, and is told.
+/// Messages of work on another thread, and to it; notes are for terminals alone.
 #[derive(Debug, Default)]
-pub struct Post {
+pub struct Messages {
     is_asked_to_stop: AtomicBool,
-    said: Mutex<Vec<(&'static str, String)>>,
+    warnings: Mutex<Vec<String>>,
     /// Physical time that a run has come to and its end, s, as bits; of several runs steps.
     progress: [AtomicU64; 2],
     /// Runs that ended, and failed.
     ended: [AtomicUsize; 2],
 }
 
-impl Post {
-    fn say(&self, kind: &'static str, message: &dyn Display) {
-        self.said.lock().unwrap_or_else(PoisonError::into_inner).push((kind, message.to_string()));
+impl Messages {
+    fn warn(&self, message: &dyn Display) {
+        self.warnings.lock().unwrap_or_else(PoisonError::into_inner).push(message.to_string());
     }
 
     fn signal(&self) -> Option<u8> {
@@ -46,11 +46,10 @@ impl Post {
         self.progress[1].store(end.to_bits(), Ordering::Relaxed);
     }
 
-    /// Hands on what was said, to a function of Python that takes a word and a text, and progress as three numbers.
+    /// Hands on warnings, to a function of Python that takes a word and a text, and progress as three numbers.
     fn deliver(&self, tell: &Bound<'_, PyAny>) -> PyResult<()> {
-        let said = mem::take(&mut *self.said.lock().unwrap_or_else(PoisonError::into_inner));
-        for (kind, message) in said {
-            tell.call1((kind, message))?;
+        for message in mem::take(&mut *self.warnings.lock().unwrap_or_else(PoisonError::into_inner)) {
+            tell.call1(("warning", message))?;
         }
         let [done, end] = self.progress.each_ref().map(|part| f64::from_bits(part.load(Ordering::Relaxed)));
         if end > 0.0 {
@@ -60,17 +59,15 @@ impl Post {
     }
 }
 
-/// Follows a run by its post.
-pub struct Correspondent<'a>(pub &'a Post);
+/// Observer of a run that writes into messages.
+pub struct MessageObserver<'a>(pub &'a Messages);
 
-impl Observer for Correspondent<'_> {
+impl Observer for MessageObserver<'_> {
     fn warning(&mut self, message: &dyn Display) {
-        self.0.say("warning", message);
+        self.0.warn(message);
     }
 
-    fn note(&mut self, message: &dyn Display) {
-        self.0.say("note", message);
-    }
+    fn note(&mut self, _message: &dyn Display) {}
 
     fn starts(&mut self, _name: &str, duration: f64) {
         self.0.set_end(duration);
@@ -85,14 +82,12 @@ impl Observer for Correspondent<'_> {
     }
 }
 
-impl SweepObserver for Post {
+impl SweepObserver for Messages {
     fn warning(&self, message: &dyn Display) {
-        self.say("warning", message);
+        self.warn(message);
     }
 
-    fn note(&self, message: &dyn Display) {
-        self.say("note", message);
-    }
+    fn note(&self, _message: &dyn Display) {}
 
     fn steps(&self, count: u64) {
         let add = |bits| Some((f64::from_bits(bits) + count as f64).to_bits());
@@ -121,14 +116,14 @@ pub fn in_background<T: Send>(
     py: Python<'_>,
     tell: &Bound<'_, PyAny>,
     about: &[&str],
-    work: impl FnOnce(&Post) -> Result<T, Failure> + Send,
+    work: impl FnOnce(&Messages) -> Result<T, Failure> + Send,
 ) -> PyResult<T> {
-    let (post, caller) = (Post::default(), thread::current());
+    let (messages, caller) = (Messages::default(), thread::current());
     let mut raised = None;
     let done = thread::scope(|scope| {
         let job = || {
             let pool = rayon::ThreadPoolBuilder::new().build().map_err(Failure::failed);
-            let done = pool.and_then(|pool| pool.install(|| work(&post)));
+            let done = pool.and_then(|pool| pool.install(|| work(&messages)));
             caller.unpark();
             done
         };
@@ -136,14 +131,14 @@ pub fn in_background<T: Send>(
         while !thread.is_finished() {
             py.detach(|| thread::park_timeout(LOOK));
             if raised.is_none() {
-                raised = py.check_signals().and_then(|()| post.deliver(tell)).err();
-                post.is_asked_to_stop.store(raised.is_some(), Ordering::Relaxed);
+                raised = py.check_signals().and_then(|()| messages.deliver(tell)).err();
+                messages.is_asked_to_stop.store(raised.is_some(), Ordering::Relaxed);
             }
         }
         thread.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))
     });
     // What is said last is worth knowing also where it was stopped, but no exception takes the place of the first.
-    let delivered = post.deliver(tell);
+    let delivered = messages.deliver(tell);
     match (raised, done) {
         (Some(raised), _) => Err(raised),
         (None, done) => done.map_err(|failure| failure.raise(py, about)).and_then(|done| delivered.map(|()| done)),

@@ -5,7 +5,6 @@
 //! |---|---|
 //! | `scene.rs` | a scene, read, checked and resolved; its table of keys |
 //! | `simulation.rs` | a simulation between two steps |
-//! | `fields.rs` | its fields as memory of Python's own |
 //! | `state.rs` | its state in a file |
 //! | `runs.rs` | runs and studies that write their files |
 //! | `background.rs` | work on a thread, while Python looks at signals and shows progress |
@@ -13,7 +12,6 @@
 
 mod background;
 mod failure;
-mod fields;
 mod runs;
 mod scene;
 mod simulation;

@@ -7,7 +7,7 @@ use plateau_run::sweep::{self, Sweep, SweepOptions};
 use plateau_run::{ExecutionOptions, Job, RunOptions, StartMode, execution};
 use pyo3::prelude::*;
 
-use crate::background::{Correspondent, Post, in_background};
+use crate::background::{MessageObserver, Messages, in_background};
 use crate::failure::Failure;
 use crate::program;
 use crate::scene::Scene;
@@ -26,7 +26,7 @@ pub fn run(
 ) -> PyResult<Option<String>> {
     let scene = scene.0.clone();
     let about = scene.path.to_string_lossy().into_owned();
-    let work = |post: &Post| {
+    let work = |messages: &Messages| {
         let options = RunOptions {
             output,
             replace,
@@ -39,7 +39,7 @@ pub fn run(
             program: program(),
         };
         let mut job = Job::start().map_err(Failure::failed)?;
-        let done = plateau_run::run(scene, &options, &mut job, &mut Correspondent(post))?;
+        let done = plateau_run::run(scene, &options, &mut job, &mut MessageObserver(messages))?;
         job.finish();
         done.map(|summary| serde_json::to_string(&summary).map_err(Failure::failed)).transpose()
     };
@@ -58,15 +58,15 @@ pub fn make_runs(
     tell: &Bound<'_, PyAny>,
 ) -> PyResult<()> {
     let about = study.to_string_lossy().into_owned();
-    let work = |post: &Post| {
+    let work = |messages: &Messages| {
         let plan = sweep::load(&study)?;
         let workers = workers.unwrap_or(1);
         let jobs = jobs.unwrap_or_else(|| (execution::cores() / workers).max(1));
         let options = SweepOptions { retry, part: None, jobs, workers, most_failures, program: program() };
         let mut job = Job::start().map_err(Failure::failed)?;
-        let sweep = Sweep::prepare(&plan, options, &job, post)?;
-        post.set_end(sweep.steps() as f64);
-        let summary = sweep.run(&mut job, post)?;
+        let sweep = Sweep::prepare(&plan, options, &job, messages)?;
+        messages.set_end(sweep.steps() as f64);
+        let summary = sweep.run(&mut job, messages)?;
         job.finish();
         if let Some(signal) = summary.signal {
             return Err(Failure::stopped(

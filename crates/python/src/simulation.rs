@@ -6,16 +6,17 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError, TryLockError};
 use std::time::{Duration, Instant};
 
-use plateau_core::observe::quantities;
-use plateau_core::simulation::{Engine, SimulationError};
+use plateau_core::model::memory::Heights;
+use plateau_core::observe::{ABSENT, Map, MapValues, quantities};
+use plateau_core::simulation::{self, Engine, SimulationError};
 use plateau_io::{plausibility, scene as scenes, surface};
 use plateau_run::{Assembly, ExecutionOptions, Observer, execution, stiffness_warning};
+use pyo3::buffer::PyBuffer;
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
 
-use crate::background::{Correspondent, Post, in_background};
+use crate::background::{MessageObserver, Messages, in_background};
 use crate::failure::Failure;
-use crate::fields;
 use crate::scene::Scene;
 use crate::state::State;
 
@@ -51,13 +52,13 @@ struct Inner {
 }
 
 impl Inner {
-    fn new(scene: scenes::Scene, engine: Engine, post: &Post) -> Result<Self, Failure> {
+    fn new(scene: scenes::Scene, engine: Engine, messages: &Messages) -> Result<Self, Failure> {
         if scene.adaptive.is_some() {
             let message =
                 "numerics.time_acceleration: a simulation that is taken step by step does not choose it, give a number";
             return Err(Failure::input(message));
         }
-        let mut observer = Correspondent(post);
+        let mut observer = MessageObserver(messages);
         stiffness_warning(&scene.parameters).iter().for_each(|warning| observer.warning(warning));
         let loaded = surface::load(&scene)?;
         loaded.warnings().for_each(|warning| observer.warning(&warning));
@@ -180,7 +181,7 @@ impl Simulation {
     fn new(py: Python<'_>, scene: &Scene, engine: &str, tell: &Bound<'_, PyAny>) -> PyResult<Self> {
         let engine = engine_of(engine).map_err(|failure| failure.raise(py, &[]))?;
         let scene = scene.0.clone();
-        in_background(py, tell, &[], move |post| Inner::new(scene, engine, post)).map(Self::of)
+        in_background(py, tell, &[], move |messages| Inner::new(scene, engine, messages)).map(Self::of)
     }
 
     /// Goes on from a saved state, with as many workers as asked for.
@@ -188,10 +189,10 @@ impl Simulation {
     fn load(py: Python<'_>, path: PathBuf, workers: Option<&str>, tell: &Bound<'_, PyAny>) -> PyResult<Self> {
         let about = path.to_string_lossy().into_owned();
         let sets: Vec<_> = workers.iter().map(|workers| format!("numerics.workers={workers}")).collect();
-        let work = move |post: &Post| {
+        let work = move |messages: &Messages| {
             let state = State::read(&path)?;
             let scene = scenes::of_layers(Path::new("scene"), Some(&state.scene), &[&sets])?;
-            let mut inner = Inner::new(scene, state.simulation.run.engine(), post)?;
+            let mut inner = Inner::new(scene, state.simulation.run.engine(), messages)?;
             inner.restore(&state).map(|()| inner)
         };
         in_background(py, tell, &[&about], work).map(Self::of)
@@ -308,22 +309,22 @@ impl Simulation {
 
     /// Bytes of a field, which are Python's own.
     fn field<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyBytes>> {
-        let bytes = self.with(py, |inner| py.detach(|| fields::bytes(&mut inner.assembly.simulation, name)))?;
+        let bytes = self.with(py, |inner| py.detach(|| bytes(&mut inner.assembly.simulation, name)))?;
         Ok(PyBytes::new(py, &bytes))
     }
 
     /// Takes over heights, m: of disc and its substrate, of pin and its substrate, each unless None.
     fn set_heights(&self, py: Python<'_>, given: [Option<Bound<'_, PyAny>>; 4]) -> PyResult<()> {
-        let mut numbers = [const { None }; 4];
-        for (place, array) in numbers.iter_mut().zip(&given) {
-            *place = array.as_ref().map(fields::numbers).transpose()?;
+        let mut fields = [const { None }; 4];
+        for (place, array) in fields.iter_mut().zip(&given) {
+            *place = array.as_ref().map(numbers).transpose()?;
         }
         self.with(py, |inner| {
             py.detach(|| {
                 inner.keep_contact()?;
                 let simulation = &mut inner.assembly.simulation;
-                let heights = fields::heights(simulation, numbers)?;
-                Ok(simulation.set_heights(heights)?)
+                let all = heights(simulation, fields)?;
+                Ok(simulation.set_heights(all)?)
             })
         })
     }
@@ -333,4 +334,38 @@ impl Simulation {
 pub fn engine_of(name: &str) -> Result<Engine, Failure> {
     let found = [Engine::Fast, Engine::Plain].into_iter().find(|engine| engine.name() == name);
     found.ok_or_else(|| Failure::input(format!("engine {name:?}: expected \"fast\" or \"plain\"")))
+}
+
+/// Bytes of a field, column by column: doubles, or of statuses and bases one byte each.
+fn bytes(simulation: &mut simulation::Simulation, name: &str) -> Result<Vec<u8>, Failure> {
+    if name == "pin_base" {
+        let mut base: Vec<u8> = simulation.pin_base().iter().map(|base| *base as u8).collect();
+        simulation.parameters().mesh.absent_cells().for_each(|cell| base[cell] = ABSENT);
+        return Ok(base);
+    }
+    let map = Map::ALL.into_iter().find(|map| map.name() == name);
+    let map = map.ok_or_else(|| Failure::input(format!("there is no field {name}")))?;
+    let found = simulation.snapshot(&[map])?.maps.into_iter().next();
+    Ok(match found.map(|(_, values)| values) {
+        Some(MapValues::Float(values)) => values.iter().flat_map(|value| value.to_ne_bytes()).collect(),
+        Some(MapValues::Status(statuses)) => statuses,
+        None => Vec::new(),
+    })
+}
+
+/// The heights of a simulation, some of them replaced by those that Python gives: disc and substrate, pin and substrate.
+fn heights(simulation: &mut simulation::Simulation, given: [Option<Vec<f64>>; 4]) -> Result<Heights, SimulationError> {
+    let (disc, pin) = (simulation.disc()?, simulation.pin()?);
+    let [disc_height, disc_substrate, pin_height, pin_substrate] = given;
+    Ok(Heights {
+        disc_height: disc_height.unwrap_or(disc.height),
+        disc_substrate: disc_substrate.unwrap_or(disc.substrate),
+        pin_height: pin_height.unwrap_or(pin.height),
+        pin_substrate: pin_substrate.unwrap_or(pin.substrate),
+    })
+}
+
+/// Numbers of an array of doubles of Python, in the order of C.
+fn numbers(array: &Bound<'_, PyAny>) -> PyResult<Vec<f64>> {
+    PyBuffer::get(array)?.to_vec(array.py())
 }

@@ -48,8 +48,12 @@ pub fn run(
     summary
 }
 
-/// Starts the threads that make surfaces. Left to its first use, rayon starts them, too, and panics where there are none.
+/// Starts the threads that make surfaces, unless the caller has some. Left to its first use, rayon starts them, too, and panics where there
+/// are none.
 fn start_threads() -> Result<(), RunError> {
+    if rayon::current_thread_index().is_some() {
+        return Ok(());
+    }
     match rayon::ThreadPoolBuilder::new().build_global() {
         // Only what the system says is an error of another kind: the threads are there already.
         Err(error) if error.source().is_some() => Err(error.into()),
