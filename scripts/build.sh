@@ -16,7 +16,7 @@ build() {
     # The module of the Python package comes with it, which needs no Python to be built. With the tests among the packages libraries
     # have the features that they have in tests, and cargo does not build them, and the crates above them, a second time for those.
     # shellcheck disable=SC2086
-    if ! (cd "$root" && cargo build --release --locked -p plateau -p plateau-python -p plateau-tests --bin plateau --lib --target-dir "$target" \
+    if ! (cd "$root" && cargo build --release --locked -p plateau $module -p plateau-tests --bin plateau --lib --target-dir "$target" \
         $feature_options); then
         rm -f "$mark"
         die "the program could not be built, see above"

@@ -24,3 +24,6 @@ need_mpi() {
 # Options for cargo. Unquoted on purpose where it is used. The default features are those of the HDF5 that is built.
 feature_options=${features:+--features $features}
 case ,$features, in *,system-hdf5,*) feature_options="--no-default-features $feature_options" ;; esac
+# The module of Python hands its simulations from thread to thread, which one on ranks does not allow.
+workspace=--workspace module='-p plateau-python'
+case ,$features, in *,mpi,*) workspace='--workspace --exclude plateau-python' module= ;; esac
