@@ -27,8 +27,8 @@ fn heights(simulation: &mut Simulation) -> Heights {
 }
 
 /// Steps under loads up and down, above the first one too, with a pin that is lowered and a disc that is lowered and raised again in
-/// part; the displacement of each part.
-fn controlled(parameters: &Parameters, seed: u64, execution: Execution) -> (Vec<f64>, Checkpoint) {
+/// part; the displacement of each part. None where friction is too small for a braking torque.
+fn controlled(parameters: &Parameters, seed: u64, execution: Execution) -> Option<(Vec<f64>, Checkpoint)> {
     let mut simulation = start(parameters, seed, execution);
     let highest = random_surfaces(&parameters.mesh, seed).reference_height();
     let (load, speed) = (parameters.normal_force, parameters.angular_velocity);
@@ -48,10 +48,13 @@ fn controlled(parameters: &Parameters, seed: u64, execution: Execution) -> (Vec<
             moved.disc_substrate[cell] = if substrate == before { height } else { (substrate + by).min(height) };
         }
         simulation.set_heights(moved).expect("heights");
-        simulation.advance_to(simulation.steps_done() + STEPS).expect("steps");
+        match simulation.advance_to(simulation.steps_done() + STEPS) {
+            Err(SimulationError::NoFriction { .. }) => return None,
+            taken => taken.expect("steps"),
+        }
         displacements.push(simulation.sample().expect("a sample").displacement);
     }
-    (displacements, simulation.checkpoint().expect("a state"))
+    Some((displacements, simulation.checkpoint().expect("a state")))
 }
 
 #[test]
@@ -61,13 +64,15 @@ fn what_is_set_between_steps_has_the_same_bits_for_any_workers_and_the_plain_mod
         if parameters.cycle.is_some() {
             continue;
         }
-        let (expected, state) = controlled(&parameters, seed, Execution::default());
+        let Some((expected, state)) = controlled(&parameters, seed, Execution::default()) else { continue };
         for workers in [2, 3] {
-            let (found, other) = controlled(&parameters, seed, Execution { workers, ..Execution::default() });
+            let execution = Execution { workers, ..Execution::default() };
+            let (found, other) = controlled(&parameters, seed, execution).expect("friction");
             assert_eq!(found, expected, "scene {seed}, {workers} workers");
             assert_eq!(other.heights, state.heights, "scene {seed}, {workers} workers");
         }
-        let (plain, _) = controlled(&parameters, seed, Execution { engine: Engine::Plain, ..Execution::default() });
+        let execution = Execution { engine: Engine::Plain, ..Execution::default() };
+        let (plain, _) = controlled(&parameters, seed, execution).expect("friction");
         for (fast, plain) in expected.iter().zip(&plain) {
             assert!((fast - plain).abs() < 1e-12, "scene {seed}: {fast:e}, plain {plain:e}");
         }

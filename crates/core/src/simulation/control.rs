@@ -7,6 +7,9 @@ use crate::engine::parts::Needs;
 use crate::model::error::SimulationError;
 use crate::model::memory::Heights;
 
+/// Height above the highest initial one that counts as rounding, m: the thickness below which debris is no build-up.
+const ROUNDING: f64 = 1e-15;
+
 impl Simulation {
     /// Has the coming steps taken under another load, N (N m where the scene gives a braking torque), and at another rotational
     /// speed, rad/s.
@@ -75,7 +78,9 @@ impl Simulation {
         }
         let forms = Needs::of(&self.parameters).forms;
         let highest = self.reference_height;
-        if let Some(cell) = disc_height.iter().position(|height| forms && *height > highest) {
+        // What filled a cell may have rounded it above.
+        let is_above = |height: &f64| forms && height - highest > ROUNDING;
+        if let Some(cell) = disc_height.iter().position(is_above) {
             let expected =
                 format!("at most {highest:e} m, the disc's highest initial height, to which debris fills it");
             return error("disc_height", cell, disc_height[cell], expected);
