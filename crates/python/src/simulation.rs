@@ -4,13 +4,13 @@ use std::mem;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError, TryLockError};
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 use plateau_core::model::memory::Heights;
 use plateau_core::observe::{ABSENT, Map, MapValues, quantities};
 use plateau_core::simulation::{self, Engine, SimulationError};
 use plateau_io::{plausibility, scene as scenes, surface};
-use plateau_run::{Assembly, ExecutionOptions, Observer, execution, stiffness_warning};
+use plateau_run::{Assembly, ExecutionOptions, Observer, adapted, execution, stiffness_warning};
 use pyo3::buffer::PyBuffer;
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
@@ -19,9 +19,6 @@ use crate::background::{MessageObserver, Messages, in_background};
 use crate::failure::Failure;
 use crate::scene::Scene;
 use crate::state::State;
-
-/// Time between two looks at signals while steps are taken.
-const LOOK: Duration = Duration::from_millis(100);
 
 /// A simulation.
 #[pyclass(frozen, module = "plateau._native")]
@@ -125,7 +122,7 @@ impl Inner {
             if let Some(tell) = tell {
                 tell.call1((steps + simulation.steps_done() - last, steps))?;
             }
-            count = if start.elapsed() > LOOK { (count / 2).max(1) } else { count.saturating_mul(2) };
+            count = adapted(count, start.elapsed());
         }
         Ok(())
     }

@@ -269,7 +269,7 @@ impl Assembly {
 }
 
 /// The number of steps between two looks, after that many took so long.
-fn adapted(steps: u64, time: Duration) -> u64 {
+pub fn adapted(steps: u64, time: Duration) -> u64 {
     if time > LOOK_EVERY {
         (steps / 2).max(1)
     } else if time < LOOK_EVERY / 2 {

@@ -37,8 +37,7 @@ mod start;
 mod summary;
 pub mod sweep;
 
-pub use assembly::Assembly;
-pub use assembly::Sink;
+pub use assembly::{Assembly, Sink, adapted};
 pub use error::{InputError, Progress, RunError, RunFailure, Stopped, lacks_resources, signal_in_words};
 pub use job::Job;
 pub use options::{ExecutionOptions, Observer, Program, RunOptions, StartMode};
