@@ -16,7 +16,8 @@ from plateau.units import ICE, Unit, unit_of
 NUMBER, PERCENT, METRE, SECOND = Unit("", 1.0), Unit("%", 100.0), Unit("m", 1.0), Unit("s", 1.0)
 MICROMETRE, MM2, MM3 = Unit("µm", 1e6), Unit("mm²", 1e6), Unit("mm³", 1e9)
 MEGAPASCAL, CELSIUS, KILOJOULE, MICROGRAM = Unit("MPa", 1e-6), Unit("°C", 1.0, -ICE), Unit("kJ", 1e-3), Unit("µg", 1e9)
-NEWTON, RPM, KMH = Unit("N", 1.0), Unit("rpm", 60.0 / math.tau), Unit("km/h", 3.6)
+MILLIGRAM, MG_PER_KM, PER_KM, KILOMETRE = Unit("mg", 1e6), Unit("mg/km", 1e9), Unit("km⁻¹", 1e3), Unit("km", 1e-3)
+NEWTON, NEWTON_METRE, RPM, KMH = Unit("N", 1.0), Unit("N m", 1.0), Unit("rpm", 60.0 / math.tau), Unit("km/h", 3.6)
 
 
 @dataclass(frozen=True)
@@ -71,6 +72,18 @@ SERIES = {
         Series("pm10_mass", "mass airborne as PM10, of the simulated pin", MICROGRAM),
         Series("pm25_mass", "mass airborne as PM2.5, of the simulated pin", MICROGRAM),
         Series("particle_number", "airborne particles of the simulated pin", NUMBER),
+        Series("pad_wear", "thickness lost by the pads", MICROMETRE),
+        Series("pad_wear_per_distance", "thickness lost by the pads, for the distance of the vehicle", Unit("mm in 1000 km", 1e9)),
+        Series("pad_life", "distance that the pads last", KILOMETRE),
+        Series("brake_torque", "torque of the whole brake", NEWTON_METRE),
+        Series("brake_emitted_mass", "mass lost by the whole brake", MILLIGRAM),
+        Series("brake_pm10_mass", "mass airborne as PM10, of the whole brake", MILLIGRAM),
+        Series("brake_pm25_mass", "mass airborne as PM2.5, of the whole brake", MILLIGRAM),
+        Series("brake_particle_number", "airborne particles of the whole brake", NUMBER),
+        Series("brake_emitted_per_distance", "mass lost by the whole brake, for the distance of the vehicle", MG_PER_KM),
+        Series("brake_pm10_per_distance", "PM10 of the whole brake, for the distance of the vehicle", MG_PER_KM),
+        Series("brake_pm25_per_distance", "PM2.5 of the whole brake, for the distance of the vehicle", MG_PER_KM),
+        Series("brake_particles_per_distance", "airborne particles of the whole brake, for the distance of the vehicle", PER_KM),
     )
 }
 

@@ -22,7 +22,8 @@ from plateau.units import quantity
 # Series that are totals since the start of a run (docs/run-file.md).
 TOTALS = frozenset(
     "contact_area_integral sliding_distance contact_time road_distance worn_pin worn_resin worn_whole_pin lost_pin worn_disc emitted "
-    "deposited_pin deposited_disc returned friction_work heat_lost emitted_mass pm10_mass pm25_mass particle_number".split()
+    "deposited_pin deposited_disc returned friction_work heat_lost emitted_mass pm10_mass pm25_mass particle_number "
+    "pad_wear brake_emitted_mass brake_pm10_mass brake_pm25_mass brake_particle_number".split()
 )
 
 

@@ -44,17 +44,17 @@ AT_END = ("filled_fraction disc_secondary worn_whole_pin lost_pin worn_pin worn_
 ANSWERS = {
     "Coefficient of friction, mean": "coefficient of friction",
     "Largest mean temperature of the disc": "hottest disc",
-    "Mass airborne as PM10, of the simulated pin": "PM10",
+    "Mass airborne as PM10, of the simulated pin": "PM10 of the pin",
+    "PM10 of the whole brake, for the distance of the vehicle": "PM10 of the brake",
     "Volume worn off the whole simulated pin, plateaus and resin": "worn off the pin",
     "Disc filled": "disc filled",
     "Pin covered by secondary plateaus, mean": "secondary plateaus of the pin",
 }
-# What is told for each kilometre of road, and in which unit.
-FOR_EACH_KM = {
-    "pm10_mass": ("PM10", Unit("mg/km", 1e9)),
-    "pm25_mass": ("PM2.5", Unit("mg/km", 1e9)),
-    "particle_number": ("particles", Unit("km⁻¹", 1e3)),
-}
+# Numbers of the whole brake, of runs with one.
+BRAKE = (
+    "brake_pm10_mass brake_pm25_mass brake_emitted_mass brake_particle_number brake_pm10_per_distance brake_pm25_per_distance "
+    "brake_emitted_per_distance brake_particles_per_distance pad_wear pad_wear_per_distance pad_life"
+).split()
 ORIGIN = "program source_revision host instruction_set start_time end_time seeds surfaces conventions references".split()
 
 
@@ -159,10 +159,11 @@ class Told:
             if math.isfinite(value := self.largest(name)):
                 yield f"The largest {SERIES[name].title} is {_short(CELSIUS, value)}"
         for name in ("pm10_mass", "pm25_mass"):
-            what, unit = FOR_EACH_KM[name]
             if math.isfinite(mass := self.last(name)):
-                each = f", {_short(unit, mass / self.last('road_distance'))} of road" if self.last("road_distance") > 0 else ""
-                yield f"Airborne as {what} are {_short(unit_for('kg', mass), mass)} from the simulated pin{each}"
+                yield f"The {SERIES[name].title}, is {_short(unit_for('kg', mass), mass)}"
+        for name in ("brake_pm10_per_distance", "brake_pm25_per_distance", "pad_wear_per_distance", "pad_life"):
+            if math.isfinite(value := self.last(name)):
+                yield f"The {SERIES[name].title}, is {_short(SERIES[name].unit, value)}"
         if math.isfinite(self.area.value):
             share = self.area.value / self.pin_area
             part = f", {100 * share:.3g} % of the pin" if math.isfinite(share) else ""
@@ -218,11 +219,9 @@ class Told:
         found, way = [], self.last("road_distance")
         if self.dissipates:
             found += [measure(name, self.largest(name), "largest ") for name in LARGEST]
-            for name in DISSIPATION:
-                found.append(measure(name, self.last(name)))
-                if name in FOR_EACH_KM and way > 0:
-                    what, unit = FOR_EACH_KM[name]
-                    found.append(Measure(f"– for each kilometre of road: {what}", unit, self.last(name) / way))
+            found += [measure(name, self.last(name)) for name in DISSIPATION]
+        found += [measure("brake_torque", self.largest("brake_torque"), "largest ")]
+        found += [measure(name, self.last(name)) for name in BRAKE]
         found.append(self.area)
         for name in MEANS if self.time else ():
             if name in self.series:
@@ -359,7 +358,7 @@ def _numbers(told: Sequence[Told]) -> str:
         numbers[name] = [first.text, *(other.compared(first) for other in others)]
     facts = {name: [one.facts.get(name, UNKNOWN) for one in told] for name in dict.fromkeys(name for one in told for name in one.facts)}
     note = "Means are over the time of the mean contact area, all else is at the end of the run. "
-    note += "Volumes, work, masses and particles are of the simulated pin, not of a brake."
+    note += "Volumes, work, masses and particles are of the simulated pin, unless the whole brake is named."
     return f'<p class="quiet">{note}</p>{_by_run(told, numbers, "", "words values")}{_by_run(told, facts, "")}'
 
 

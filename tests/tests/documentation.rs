@@ -9,6 +9,7 @@ mod units;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
+use plateau_core::observe::brake::OF_BRAKES;
 use plateau_core::observe::event::EVENT_QUANTITIES;
 use plateau_core::observe::{EXTRAS, Map, QUANTITIES, Quantity, TOTALS, quantities};
 use plateau_io::scene::schema::{self, Key, Kind, Need, Range};
@@ -243,7 +244,9 @@ fn what_is_reported_of_events_is_documented() {
 #[test]
 fn every_series_is_documented() {
     expect_table("run-file.md", "series", &series(QUANTITIES));
-    for extra in EXTRAS {
+    let of_brakes: Vec<_> = OF_BRAKES.iter().flat_map(|extra| extra.quantities).copied().collect();
+    expect_table("run-file.md", "brake series", &series(&of_brakes));
+    for extra in EXTRAS.iter().filter(|extra| !OF_BRAKES.contains(extra)) {
         expect_table("run-file.md", &format!("{} series", extra.name.replace('_', " ")), &series(extra.quantities));
     }
 }
@@ -257,7 +260,8 @@ fn amounts_that_a_reader_could_take_for_a_brake_are_said_to_be_of_the_pin() {
         let is_amount = ["kg", "J", "N"].contains(&unit)
             || ["worn", "emitted", "particle_number", "lost"].iter().any(|part| name.contains(part));
         if is_amount {
-            assert!(long_name.contains("simulated pin"), "{name}: {long_name}");
+            let is_said = ["simulated pin", "whole brake"].iter().any(|whose| long_name.contains(whose));
+            assert!(is_said, "{name}: {long_name}");
             count += 1;
         }
     }

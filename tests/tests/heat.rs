@@ -95,6 +95,89 @@ fn wear_and_contact_do_not_see_friction_and_emission() {
     assert!(number.iter().zip(&pm10).all(|(number, mass)| (number / (1e15 * mass) - 1.0).abs() < 1e-9));
 }
 
+/// A brake in its own terms, and the same that the simulated pin sees of it, scaled by hand: 7.4692 mm² of 2 x 50 cm² of pads.
+#[test]
+fn a_brake_is_its_pin_in_the_ratio_of_areas_and_radii() {
+    let directory = WorkingDirectory::new();
+    let area = std::f64::consts::PI * (21e-3_f64.powi(2) - 20e-3_f64.powi(2)) * 40.0 / 690.0;
+    let (share, mean_radius) = (area / 100e-4, 20.5e-3);
+    let rows = [(0, 60.0, 300.0), (3, 30.0, 500.0), (6, 0.0, 0.0), (8, 50.0, 0.0), (9, 60.0, 200.0)];
+    let table = |header: &str, row: &dyn Fn(f64, f64) -> String| {
+        let rows = rows.iter().map(|(time, speed, torque)| format!("{time},{},{speed}\n", row(*speed, *torque)));
+        format!("time [s],{header},road_speed [km/h]\n{}", rows.collect::<String>())
+    };
+    directory.write("brake.csv", table("brake_torque [N m]", &|_, torque| torque.to_string()));
+    directory.write("line.csv", table("brake_pressure [bar]", &|_, torque| (torque / 100.0).to_string()));
+    let pin = |speed: f64, torque: f64| {
+        format!("{:e},{:e}", torque * share * mean_radius / 0.115, speed / 3.6 * 0.115 / 0.31)
+    };
+    directory.write("pin.csv", table("braking_torque [N m],sliding_speed [m/s]", &pin));
+    // 60 cm2 of pistons press 50 cm2 of pad, with 0.9 of their force.
+    let pressed = |speed: f64, torque: f64| {
+        format!("{:e},{:e}", torque / 100.0 * 1e5 * 60.0 * 0.9 / 50.0, speed / 3.6 * 0.115 / 0.31)
+    };
+    directory.write("pressed.csv", table("nominal_pressure [Pa],sliding_speed [m/s]", &pressed));
+    let of_disc = |share: f64, turns: f64| {
+        let (area, cooling, per_speed) = (1000.0 * share, 9.3 * share, 0.031 * turns);
+        PARTS
+            .replace("area = \"3 cm^2\"", &format!("area = \"{area:e} cm^2\""))
+            .replace("cooling = \"0.04 W/K\"", &format!("cooling = \"{cooling:e} W/K\""))
+            .replace("\"0.002 J/(K rad)\"", &format!("\"{per_speed:e} J/(K rad)\""))
+            .replace("area = \"8 mm^2\"", &format!("area = \"{:e} cm^2\"", 100.0 * share))
+            .replace("cooling = \"0.002 W/K\"", &format!("cooling = \"{:e} W/K\"", 2.5 * share))
+    };
+    let brake = "[brake]\npad_area = \"50 cm^2\"\npad_thickness = \"10 mm\"\neffective_radius = \"115 mm\"\n\
+                 wheel_radius = \"310 mm\"\npiston_area = \"60 cm^2\"\nefficiency = 0.9\n";
+    let run = |name: &str, share: f64, turns: f64, brake: &str| {
+        let quick = scene("quick.toml");
+        let [file, run] = ["csv", "h5"].map(|ending| format!("{name}.{ending}"));
+        let operation = format!("[operation]\nduration = \"9 s\"\n[operation.cycle]\nfile = \"{file}\"\n");
+        let parts = of_disc(share, turns);
+        let output = "[output]\nsample_every = \"0.1 s\"\nmaps_at = []\n[numerics]\ntime_acceleration = 1\n";
+        let text = format!("version = 1\nextends = \"{quick}\"\n{operation}{brake}{parts}{output}");
+        directory.write("scene.toml", text);
+        directory.plateau(["run", "scene.toml", "-o", &run]).quiet_success();
+        RunFile::open(directory.path(&run))
+    };
+    for (whole, by_hand) in [("brake", "pin"), ("line", "pressed")] {
+        let (whole, pin) = (run(whole, 1.0, 1.0, brake), run(by_hand, share, share * mean_radius / 0.115, ""));
+        let same = |what: &str, found: &[f64], expected: &[f64]| {
+            for (found, expected) in found.iter().zip(expected) {
+                let is_close = (found - expected).abs() <= 1e-9 * expected.abs() || found.is_nan() && expected.is_nan();
+                assert!(is_close, "{what}: {found} against {expected}");
+            }
+        };
+        for name in [
+            "worn_pin",
+            "contact_area",
+            "friction_work",
+            "disc_temperature",
+            "pin_temperature",
+            "pm10_mass",
+            "heat_lost",
+        ] {
+            let path = format!("/series/{name}");
+            same(name, &whole.floats(&path), &pin.floats(&path));
+        }
+        let series = |name: &str| pin.floats(&format!("/series/{name}"));
+        let mass: Vec<f64> = series("pm10_mass").iter().map(|mass| mass / share).collect();
+        same("brake_pm10_mass", &whole.floats("/series/brake_pm10_mass"), &mass);
+        let road = series("road_distance");
+        let each: Vec<f64> = mass.iter().zip(&road).map(|(mass, road)| mass / road).collect();
+        same("brake_pm10_per_distance", &whole.floats("/series/brake_pm10_per_distance"), &each);
+        let wear: Vec<f64> = series("lost_pin").iter().map(|volume| volume / area).collect();
+        same("pad_wear", &whole.floats("/series/pad_wear"), &wear);
+        let life: Vec<f64> = wear.iter().zip(&road).map(|(wear, road)| 0.01 / (wear / road)).collect();
+        same("pad_life", &whole.floats("/series/pad_life"), &life);
+        let lifted = series("normal_force");
+        let torque: Vec<f64> = (series("friction_coefficient").iter().zip(&lifted))
+            .map(|(friction, force)| if *force == 0.0 { 0.0 } else { friction * force / share * 0.115 })
+            .collect();
+        same("brake_torque", &whole.floats("/series/brake_torque"), &torque);
+        assert!(pin.content().keys().all(|path| !path.contains("brake") && !path.contains("pad_")));
+    }
+}
+
 #[test]
 fn flat_on_flat_has_the_coefficient_of_the_closed_form() {
     let directory = WorkingDirectory::new();

@@ -101,6 +101,12 @@ fn what_heat_is_told_is_looked_at() {
     }
     let half = 0.5e6 * pin_area();
     let set = |part: f64| format!("thermal.pin.area={} mm^2", part * half);
+    // Capacity of the disc over the area of the simulated pin, 4e4 to 8e6 J/(K m^2); 7200 kg/m^3, 500 J/(kg K), 31 cm^2.
+    let key = "thermal.disc.thickness";
+    let thickness = |capacity: f64| format!("{key}={:e} m", capacity * pin_area() / (7200.0 * 500.0 * 31e-4));
+    let words = ["heat capacity over the area of the simulated pin", "outside of 0.04 to 8 J/(K mm^2)", "[brake]"];
+    bounds(hot, key, &[&thickness(8.1e6)], &[&thickness(7.9e6)], &words);
+    bounds(hot, key, &[&thickness(3.9e4), "thermal.disc.coating.thickness=1 um"], &[&thickness(4.1e4)], &words);
     bounds(hot, "thermal.pin.area", &[&set(0.99)], &[&set(1.01)], &["of the pin in [mesh]"]);
 }
 

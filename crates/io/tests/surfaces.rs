@@ -32,6 +32,7 @@ pub(crate) fn scene() -> Scene {
         },
         cycle: None,
         adaptive: None,
+        brake: None,
         duration: 1.0,
         disc_surface: flat.clone(),
         pin_surface: flat,

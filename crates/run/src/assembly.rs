@@ -6,12 +6,13 @@ use std::time::{Duration, Instant};
 
 use plateau_core::acceleration::Chosen;
 use plateau_core::acceleration::scout::{Idle, Scout};
+use plateau_core::model::brake::Brake;
 use plateau_core::model::cycle::Cycle;
 use plateau_core::model::parameters::Parameters;
 use plateau_core::model::state::InitialSurfaces;
 use plateau_core::observe::event::{EventLog, EventRecord};
 use plateau_core::observe::schedule::{Moment, Schedule};
-use plateau_core::observe::{ACCELERATION, CYCLE, ROAD, Sample, Snapshot};
+use plateau_core::observe::{ACCELERATION, CYCLE, ROAD, Sample, Snapshot, brake};
 use plateau_core::simulation::{Course, Execution, Simulation, SimulationError};
 use plateau_io::run_file::checkpoint::SimulationState;
 use plateau_io::scene::{OutputSettings, Scene};
@@ -34,6 +35,8 @@ pub struct Assembly {
     pub(crate) schedule: Schedule,
     pub(crate) output: OutputSettings,
     pub(crate) cycle: Option<Arc<Cycle>>,
+    /// Brake of whose pads the pin is a piece.
+    brake: Option<Brake>,
     /// Records of the events of the cycle.
     pub(crate) events: EventLog,
     /// Physical time until which all that was due is reported, s: of a cycle it may lie in a pause, beyond the last step or
@@ -87,6 +90,7 @@ impl Assembly {
             schedule,
             output: scene.output.clone(),
             cycle,
+            brake: scene.brake,
             reached: 0.0,
         })
     }
@@ -240,14 +244,19 @@ impl Assembly {
     fn sample(&mut self, moment: &Moment) -> Result<Sample, SimulationError> {
         let mut sample = self.simulation.sample_at(moment, &self.output.extras)?;
         let parameters = self.simulation.parameters();
+        let (mut force, mut distance) = (self.simulation.course().load, f64::NAN);
         if let Some(cycle) = &self.cycle {
             let [load, speed] = cycle.operation_at(moment.step, parameters.step_angle(), moment.time, moment.pause);
             // How hard a braking torque presses, the steps alone know.
-            let force = if parameters.by_torque && load > 0.0 { self.simulation.course().load } else { load };
+            force = if parameters.by_torque && load > 0.0 { force } else { load };
+            distance = cycle.road_distance_at(moment.time);
             CYCLE.record(&mut sample, [force, speed, cycle.contact_time_until(moment.time)]);
-            ROAD.record(&mut sample, [cycle.road_distance_at(moment.time)]);
+            ROAD.record(&mut sample, [distance]);
         } else if parameters.by_torque {
-            CYCLE.record(&mut sample, [self.simulation.course().load, self.simulation.last_speed(), moment.time]);
+            CYCLE.record(&mut sample, [force, self.simulation.last_speed(), moment.time]);
+        }
+        if let Some(brake) = &self.brake {
+            brake::record(brake, &parameters.mesh, force, distance, &mut sample);
         }
         if let Some(choice) = self.scout.as_ref().map(Scout::choice) {
             ACCELERATION.record(&mut sample, [choice.acceleration(), choice.error()]);

@@ -1,10 +1,13 @@
 //! Results of a finished run, in numbers.
 
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 use plateau_core::acceleration::Chosen;
 use plateau_core::model::accounts::AccountsReport;
 use plateau_core::observe::Sample;
+use plateau_core::observe::brake::OF_BRAKES;
+use plateau_core::observe::extra::Extra;
 use plateau_core::observe::running_in::{Drift, NotDefined};
 use plateau_core::observe::window_mean::WindowMean;
 use plateau_core::simulation::Course;
@@ -83,6 +86,9 @@ pub struct RunSummary {
     /// Friction, heat and emission, where the scene asks for them.
     #[serde(flatten)]
     pub parts: PartsSummary,
+    /// Quantities of the whole brake at the end, by their series; of a scene with a brake.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    pub brake: BTreeMap<&'static str, f64>,
     /// Largest load residual of any step, relative.
     pub load_residual: f64,
     /// Bound of the scene.
@@ -142,6 +148,12 @@ impl PartsSummary {
     }
 }
 
+/// What a sample has of the series of a brake that a run has.
+fn of_brake(extras: &[&Extra], last: &Sample) -> BTreeMap<&'static str, f64> {
+    let extras = extras.iter().copied().filter(|extra| OF_BRAKES.contains(extra));
+    extras.flat_map(|extra| extra.quantities).map(|quantity| (quantity.name, quantity.value(last))).collect()
+}
+
 impl RunSummary {
     /// Puts together what was done for the surfaces and what the run file, the last sample, the simulation and the writer tell.
     #[expect(clippy::too_many_arguments, reason = "each from somewhere else")]
@@ -196,6 +208,7 @@ impl RunSummary {
             specific_wear_rate_whole_pin: (work > 0.0).then(|| last.lost_pin() / work),
             emitted: last.emitted,
             parts: PartsSummary::of(last),
+            brake: of_brake(&scene.extras(false), last),
             load_residual: course.largest_load_residual,
             load_tolerance: scene.load_tolerance,
             balance_residual: last.balance_residual,

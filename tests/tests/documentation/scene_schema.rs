@@ -47,6 +47,10 @@ const TABLES: &[(&str, &str)] = &[
     ("mesh", "the ring that the pin slides on, and its cells"),
     ("operation", "load, speed and how long"),
     ("operation.cycle", "load and speed that change with time, see docs/drive.md"),
+    (
+        "operation.cycle.columns",
+        "headers of a file that has others than those of docs/drive.md, which are then passed over",
+    ),
     ("contact", "the elastic foundation that carries the load"),
     ("materials", "stiffness and wear of what touches"),
     ("materials.disc_primary", "the disc's coating"),
@@ -55,6 +59,7 @@ const TABLES: &[(&str, &str)] = &[
     ("materials.pin_secondary", "compacted debris on the pin"),
     ("materials.pin_resin", "the pin between its fibres"),
     ("plateaus", "how wear debris becomes secondary plateaus"),
+    ("brake", "the brake of whose pads the pin is a piece, with disc and pads as they are, see docs/drive.md"),
     ("friction", "friction of what touches, see docs/drive.md; without this table there is no friction"),
     ("friction.secondary", "where compacted debris has another friction"),
     ("friction.resin", "where resin has another friction"),

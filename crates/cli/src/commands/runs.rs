@@ -221,6 +221,31 @@ fn parts(summary: &RunSummary) -> Vec<(&'static str, String)> {
         );
         rows.push(("airborne", airborne));
     }
+    rows.extend(brake(summary));
+    rows
+}
+
+/// Rows of the whole brake, where the scene has one.
+fn brake(summary: &RunSummary) -> Vec<(&'static str, String)> {
+    let value = |name: &str| summary.brake.get(name).copied();
+    let mut rows = Vec::new();
+    if let Some(pm10) = value("brake_pm10_mass") {
+        let of_road = value("brake_pm10_per_distance").zip(value("brake_pm25_per_distance"));
+        let each = of_road.map(|pair| <[f64; 2]>::from(pair).map(|kilogram| number::short(kilogram * 1e9)));
+        let each = each.map(|[pm10, pm25]| format!(", PM10 {pm10} mg/km, PM2.5 {pm25} mg/km"));
+        let mass = number::short(pm10 * 1e6);
+        rows.push(("whole brake", format!("PM10 {mass} mg{}", each.unwrap_or_default())));
+    }
+    if let Some(wear) = value("pad_wear") {
+        let mut text = format!("worn by {} µm", number::short(wear * 1e6));
+        if let Some((rate, life)) =
+            value("pad_wear_per_distance").zip(value("pad_life")).filter(|(_, life)| *life > 0.0 && life.is_finite())
+        {
+            let [rate, life] = [number::short(rate * 1e9), number::grouped((life * 1e-3).round() as u64)];
+            text += &format!(", {rate} mm in 1000 km: they last {life} km");
+        }
+        rows.push(("pads", text));
+    }
     rows
 }
 

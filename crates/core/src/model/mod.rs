@@ -21,6 +21,7 @@
 //! | 12 | emission | [`emission::Emission::mass`] |
 
 pub mod accounts;
+pub mod brake;
 pub mod clock;
 pub mod cycle;
 pub mod emission;

@@ -2,6 +2,7 @@
 
 use crate::model::mesh::Mesh;
 use crate::model::parameters::Parameters;
+use crate::observe::brake::{BRAKE_EMISSION, BRAKE_TORQUE, EMISSION_ON_ROAD, PADS, PADS_ON_ROAD};
 use crate::observe::map::Map;
 use crate::observe::sample::{QUANTITIES, Quantity, Sample};
 use crate::surface::Body;
@@ -47,8 +48,22 @@ impl PartialEq for Extra {
 
 /// The table of series that not every run has, in the order of a run file. Scenes (`output.NAME`), run files, exports,
 /// figures and documents follow from its entries.
-pub const EXTRAS: &[&Extra] =
-    &[&ROUGHNESS, &PRESSURE_SPREAD, &CONTACT_TEMPERATURE, &ACCELERATION, &CYCLE, &ROAD, &FRICTION, &HEAT, &EMISSION];
+pub const EXTRAS: &[&Extra] = &[
+    &ROUGHNESS,
+    &PRESSURE_SPREAD,
+    &CONTACT_TEMPERATURE,
+    &ACCELERATION,
+    &CYCLE,
+    &ROAD,
+    &FRICTION,
+    &HEAT,
+    &EMISSION,
+    &PADS,
+    &PADS_ON_ROAD,
+    &BRAKE_TORQUE,
+    &BRAKE_EMISSION,
+    &EMISSION_ON_ROAD,
+];
 
 /// The acceleration at the end of a step, in a run that chooses it.
 pub const ACCELERATION: Extra = Extra {

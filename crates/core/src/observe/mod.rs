@@ -4,11 +4,13 @@
 //! |---|---|
 //! | `sample.rs` | what every run reports: the fields of a sample, and their names and units |
 //! | `extra.rs` | series that not every run has: on request, or of runs with friction, heat or emission |
+//! | `brake.rs` | series of the brake of whose pads the pin is a piece |
 //! | `event.rs` | what is reported of each event of a cycle |
 //! | `map.rs` | fields that can be recorded as maps |
 //! | `schedule.rs` | when samples and maps are due |
 //! | `window_mean.rs`, `running_in.rs` | what is made of series and maps afterwards |
 
+pub mod brake;
 pub mod event;
 pub mod extra;
 pub mod map;

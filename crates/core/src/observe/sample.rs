@@ -184,4 +184,9 @@ pub const TOTALS: &[&str] = &[
     "pm10_mass",
     "pm25_mass",
     "particle_number",
+    "pad_wear",
+    "brake_emitted_mass",
+    "brake_pm10_mass",
+    "brake_pm25_mass",
+    "brake_particle_number",
 ];

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use plateau_core::acceleration::Adaptive;
+use plateau_core::model::brake::Brake;
 use plateau_core::model::emission::Emission;
 use plateau_core::model::friction::{Friction, FrictionLaw};
 use plateau_core::model::heat::{Coating, Disc, Pin, Substance, Thermal};
@@ -16,7 +17,9 @@ use plateau_core::observe::{Map, requested};
 
 use crate::memory::refuse_beyond;
 use crate::scene::contents::{self, OperationCycle, OutputSettings, Scene, Workers};
-use crate::scene::cycle::{ConstantLoad, constants_without_effect, operation, refuse_choice, road_alone, short_events};
+use crate::scene::cycle::{
+    ConstantLoad, constants_without_effect, late_start, operation, refuse_choice, road_alone, short_events,
+};
 use crate::scene::error::{Origin, Problem, SceneError, Warning};
 use crate::scene::interpret::Setting;
 use crate::scene::layers::{self, Layered};
@@ -66,13 +69,15 @@ fn checked(layers: Layered, path: &Path) -> Result<Scene, SceneError> {
 fn build(mut settings: Settings, mut files: Vec<(PathBuf, String)>, path: &Path) -> Result<Scene, Problem> {
     let mut warnings = Vec::new();
     let adaptive = adaptive(&settings)?;
-    let (parameters, operation) = parameters(&settings)?;
+    let brake = if settings.has_table("brake") { Some(brake(&settings)?) } else { None };
+    let (parameters, operation) = parameters(&settings, brake.as_ref())?;
     let Length { steps, duration } = length(&settings, &parameters, operation.as_ref())?;
     warnings.extend(debris_by_default(&settings, path));
     if let Some(operation) = &operation {
         refuse_choice(&settings, &operation.cycle, duration)?;
         warnings.extend(constants_without_effect(&settings, operation, path));
         warnings.extend(road_alone(&settings, operation));
+        warnings.extend(late_start(&settings, operation));
         warnings.extend(short_events(&settings, &parameters, &operation.cycle, duration));
     }
     files.extend(operation.as_ref().and_then(|operation| operation.file.clone()));
@@ -113,6 +118,7 @@ fn build(mut settings: Settings, mut files: Vec<(PathBuf, String)>, path: &Path)
         warnings,
         places: settings.places(),
         cycle: operation,
+        brake,
         adaptive,
         duration,
         steps,
@@ -139,7 +145,7 @@ fn adaptive(settings: &Settings) -> Result<Option<Adaptive>, Problem> {
 }
 
 /// Parameters of a simulation, and the cycle, if there is one; one that never changes load and speed is operation as ever.
-fn parameters(settings: &Settings) -> Result<(Parameters, Option<OperationCycle>), Problem> {
+fn parameters(settings: &Settings, brake: Option<&Brake>) -> Result<(Parameters, Option<OperationCycle>), Problem> {
     let mesh = mesh(settings)?;
     let sliding_speed = settings.optional_number("operation.sliding_speed")?;
     let speed_key = if sliding_speed.is_some() { "operation.sliding_speed" } else { "operation.rotational_speed" };
@@ -152,7 +158,7 @@ fn parameters(settings: &Settings) -> Result<(Parameters, Option<OperationCycle>
         value: torque.map_or_else(|| settings.optional_number("operation.normal_force"), |torque| Ok(Some(torque)))?,
         by_torque: torque.is_some(),
     };
-    let operation = operation(settings, &mesh, constant, speed)?;
+    let operation = operation(settings, &mesh, constant, speed, brake)?;
     let by_torque = operation.as_ref().map_or(constant.by_torque, |operation| operation.by_torque);
     let (normal_force, angular_velocity) = match &operation {
         // What is reckoned before the first step is on the safe side with the largest load, and right in the mean with the
@@ -182,7 +188,7 @@ fn parameters(settings: &Settings) -> Result<(Parameters, Option<OperationCycle>
         thermal: None,
         emission: None,
     };
-    add_dissipation(settings, &mut parameters)?;
+    add_dissipation(settings, brake, &mut parameters)?;
     if !parameters.step_time().is_normal() {
         let message = format!("a step would last {} s, which cannot be computed with", parameters.step_time());
         return Err(Problem::new(&settings.origin(speed_key), speed_key, message));
@@ -422,9 +428,14 @@ pub(super) fn length(
 }
 
 /// Puts the parts that a scene asks for into its parameters.
-fn add_dissipation(settings: &Settings, parameters: &mut Parameters) -> Result<(), Problem> {
+fn add_dissipation(settings: &Settings, brake: Option<&Brake>, parameters: &mut Parameters) -> Result<(), Problem> {
     parameters.friction = if settings.has_table("friction") { Some(friction(settings)?) } else { None };
-    parameters.thermal = if settings.has_table("thermal") { Some(Arc::new(thermal(settings)?)) } else { None };
+    // Disc and pads of a brake are given as they are; the pin has its part of them, and its disc turns faster where it is smaller.
+    let mesh = &parameters.mesh;
+    let share = brake.map_or(1.0, |brake| brake.share(mesh));
+    let turns = brake.map_or(1.0, |brake| brake.effective_radius / mesh.mean_radius());
+    parameters.thermal =
+        if settings.has_table("thermal") { Some(Arc::new(thermal(settings, share, turns)?)) } else { None };
     parameters.emission = if settings.has_table("emission") { Some(emission(settings)?) } else { None };
     let problem = |key: &str, message: &str| Err(Problem::new(&settings.origin(key), key, message));
     if parameters.thermal.is_some() && parameters.friction.is_none() {
@@ -497,7 +508,21 @@ fn friction(settings: &Settings) -> Result<Friction, Problem> {
     })
 }
 
-fn thermal(settings: &Settings) -> Result<Thermal, Problem> {
+fn brake(settings: &Settings) -> Result<Brake, Problem> {
+    let number = |key: &str| settings.number(&join("brake", key));
+    Ok(Brake {
+        pad_area: number("pad_area")?,
+        pads: settings.integer("brake.pads")?,
+        pad_thickness: number("pad_thickness")?,
+        effective_radius: number("effective_radius")?,
+        wheel_radius: number("wheel_radius")?,
+        piston_area: settings.optional_number("brake.piston_area")?,
+        efficiency: number("efficiency")?,
+    })
+}
+
+/// Heat, of so large a part of the disc and the pin that the scene gives, the disc turning so many times as fast as the scene's.
+fn thermal(settings: &Settings, share: f64, turns: f64) -> Result<Thermal, Problem> {
     let number = |key: &str| settings.number(key);
     let substance = |table: &str| {
         let [conductivity, density, specific_heat] =
@@ -512,17 +537,17 @@ fn thermal(settings: &Settings) -> Result<Thermal, Problem> {
         ambient: number("thermal.ambient")?,
         disc: Disc {
             substance: substance("thermal.disc")?,
-            area: number("thermal.disc.area")?,
+            area: share * number("thermal.disc.area")?,
             thickness: number("thermal.disc.thickness")?,
-            cooling: number("thermal.disc.cooling")?,
-            cooling_per_speed: number("thermal.disc.cooling_per_speed")?,
+            cooling: share * number("thermal.disc.cooling")?,
+            cooling_per_speed: share / turns * number("thermal.disc.cooling_per_speed")?,
             coating: settings.has_table(table).then(|| coating(table)).transpose()?,
         },
         pin: Pin {
             substance: substance("thermal.pin")?,
-            area: number("thermal.pin.area")?,
+            area: share * number("thermal.pin.area")?,
             length: number("thermal.pin.length")?,
-            cooling: number("thermal.pin.cooling")?,
+            cooling: share * number("thermal.pin.cooling")?,
         },
         wear_rate_factor: settings.factor("thermal.wear_rate_factor")?,
         friction_factor: settings.factor("thermal.friction_factor")?,

@@ -5,8 +5,10 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use plateau_core::acceleration::Adaptive;
+use plateau_core::model::brake::Brake;
 use plateau_core::model::cycle::Cycle;
 use plateau_core::model::parameters::Parameters;
+use plateau_core::observe::brake::{BRAKE_EMISSION, BRAKE_TORQUE, EMISSION_ON_ROAD, PADS, PADS_ON_ROAD};
 use plateau_core::observe::extra::{EMISSION, Extra, FRICTION, HEAT};
 use plateau_core::observe::schedule::{End, SampleEvery, Schedule};
 use plateau_core::observe::{ACCELERATION, CYCLE, Map, ROAD};
@@ -31,6 +33,8 @@ pub struct Scene {
     pub load_tolerance: f64,
     /// Load and speed over time, if they are given as a cycle.
     pub cycle: Option<OperationCycle>,
+    /// Brake of whose pads the pin is a piece.
+    pub brake: Option<Brake>,
     /// Choice of the acceleration by the run, if it chooses it.
     pub adaptive: Option<Adaptive>,
     /// Physical time that is to be simulated, s; the last step ends there, or up to one step later.
@@ -73,6 +77,7 @@ impl Scene {
     pub fn extras(&self, chooses_acceleration: bool) -> Vec<&'static Extra> {
         let acceleration = chooses_acceleration.then_some(&ACCELERATION);
         let has_road = self.cycle.as_ref().is_some_and(|operation| operation.has_road);
+        let has_brake = self.brake.is_some();
         let Parameters { friction, thermal, emission, .. } = &self.parameters;
         let others = [
             (self.cycle.is_some() || self.parameters.by_torque, &CYCLE),
@@ -80,6 +85,11 @@ impl Scene {
             (friction.is_some(), &FRICTION),
             (thermal.is_some(), &HEAT),
             (emission.is_some(), &EMISSION),
+            (has_brake, &PADS),
+            (has_brake && has_road, &PADS_ON_ROAD),
+            (has_brake && friction.is_some(), &BRAKE_TORQUE),
+            (has_brake && emission.is_some(), &BRAKE_EMISSION),
+            (has_brake && emission.is_some() && has_road, &EMISSION_ON_ROAD),
         ];
         let others = others.into_iter().filter(|(is_there, _)| *is_there).map(|(_, extra)| extra);
         self.output.extras.iter().copied().chain(acceleration).chain(others).collect()
@@ -109,6 +119,8 @@ pub struct OperationCycle {
     pub has_road: bool,
     /// Tells whether the vehicle changes its speed, while the disc turns at one speed.
     pub is_road_alone: bool,
+    /// Time of its first row as the file has it, s.
+    pub start: f64,
     /// The file of its rows, if they are not in the scene, with the SHA-256 of what was read of it.
     pub file: Option<(PathBuf, String)>,
 }

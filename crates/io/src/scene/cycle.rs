@@ -3,6 +3,7 @@
 use std::path::Path;
 use std::sync::Arc;
 
+use plateau_core::model::brake::Brake;
 use plateau_core::model::cycle::{Cycle, CycleError, Node};
 use plateau_core::model::mesh::Mesh;
 use plateau_core::model::parameters::Parameters;
@@ -11,7 +12,7 @@ use super::contents::OperationCycle;
 use super::cycle_table::{self, Loads, Speeds};
 use super::error::{Origin, Problem, Warning};
 use super::interpret::Setting;
-use super::schema::{ACCELERATION, CYCLE, choices, join};
+use super::schema::{ACCELERATION, CYCLE, CYCLE_COLUMNS, choices, join};
 use super::settings::Settings;
 use crate::input::digested;
 use crate::number;
@@ -32,6 +33,7 @@ pub(super) fn operation(
     mesh: &Mesh,
     load: ConstantLoad,
     speed: Option<f64>,
+    brake: Option<&Brake>,
 ) -> Result<Option<OperationCycle>, Problem> {
     let key = |name: &str| format!("{CYCLE}.{name}");
     let mut file = None;
@@ -41,7 +43,11 @@ pub(super) fn operation(
             let path = settings.text(&key("file"))?;
             let path = Path::new(path);
             let failed = |error| Problem::without_key(&Origin::File(path.into()), format!("cannot read it: {error}"));
-            let read = digested(path, || cycle_table::read(path), failed);
+            let given = CYCLE_COLUMNS.iter().filter(|name| settings.get(&join("operation", name)).is_some());
+            let quantity = |name: &'static str| name.rsplit('.').next().unwrap_or(name);
+            let headers = given.map(|name| Ok((quantity(name), settings.text(&join("operation", name))?)));
+            let headers = headers.collect::<Result<Vec<_>, Problem>>()?;
+            let read = digested(path, || cycle_table::read(path, &headers), failed);
             let (table, digest) = read.map_err(|problem| named(settings, problem))?;
             file = Some((path.to_owned(), digest));
             (key("file"), table)
@@ -59,19 +65,42 @@ pub(super) fn operation(
     let scale = |name: &str| settings.number(&key(name));
     let (force_scale, speed_scale) = (scale("force_scale")?, scale("speed_scale")?);
     let rows = table.times.len();
-    let (has_load, has_speed) = (table.loads.is_some(), table.speeds.is_some());
+    let has_load = table.loads.is_some();
+    // The disc turns as the wheel does.
+    let of_road = |road_speeds: &Vec<f64>| {
+        brake.map(|brake| Speeds::Sliding(road_speeds.iter().map(|speed| brake.sliding_speed(*speed)).collect()))
+    };
+    let speeds = table.speeds.or_else(|| table.road_speeds.as_ref().and_then(of_road));
+    let has_speed = speeds.is_some();
+    let of_brake = |column: &str, missing: &str| {
+        let message = format!("its column {column} is of the whole brake, and {missing}");
+        Problem::new(&place, &source, message)
+    };
+    const NO_BRAKE: &str = "there is no [brake]: give it, or the load of the simulated pin";
     let (loads, by_torque) = match table.loads {
         Some(Loads::Force(loads)) => (loads, false),
         Some(Loads::BrakingTorque(torques)) => (torques, true),
         Some(Loads::NominalPressure(pressures)) => {
             (pressures.into_iter().map(|pressure| pressure * mesh.pin_area()).collect(), false)
         }
+        Some(Loads::BrakeTorque(torques)) => {
+            let brake = brake.ok_or_else(|| of_brake("brake_torque", NO_BRAKE))?;
+            (torques.into_iter().map(|torque| brake.torque_of_pin(torque, mesh)).collect(), true)
+        }
+        Some(Loads::BrakePressure(pressures)) => {
+            let brake = brake.ok_or_else(|| of_brake("brake_pressure", NO_BRAKE))?;
+            let force = |pressure| Some(brake.nominal_pressure(pressure)? * mesh.pin_area());
+            let forces: Option<_> = pressures.into_iter().map(force).collect();
+            let unknown =
+                || of_brake("brake_pressure", "brake.piston_area is not given: what presses a pad is not known");
+            (forces.ok_or_else(unknown)?, false)
+        }
         None => {
             let value = load.value.ok_or_else(|| missing("load", "normal_force or braking_torque"))?;
             (vec![value; rows], load.by_torque)
         }
     };
-    let speeds = match table.speeds {
+    let speeds = match speeds {
         Some(Speeds::Rotational(speeds)) => speeds,
         Some(Speeds::Sliding(speeds)) => speeds.into_iter().map(|speed| speed / mesh.mean_radius()).collect(),
         None => vec![speed.ok_or_else(|| missing("speed", "rotational_speed or sliding_speed"))?; rows],
@@ -96,7 +125,17 @@ pub(super) fn operation(
         };
         Problem::new(row.unwrap_or(&place), &source, error.to_string())
     })?;
-    Ok(Some(OperationCycle { cycle: Arc::new(cycle), by_torque, has_load, has_speed, has_road, is_road_alone, file }))
+    let start = table.start;
+    Ok(Some(OperationCycle {
+        cycle: Arc::new(cycle),
+        by_torque,
+        has_load,
+        has_speed,
+        has_road,
+        is_road_alone,
+        start,
+        file,
+    }))
 }
 
 /// A file that cannot be read is the fault of the key that names it.
@@ -167,6 +206,18 @@ pub(super) fn road_alone(settings: &Settings, operation: &OperationCycle) -> Opt
         bound: "and nothing follows from road_speed but the road distance".to_owned(),
         advice: "give the speed of the disc, too: sliding_speed is road_speed times mean radius over the rolling radius of the wheel"
             .to_owned(),
+    })
+}
+
+/// A word to a table that does not begin with 0.
+pub(super) fn late_start(settings: &Settings, operation: &OperationCycle) -> Option<Warning> {
+    let key = format!("{CYCLE}.file");
+    (operation.start != 0.0).then(|| Warning {
+        place: settings.origin(&key),
+        found: format!("its first row is at {} s", number::plain(operation.start)),
+        bound: "and times of a run begin with 0".to_owned(),
+        advice: "the run counts from that row: so do output.maps_at and all times it reports".to_owned(),
+        key,
     })
 }
 

@@ -1,4 +1,7 @@
 //! Tables of load and speed over time (docs/drive.md): text with one row a moment, as instruments and spreadsheets write it.
+//!
+//! A header has the name of its quantity, or one that the scene says, and its unit in brackets. Times may be those of a clock,
+//! h:mm:ss, and count from the first.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -17,17 +20,21 @@ enum Quantity {
     NormalForce,
     NominalPressure,
     BrakingTorque,
+    BrakeTorque,
+    BrakePressure,
     RotationalSpeed,
     SlidingSpeed,
     RoadSpeed,
 }
 
 /// Name in the header, quantity and dimension of every column there is.
-const COLUMNS: [(&str, Quantity, Dimension); 7] = [
+const COLUMNS: [(&str, Quantity, Dimension); 9] = [
     ("time", Quantity::Time, Dimension::Time),
     ("normal_force", Quantity::NormalForce, Dimension::Force),
     ("nominal_pressure", Quantity::NominalPressure, Dimension::Pressure),
     (BRAKING_TORQUE, Quantity::BrakingTorque, Dimension::Torque),
+    ("brake_torque", Quantity::BrakeTorque, Dimension::Torque),
+    ("brake_pressure", Quantity::BrakePressure, Dimension::Pressure),
     ("rotational_speed", Quantity::RotationalSpeed, Dimension::RotationalSpeed),
     ("sliding_speed", Quantity::SlidingSpeed, Dimension::Speed),
     ("road_speed", Quantity::RoadSpeed, Dimension::Speed),
@@ -42,6 +49,10 @@ pub enum Loads {
     NominalPressure(Vec<f64>),
     /// T that friction has to give, N m.
     BrakingTorque(Vec<f64>),
+    /// The same of the whole brake, N m.
+    BrakeTorque(Vec<f64>),
+    /// In the brake line, Pa.
+    BrakePressure(Vec<f64>),
 }
 
 /// Speed of every row, as it was given.
@@ -56,8 +67,10 @@ pub enum Speeds {
 /// A table, in SI units; what it has no column of is constant.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CycleTable {
-    /// t of every row, s.
+    /// t of every row, s, from that of the first.
     pub times: Vec<f64>,
+    /// Time of the first row as the table has it, s.
+    pub start: f64,
     /// Load.
     pub loads: Option<Loads>,
     /// Speed of the disc.
@@ -70,6 +83,8 @@ pub struct CycleTable {
 
 /// A column of a table that is being read.
 struct Column {
+    /// Its place in a row.
+    place: usize,
     header: String,
     unit: String,
     quantity: Quantity,
@@ -80,12 +95,12 @@ struct Column {
 /// Problem, with the header of the column if it is of one.
 type Wrong = (Option<String>, Fault);
 
-/// Reads a table.
-pub fn read(path: &Path) -> Result<CycleTable, Problem> {
-    read_rows(path, limits::ROWS)
+/// Reads a table, whose columns have these headers, each beside the name of its quantity; without any they have those names.
+pub fn read(path: &Path, headers: &[(&str, &str)]) -> Result<CycleTable, Problem> {
+    read_rows(path, headers, limits::ROWS)
 }
 
-fn read_rows(path: &Path, most: usize) -> Result<CycleTable, Problem> {
+fn read_rows(path: &Path, headers: &[(&str, &str)], most: usize) -> Result<CycleTable, Problem> {
     let file: Arc<Path> = path.into();
     let of_file = |message: String| Problem::without_key(&Origin::File(file.clone()), message);
     let origin = |line: usize, column: usize| Origin::Place { file: file.clone(), line, column };
@@ -97,42 +112,75 @@ fn read_rows(path: &Path, most: usize) -> Result<CycleTable, Problem> {
     let table = Named::of(&text).map_err(|fault| wrong((None, fault)))?.ok_or_else(|| {
         of_file("it is empty, expected a header such as: time [s],normal_force [N],rotational_speed [rpm]".to_owned())
     })?;
-    let mut columns = header(&table.head).map_err(wrong)?;
+    let mut columns = header(&table.head, headers).map_err(wrong)?;
     let mut places = Vec::new();
     for row in table.rows() {
         let row = row.map_err(|fault| wrong((None, fault)))?;
         if places.len() == most {
             return Err(wrong((None, row.fault(0, limits::more("more", most, "rows")))));
         }
-        take(&row, &mut columns).map_err(wrong)?;
+        take(&row, table.head.cells.len(), &mut columns).map_err(wrong)?;
         places.push(origin(row.number, 1));
     }
     Ok(self::table(columns, places))
 }
 
+/// Name and unit of a header; without brackets there is no unit.
+fn name_and_unit(header: &str) -> (&str, &str) {
+    let header = header.trim();
+    let brackets = [('[', ']'), ('(', ')')].into_iter().find(|(_, close)| header.ends_with(*close));
+    match brackets.and_then(|(open, close)| header.strip_suffix(close)?.rsplit_once(open)) {
+        Some((name, unit)) => (name.trim(), unit.trim()),
+        None => (header, ""),
+    }
+}
+
+/// Unit of times that are those of a clock.
+const CLOCK: &str = "h:mm:ss";
+
 /// The columns that the header names, or what is wrong with one of the names.
-fn header(line: &Line<'_>) -> Result<Vec<Column>, Wrong> {
+fn header(line: &Line<'_>, headers: &[(&str, &str)]) -> Result<Vec<Column>, Wrong> {
     let mut columns: Vec<Column> = Vec::new();
+    let mut found = vec![false; headers.len()];
     for (place, cell) in line.cells.iter().enumerate() {
         let header = &*cell.text;
         let wrong = |message: String| Err((Some(header.to_owned()), line.fault(place, message)));
-        let (name, unit) = match header.split_once('[') {
-            Some((name, unit)) => (name.trim(), unit.trim_end().trim_end_matches(']').trim()),
-            None => (header, ""),
-        };
+        let (mut name, mut unit) = name_and_unit(header);
+        if !headers.is_empty() {
+            let is_of = |other: &str| other.trim() == header.trim() || name_and_unit(other).0 == name;
+            let Some(which) = headers.iter().position(|(_, other)| is_of(other)) else { continue };
+            found[which] = true;
+            let told = name_and_unit(headers[which].1).1;
+            if !unit.is_empty() && !told.is_empty() && unit != told {
+                return wrong(format!("in {unit}, and the scene says {told}: expected one unit"));
+            }
+            name = headers[which].0;
+            unit = if unit.is_empty() { told } else { unit };
+        }
         let name = name.to_lowercase().replace(' ', "_");
         let Some((_, quantity, dimension)) = COLUMNS.iter().find(|(known, ..)| *known == name) else {
             let known: Vec<_> = COLUMNS.iter().map(|(name, ..)| *name).collect();
-            return wrong(format!("no such column, expected some of {}", known.join(", ")));
+            return wrong(format!(
+                "no such column, expected some of {}, or operation.cycle.columns, such as columns = {{ time = \"Zeit\" }}",
+                known.join(", ")
+            ));
         };
-        if let Err(error) = units::parse(&format!("1 {unit}"), *dimension) {
+        let is_clock = *quantity == Quantity::Time && ["", CLOCK, "hh:mm:ss"].contains(&unit);
+        let unit = if is_clock { CLOCK } else { unit };
+        if let (false, Err(error)) = (is_clock, units::parse(&format!("1 {unit}"), *dimension)) {
             return wrong(format!("{error}; give the unit in brackets, such as {name} [{}]", dimension.si_unit()));
         }
         if let Some(other) = columns.iter().find(|other| excludes(other.quantity, *quantity)) {
             return wrong(format!("stands beside {}, expected one of the two", other.header));
         }
         let (header, unit) = (header.to_owned(), unit.to_owned());
-        columns.push(Column { header, unit, quantity: *quantity, dimension: *dimension, values: Vec::new() });
+        columns.push(Column { place, header, unit, quantity: *quantity, dimension: *dimension, values: Vec::new() });
+    }
+    if let Some(missing) = found.iter().position(|found| !found) {
+        let known: Vec<_> = line.cells.iter().map(|cell| format!("\"{}\"", short(&cell.text))).collect();
+        let (name, header) = headers[missing];
+        let message = format!("no column \"{header}\", which is to be {name}; there are {}", known.join(", "));
+        return Err((None, line.fault(0, message)));
     }
     if columns.iter().all(|column| column.quantity != Quantity::Time) {
         return Err((None, line.fault(0, "no column of times, expected time [s]".into())));
@@ -140,17 +188,37 @@ fn header(line: &Line<'_>) -> Result<Vec<Column>, Wrong> {
     Ok(columns)
 }
 
-/// Takes in a row, or tells what is wrong with it, in which column.
-fn take(row: &Line<'_>, columns: &mut [Column]) -> Result<(), Wrong> {
-    if row.cells.len() > columns.len() {
-        let message = format!("{} fields, expected {}, one for each column", row.cells.len(), columns.len());
-        return Err((None, row.fault(columns.len(), message)));
+/// A time of a clock, h:mm:ss, in s.
+fn clock(field: &str) -> Option<f64> {
+    let [hours, minutes, seconds] = field.split(':').collect::<Vec<_>>().try_into().ok()?;
+    let is_number = |part: &str| part.starts_with(|first: char| first.is_ascii_digit());
+    let value = |part: &str| part.parse::<f64>().ok().filter(|value| is_number(part) && value.is_finite());
+    let (minutes, seconds) = (value(minutes)?, value(seconds)?);
+    (minutes < 60.0 && seconds < 60.0).then_some(value(hours)? * 3600.0 + minutes * 60.0 + seconds)
+}
+
+/// Takes in a row of at most so many fields, or tells what is wrong with it, in which column.
+fn take(row: &Line<'_>, fields: usize, columns: &mut [Column]) -> Result<(), Wrong> {
+    if row.cells.len() > fields {
+        let message = format!("{} fields, expected {fields}, one for each column", row.cells.len());
+        return Err((None, row.fault(fields, message)));
     }
-    for (place, column) in columns.iter_mut().enumerate() {
+    for column in columns {
+        let place = column.place;
         let field = row.cells.get(place).map_or("", |cell| &*cell.text);
         let wrong = |message: String| Err((Some(column.header.clone()), row.fault(place, message)));
         if field.is_empty() {
             return wrong("no value, expected a number in every row".into());
+        }
+        if column.unit == CLOCK {
+            let Some(time) = clock(field) else {
+                let found = short(field).escape_debug().to_string();
+                return wrong(format!(
+                    "found \"{found}\" without a unit, expected a header such as time [s], or times as {CLOCK}"
+                ));
+            };
+            column.values.push(time);
+            continue;
         }
         let Ok(plain) = field.parse::<f64>() else {
             return wrong(format!("found \"{}\", expected a number", short(field).escape_debug()));
@@ -168,19 +236,28 @@ fn take(row: &Line<'_>, columns: &mut [Column]) -> Result<(), Wrong> {
 
 /// Tells whether two columns say the same thing.
 fn excludes(one: Quantity, other: Quantity) -> bool {
-    use Quantity::{BrakingTorque, NominalPressure, NormalForce, RotationalSpeed, SlidingSpeed};
+    use Quantity::{
+        BrakePressure, BrakeTorque, BrakingTorque, NominalPressure, NormalForce, RotationalSpeed, SlidingSpeed,
+    };
     let both = |kind: &[Quantity]| kind.contains(&one) && kind.contains(&other);
-    one == other || both(&[NormalForce, NominalPressure, BrakingTorque]) || both(&[RotationalSpeed, SlidingSpeed])
+    one == other
+        || both(&[NormalForce, NominalPressure, BrakingTorque, BrakeTorque, BrakePressure])
+        || both(&[RotationalSpeed, SlidingSpeed])
 }
 
 fn table(columns: Vec<Column>, places: Vec<Origin>) -> CycleTable {
-    let mut table = CycleTable { times: Vec::new(), loads: None, speeds: None, road_speeds: None, places };
+    let mut table = CycleTable { times: Vec::new(), start: 0.0, loads: None, speeds: None, road_speeds: None, places };
     for Column { quantity, values, .. } in columns {
         match quantity {
-            Quantity::Time => table.times = values,
+            Quantity::Time => {
+                table.start = values.first().copied().unwrap_or_default();
+                table.times = values.into_iter().map(|time| time - table.start).collect();
+            }
             Quantity::NormalForce => table.loads = Some(Loads::Force(values)),
             Quantity::NominalPressure => table.loads = Some(Loads::NominalPressure(values)),
             Quantity::BrakingTorque => table.loads = Some(Loads::BrakingTorque(values)),
+            Quantity::BrakeTorque => table.loads = Some(Loads::BrakeTorque(values)),
+            Quantity::BrakePressure => table.loads = Some(Loads::BrakePressure(values)),
             Quantity::RotationalSpeed => table.speeds = Some(Speeds::Rotational(values)),
             Quantity::SlidingSpeed => table.speeds = Some(Speeds::Sliding(values)),
             Quantity::RoadSpeed => table.road_speeds = Some(values),

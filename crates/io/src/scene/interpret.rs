@@ -91,7 +91,7 @@ fn cycle_rows(list: &[Entry]) -> Result<CycleTable, (Origin, String)> {
         _ => Loads::Force(forces),
     };
     let speeds = if rotations.is_empty() { Speeds::Sliding(slides) } else { Speeds::Rotational(rotations) };
-    Ok(CycleTable { times, loads: Some(loads), speeds: Some(speeds), road_speeds: None, places })
+    Ok(CycleTable { times, start: 0.0, loads: Some(loads), speeds: Some(speeds), road_speeds: None, places })
 }
 
 /// Rows of temperature and factor.

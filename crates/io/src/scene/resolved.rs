@@ -56,6 +56,8 @@ fn rows(table: &CycleTable) -> String {
     let load = |row: usize| match &table.loads {
         Some(Loads::NominalPressure(pressures)) => units::format(pressures[row], "Pa", Dimension::Pressure),
         Some(Loads::BrakingTorque(torques)) => units::format(torques[row], "N m", Dimension::Torque),
+        // Rows of a scene have none of the whole brake.
+        Some(Loads::BrakeTorque(_) | Loads::BrakePressure(_)) => String::new(),
         Some(Loads::Force(forces)) => units::format(forces[row], "N", Dimension::Force),
         None => String::new(),
     };

@@ -44,6 +44,18 @@ impl Group {
 
 const HEIGHT_SOURCES: &[(&str, &[&str])] = &[("file", FILE), ("synthetic", &[]), ("flat", &[])];
 const FILE: &[&str] = &["dataset", "at", "unit", "pitch", "height_range", "decimal", "skip", "profile_lay"];
+/// Keys that name the columns of a cycle in a file with headers of its own.
+pub(crate) const CYCLE_COLUMNS: &[&str] = &[
+    "cycle.columns.time",
+    "cycle.columns.normal_force",
+    "cycle.columns.nominal_pressure",
+    "cycle.columns.braking_torque",
+    "cycle.columns.brake_torque",
+    "cycle.columns.brake_pressure",
+    "cycle.columns.rotational_speed",
+    "cycle.columns.sliding_speed",
+    "cycle.columns.road_speed",
+];
 const IMAGE: &[&str] = &["threshold", "pixel", "smooth", "despeckle", "rotate", "fibres"];
 
 const TEXTURES: &[(&str, &[&str])] = &[
@@ -71,7 +83,7 @@ pub const GROUPS: &[Group] = &[
     Group { section: "operation", members: &[("duration", &[]), ("steps", &[])], required: true, unless: Some(CYCLE) },
     Group {
         section: "operation",
-        members: &[("cycle.file", &[]), ("cycle.points", &[])],
+        members: &[("cycle.file", CYCLE_COLUMNS), ("cycle.points", &[])],
         required: true,
         unless: None,
     },

@@ -6,6 +6,7 @@
 use plateau_core::observe::EXTRAS;
 
 use super::choices::{self, words};
+use super::exclusions::CYCLE_COLUMNS;
 use super::key::{Choose, Key, Kind, Need, Range, Role};
 use crate::units::Dimension::{
     Angle, Area, Cooling, CoolingPerSpeed, Density, Force, Length, NumberPerMass, Pressure, RotationalSpeed,
@@ -53,6 +54,7 @@ pub(crate) const CYCLE: &str = "operation.cycle";
 pub(super) const DEBRIS_IS_LOCAL: Choose = Choose { key: "plateaus.debris", value: "local" };
 
 const POISSON_RATIO: Range = Range::new(-1.0, false, 0.5, true);
+const ABOVE_0_TO_1: Range = Range::new(0.0, false, 1.0, true);
 const BETWEEN_0_AND_1: Range = Range::new(0.0, false, 1.0, false);
 const AT_LEAST_1: Range = Range::new(1.0, true, f64::INFINITY, false);
 
@@ -92,6 +94,9 @@ pub(super) fn all() -> Vec<Key> {
         OneOf,
         "load and speed over time: .csv whose header has units, such as time [s], normal_force [N], rotational_speed [rpm]",
     );
+    for name in CYCLE_COLUMNS {
+        table.key(name, Text, Optional, "header of this column, where the file has another");
+    }
     table.key("cycle.points", Rows, OneOf, "the same in the scene: rows of time, load and speed");
     table.key(
         "cycle.interpolation",
@@ -301,12 +306,31 @@ fn add_mesh(table: &mut Table) {
 
 /// Adds them all.
 fn add_optional_parts(table: &mut Table) {
+    table.brake();
     table.friction();
     table.thermal();
     table.emission();
 }
 
 impl Table {
+    fn brake(&mut self) {
+        self.section = "brake";
+        let millimetres = length("mm", Range::POSITIVE);
+        let area = Kind::Quantity { dimension: Area, unit: "cm^2", range: Range::POSITIVE };
+        self.key("pad_area", area, Required, "area of friction material of one pad");
+        self.key("pads", Integer(1), Default("2"), "pads of the brake");
+        self.key("pad_thickness", millimetres, Required, "thickness of the friction material that may wear");
+        self.key("effective_radius", millimetres, Required, "radius at which the friction force of the pads acts");
+        self.key("wheel_radius", millimetres, Required, "rolling radius of the wheel");
+        self.key("piston_area", area, Optional, "area of the pistons that press one pad; for a column brake_pressure");
+        self.key(
+            "efficiency",
+            Number(ABOVE_0_TO_1),
+            Default("1"),
+            "part of the force of the pistons that presses the pad",
+        );
+    }
+
     fn friction(&mut self) {
         self.section = "friction";
         let coefficient = Number(Range::NOT_NEGATIVE);

@@ -23,7 +23,7 @@ pub fn find(path: &str) -> Option<&'static Key> {
 }
 
 /// Tables that switch a part of the model on; without the table its keys are not asked for.
-const OPTIONAL_TABLES: &[&str] = &["friction", "thermal", "emission"];
+const OPTIONAL_TABLES: &[&str] = &["brake", "friction", "thermal", "emission"];
 
 /// The table without which the keys of a section are not asked for, if there is one.
 pub fn optional_table(section: &str) -> Option<&'static str> {
@@ -83,7 +83,8 @@ pub(crate) fn unknown(table: &str, name: &str) -> String {
     if table.split('.').any(|part| part == name) {
         return format!("unknown key, keys below [{table}] stand without the name of the table before them");
     }
-    let tables = tables().into_iter().filter(|other| known(&join(other, name)));
+    // Columns of a cycle are called as the keys of other tables are.
+    let tables = tables().into_iter().filter(|other| known(&join(other, name)) && !other.ends_with(".columns"));
     if let Some((first, more)) = of_the_same_body(table, tables.collect()).split_first() {
         let more: String = more.iter().map(|table| format!(" or [{table}]")).collect();
         return format!("unknown key here, it belongs in [{first}]{more}");

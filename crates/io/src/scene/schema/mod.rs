@@ -9,6 +9,7 @@ mod key;
 mod keys;
 mod lookup;
 
+pub(crate) use exclusions::CYCLE_COLUMNS;
 pub use exclusions::{GROUPS, Group, MEANINGLESS, Meaningless, WAYS, Ways};
 pub use key::{Choose, Key, Kind, Need, Range, Role};
 pub use key::{is_below, join};

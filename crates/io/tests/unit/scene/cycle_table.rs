@@ -1,10 +1,14 @@
 use super::*;
 
 fn read_text(text: &str) -> Result<CycleTable, String> {
+    read_with(text, &[])
+}
+
+fn read_with(text: &str, headers: &[(&str, &str)]) -> Result<CycleTable, String> {
     let directory = tempfile::tempdir().unwrap();
     let path = directory.path().join("stops.csv");
     std::fs::write(&path, text).unwrap();
-    read(&path).map_err(|error| error.to_string().replace(&format!("{}/", directory.path().display()), ""))
+    read(&path, headers).map_err(|error| error.to_string().replace(&format!("{}/", directory.path().display()), ""))
 }
 
 fn lines(table: &CycleTable) -> Vec<usize> {
@@ -39,7 +43,7 @@ fn the_table_is_the_same_in_every_encoding() {
     let windows: Vec<u8> = text.chars().map(|letter| letter as u8).collect();
     for content in [text.as_bytes(), &utf16, &windows, text.replace("\r\n", "\r").as_bytes()] {
         std::fs::write(&path, content).unwrap();
-        let table = read(&path).unwrap();
+        let table = read(&path, &[]).unwrap();
         assert_eq!((&table.times, lines(&table)), (&vec![0.0, 0.25], vec![4, 5]));
         assert_eq!(table.loads, Some(Loads::Force(vec![47.5, 10.0])));
     }
@@ -50,8 +54,8 @@ fn more_rows_than_are_read_are_refused() {
     let directory = tempfile::tempdir().unwrap();
     let path = directory.path().join("stops.csv");
     std::fs::write(&path, "time [s]\n\n0\n1\n2\n3\n").unwrap();
-    assert_eq!(read_rows(&path, 4).unwrap().times, [0.0, 1.0, 2.0, 3.0]);
-    let error = read_rows(&path, 3).unwrap_err().to_string();
+    assert_eq!(read_rows(&path, &[], 4).unwrap().times, [0.0, 1.0, 2.0, 3.0]);
+    let error = read_rows(&path, &[], 3).unwrap_err().to_string();
     assert!(error.ends_with("stops.csv:6:1: more rows, expected at most 3"), "{error}");
 }
 
@@ -59,15 +63,16 @@ fn more_rows_than_are_read_are_refused() {
 fn what_is_wrong_is_said_with_its_place() {
     let error = |text: &str| read_text(text).unwrap_err();
     assert!(error("").starts_with("stops.csv: it is empty, expected a header such as: time [s],"));
-    assert!(
-        error("time,normal_force [N]\n").starts_with("stops.csv:1:1: time: \"1\" has no unit"),
-        "{}",
-        error("time,normal_force [N]\n")
+    assert_eq!(
+        error("time,normal_force [N]\n0,1\n"),
+        "stops.csv:2:1: time: found \"0\" without a unit, expected a header such as time [s], or times as h:mm:ss"
     );
+    assert!(error("time [s],normal_force\n").starts_with("stops.csv:1:10: normal_force: \"1\" has no unit"));
     assert_eq!(
         error("time [s],force [N]\n0,1\n"),
         "stops.csv:1:10: force [N]: no such column, expected some of time, normal_force, nominal_pressure, \
-             braking_torque, rotational_speed, sliding_speed, road_speed"
+             braking_torque, brake_torque, brake_pressure, rotational_speed, sliding_speed, road_speed, or \
+             operation.cycle.columns, such as columns = { time = \"Zeit\" }"
     );
     assert_eq!(
         error("time [s],normal_force [N],nominal_pressure [Pa]\n"),
@@ -82,4 +87,36 @@ fn what_is_wrong_is_said_with_its_place() {
     assert_eq!(row("1,"), "stops.csv:3:3: normal_force [N]: no value, expected a number in every row");
     assert_eq!(row("1"), "stops.csv:3:2: normal_force [N]: no value, expected a number in every row");
     assert_eq!(row("1,2,3"), "stops.csv:3:5: 3 fields, expected 2, one for each column");
+}
+
+#[test]
+fn a_logger_has_headers_and_times_of_its_own() {
+    let text = "Uhrzeit;Tempo (km/h);Druck;Temp [degC]\n12:00:05,5;36;0,5;kalt\n12:01:00;18;10;warm\n";
+    let headers = [("time", "Uhrzeit"), ("road_speed", "Tempo"), ("brake_pressure", "Druck [bar]")];
+    let table = read_with(text, &headers).unwrap();
+    assert_eq!((&table.times, table.start), (&vec![0.0, 54.5], 43_205.5));
+    assert_eq!(table.road_speeds, Some(vec![10.0, 5.0]));
+    assert_eq!(table.loads, Some(Loads::BrakePressure(vec![5e4, 1e6])));
+    assert_eq!(table.speeds, None);
+
+    let error = |headers: &[(&str, &str)]| read_with(text, headers).unwrap_err();
+    assert_eq!(
+        error(&[("time", "Zeit")]),
+        "stops.csv:1:1: no column \"Zeit\", which is to be time; there are \"Uhrzeit\", \"Tempo (km/h)\", \"Druck\", \"Temp [degC]\""
+    );
+    assert_eq!(
+        error(&[("time", "Uhrzeit"), ("road_speed", "Tempo [m/s]")]),
+        "stops.csv:1:9: Tempo (km/h): in km/h, and the scene says m/s: expected one unit"
+    );
+    assert!(error(&[("time", "Uhrzeit"), ("brake_torque", "Druck")]).contains("Druck: \"1\" has no unit"));
+}
+
+#[test]
+fn times_of_a_clock_have_hours_minutes_and_seconds() {
+    let times = |rows: &str| read_text(&format!("time [h:mm:ss],normal_force [N]\n{rows}")).map(|table| table.times);
+    assert_eq!(times("0:00:00,1\n0:01:30.25,1\n100:00:00,1\n"), Ok(vec![0.0, 90.25, 360_000.0]));
+    for wrong in ["0:60:00", "0:00:60", "1:30", "0:-1:00", "0:00:nan", "a:00:00", "::", "90"] {
+        let error = times(&format!("{wrong},1\n")).unwrap_err();
+        assert!(error.contains("expected a header such as time [s], or times as h:mm:ss"), "{wrong}: {error}");
+    }
 }
