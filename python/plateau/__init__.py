@@ -42,6 +42,7 @@ from plateau.errors import (
     RunStopped,
     UnknownNameError,
 )
+from plateau.drive_cycle import cycle
 from plateau.exports import export
 from plateau.figures import plot
 from plateau.figures.accuracy import plot_accuracy
@@ -81,6 +82,7 @@ __all__ = [
     "check",
     "collect",
     "command",
+    "cycle",
     "export",
     "find_program",
     "open_run",

@@ -24,7 +24,7 @@ from plateau.output_folder import plain
 OF_STUDIES, OF_RUNS, OF_PROGRAM = "plateau.study.words", "plateau.run_words", "plateau.figure_words"
 WORDS = {"sweep": OF_STUDIES, "fit": OF_STUDIES, "compare": OF_STUDIES, "plot": OF_RUNS, "report": OF_RUNS, "export": OF_RUNS}
 # By a word of its own the program asks for figures.
-WORDS |= {"figure": OF_PROGRAM, "surface": "plateau.surface_words"}
+WORDS |= {"figure": OF_PROGRAM, "surface": "plateau.surface_words", "cycle": "plateau.cycle_words"}
 
 
 class Parser(argparse.ArgumentParser):

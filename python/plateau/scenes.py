@@ -188,7 +188,8 @@ def _path_of(name: str) -> str:
     """The whole path of a key that is given by its last word."""
     if "." in name or name in _keys():
         return name
-    found = sorted(key for key in _keys() if key.rsplit(".", 1)[-1] == name)
+    # Columns of a cycle are called as keys are.
+    found = sorted(key for key in _keys() if key.rsplit(".", 1)[-1] == name and ".columns." not in key)
     if len(found) == 1:
         return found[0]
     if found:

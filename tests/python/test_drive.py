@@ -1,54 +1,126 @@
-"""The shipped drive: what its brake does is what the car asks for, by the speed of the car alone."""
+"""Drives: what a brake does is what the vehicle asks for, by its speed alone; tables of loggers and regulations."""
 
 import csv
 import itertools
 import math
-import subprocess
-import sys
 import unittest
+from pathlib import Path
 
 import h5py
+import numpy as np
+import pandas
 from package_scenes import ROOT, InFolder
 
 import plateau
 
 CYCLES = ROOT / "data" / "cycles"
 SCENE = ROOT / "data" / "scenes" / "drive.toml"
-# The car of front_brake.py: mass, kg, and road load, N and N s²/m²; half of 70 % of what it brakes is one front wheel's.
-MASS, ROLLING, AIR, ONE_WHEEL = 1500.0, 130.0, 0.45, 0.35
+# The car of `plateau cycle`: mass, kg, and road load, N, N s/m and N s²/m² (0.0347 N/(km/h)²).
+CAR = (1500.0, 130.0, 0.0, 0.0347 * 3.6**2)
+# Half of 70 % of what it brakes is one front wheel's.
+ONE_WHEEL = 0.35
 # The pin is 161 of 2764 columns of a ring from 20 to 24 mm, the pads are 100 cm².
 SHARE = math.pi * (24e-3**2 - 20e-3**2) * 161 / 2764 / 100e-4
 
 
-def kinetic_and_road(before, after, seconds):
-    """Kinetic energy that a car loses between two speeds, m/s, and what of it the road takes, J.
+def braking_energy(rows, vehicle):
+    """Energy that the brakes of a vehicle (mass, kg, road load in SI units) take in rows of time, s, and speed, m/s: what it loses of its kinetic
+    energy beyond the work of the road load.
 
-    With a straight line between the speeds, ∫v dt and ∫v³ dt are D (v₀ + v₁)/2 and D (v₀ + v₁)(v₀² + v₁²)/4.
+    With a straight line between the speeds, ∫v dt, ∫v² dt and ∫v³ dt are D (v₀ + v₁)/2, D (v₀² + v₀v₁ + v₁²)/3 and D (v₀ + v₁)(v₀² + v₁²)/4.
     """
-    kinetic = MASS / 2 * (before**2 - after**2)
-    return kinetic, seconds * (before + after) * (ROLLING / 2 + AIR / 4 * (before**2 + after**2))
+    (mass, steady, linear, square), energy = vehicle, 0.0
+    for (start, before), (end, after) in itertools.pairwise(rows):
+        road = steady * (before + after) / 2 + linear * (before**2 + before * after + after**2) / 3
+        road += square * (before + after) * (before**2 + after**2) / 4
+        energy += max(0.0, mass / 2 * (before**2 - after**2) - (end - start) * road)
+    return energy
 
 
-def braking_energy(until):
-    """Energy that the car's brakes take until a time, s, in J."""
-    with open(CYCLES / "wltc-class3b.csv", newline="") as file:
-        rows = [(float(row["time [s]"]), float(row["road_speed [km/h]"]) / 3.6) for row in csv.DictReader(file)]
-    losses = [kinetic_and_road(one[1], other[1], other[0] - one[0]) for one, other in itertools.pairwise(rows) if other[0] <= until]
-    return sum(max(0.0, kinetic - road) for kinetic, road in losses)
+def trips():
+    """A trace of the form of the WLTP-Brake cycle, second by second, made up: ten trips with pauses; time, s, and speed, m/s."""
+    speeds = [0.0]
+    for trip in range(10):
+        top = (30.0 + 8.0 * trip) / 3.6
+        speeds += [*np.linspace(0.0, top, 12)[1:], *[top] * 10, *np.linspace(top, 0.3 * top, 8)[1:], *np.linspace(0.3 * top, 0.0, 5)[1:], *[0.0] * 20]
+    return [(float(time), float(speed)) for time, speed in enumerate(speeds)]
 
 
 class Drive(InFolder):
-    def test_the_shipped_cycle_is_what_the_script_writes(self):
-        command = [sys.executable, "-B", str(CYCLES / "front_brake.py"), str(CYCLES / "wltc-class3b.csv")]
-        done = subprocess.run(command, capture_output=True, text=True, check=True)
-        self.assertEqual(done.stdout, (CYCLES / "wltc-front-brake.csv").read_text())
+    def test_the_shipped_cycle_is_what_the_command_writes(self):
+        plateau.cycle(CYCLES / "wltc-class3b.csv", "w.toml")
+        self.assertEqual(Path("w.csv").read_text(), (CYCLES / "wltc-front-brake.csv").read_text())
 
     def test_friction_work_is_the_braking_energy_of_the_car(self):
         plateau.run(SCENE, "drive.h5", set={"operation.duration": "200 s", "numerics.time_acceleration": 10})
-        expected = ONE_WHEEL * SHARE * braking_energy(200.0)
+        with open(CYCLES / "wltc-class3b.csv", newline="") as file:
+            rows = [(float(row["time [s]"]), float(row["road_speed [km/h]"]) / 3.6) for row in csv.DictReader(file)][:201]
+        expected = ONE_WHEEL * SHARE * braking_energy(rows, CAR)
         with h5py.File("drive.h5") as run:
             work = run["series/friction_work"][-1]
         self.assertLess(abs(work / expected - 1.0), 0.01)
+
+    def test_a_regulations_trace_gives_a_brake_with_the_energy_of_its_vehicle(self):
+        rows = trips()
+        Path("annex.csv").write_text("Time [s],Speed [km/h]\n" + "".join(f"{time:g},{3.6 * speed:.9g}\n" for time, speed in rows))
+        scene = plateau.cycle("annex.csv", "wltp.toml", mass="1600 kg", road_load=(100, 1, 0.03), share=0.6, wheel_radius="0.3 m")
+        small = {"mesh.pin_width": "1 mm", "mesh.pin_length": "2 mm", "mesh.mean_radius": "20.5 mm", "output.maps": []}
+        series = plateau.run(scene, "wltp.h5", set=small).plateau.series.iloc[-1]
+        work = series["friction_work"] * series["brake_pm10_mass"] / series["pm10_mass"]
+        expected = 0.3 * braking_energy(rows, (1600.0, 100.0, 3.6, 0.03 * 3.6**2))
+        self.assertLess(abs(work / expected - 1.0), 0.01)
+        road = sum((one[1] + other[1]) / 2 for one, other in itertools.pairwise(rows))
+        self.assertLess(abs(series["road_distance"] / road - 1.0), 1e-6)
+        # With the largest acceleration that leaves ten revolutions in every braking nothing is warned of.
+        self.assertEqual(plateau.check(scene, set={"output.file": "other.h5"})["warnings"], [])
+
+
+class Tables(InFolder):
+    def cycle(self, text, name="log.csv", **options):
+        Path(name).write_text(text, encoding="utf-8")
+        return pandas.read_csv(Path(plateau.cycle(name, "made.toml", force=True, **options)).with_suffix(".csv"))
+
+    def test_a_logger_has_headers_clock_and_commas_of_its_own(self):
+        text = "Zeit;Tempo (km/h);Verzögerung [m/s2];Gang\n12:00:05;36,0;-1\n12:00:06,5;36,0;2,5;\n12:00:07;0;2,5;\n".replace(";-1\n", ";-1;3\n")
+        names = {"time": "Zeit", "road_speed": "Tempo", "deceleration": "Verzögerung"}
+        found = self.cycle(text, columns=names, mass=1000, road_load=(200, 0, 0), share=0.5, wheel_radius=0.3)
+        self.assertEqual(found["time [s]"].tolist(), [0.0, 1.5, 2.0])
+        # (1000 kg 2.5 m/s² - 200 N) 0.5 0.3 m / 2; what speeds the car up brakes nothing.
+        self.assertEqual(found["brake_torque [N m]"].tolist(), [0.0, 172.5, 172.5])
+
+    def test_pressure_and_torque_are_taken_as_they_are(self):
+        rows = "0,36,0\n2,36,10\n4,0,20\n"
+        found = self.cycle(f"time [s],road_speed [km/h],brake_pressure [bar]\n{rows}", piston_area="25 cm^2")
+        self.assertEqual(found["brake_pressure [bar]"].tolist(), [0.0, 10.0, 20.0])
+        self.assertEqual(plateau.Scene("made.toml")["brake.piston_area"], "25 cm^2")
+        self.assertEqual(self.cycle(f"time [s],road_speed [km/h],brake_torque [kN m]\n{rows}")["brake_torque [N m]"].tolist(), [0.0, 1e4, 2e4])
+
+    def test_a_workbook_is_read(self):
+        table = pandas.DataFrame({"time [s]": [0.0, 5.0], "road_speed [m/s]": [10.0, 0.0], "brake_torque [N m]": [0.0, 300.0]})
+        table.to_excel("log.xlsx", index=False)
+        made = pandas.read_csv(Path(plateau.cycle("log.xlsx", "book.toml")).with_suffix(".csv"))
+        self.assertEqual(made["road_speed [km/h]"].tolist(), [36.0, 0.0])
+        self.assertEqual(made["brake_torque [N m]"].tolist(), [0.0, 300.0])
+
+    def test_what_is_wrong_is_said_with_what_to_do(self):
+        for text, options, said in [
+            ("time [s],v [km/h]\n0,1\n1,0\n", {}, 'no column "road_speed"; there are "time [s]", "v [km/h]": name it by --column road_speed=HEADER'),
+            ("time [s],road_speed\n0,1\n1,0\n", {}, "road_speed: it has no unit: give it in brackets behind the header, such as road_speed [m s-1]"),
+            ("time [s],road_speed [km/h]\n0,1\n1,x\n", {}, 'road_speed [km/h]: found "x", expected a number'),
+            ("time [s],road_speed [km/h]\n0,1\n1,-3\n", {}, "road_speed [km/h]: found -3, expected 0 or more"),
+            ("time [s],road_speed [kg]\n0,1\n1,3\n", {}, '"kg" measures something else than m s-1'),
+            ("time [s],road_speed [km/h]\n5,1\n1,0\n", {}, "row 2: its time is before that of the row above"),
+            ("time [s],road_speed [km/h],brake_torque [N m],brake_pressure [bar]\n0,1,2,3\n1,0,2,3\n", {}, "expected one of them"),
+            ("time [s],road_speed [km/h],brake_pressure [bar]\n0,1,2\n1,0,2\n", {}, "give the area of those of one pad"),
+            ("time [s],road_speed [km/h]\n0,50\n1,50\n", {}, "nowhere between two rows is there load and speed"),
+            ("time [s],road_speed [km/h]\n0,50\n9,0\n", {"share": 2.0}, "a share from 0 to 1"),
+            ("", {}, "cannot read it"),
+        ]:
+            Path("made.toml").unlink(missing_ok=True)
+            with self.subTest(said), self.assertRaises(plateau.InputError) as caught:
+                self.cycle(text, **options)
+            self.assertIn(said, str(caught.exception))
+            self.assertFalse(Path("made.toml").exists())
 
 
 if __name__ == "__main__":

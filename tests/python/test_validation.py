@@ -223,13 +223,6 @@ class RunFiles(InFolder):
             for name, values in reference["series"].data_vars.items():
                 np.testing.assert_array_equal(values, run[f"series/{name}"])
 
-    def test_a_drive_is_held_against_constant_operation(self) -> None:
-        told = self.script("data/cycles/compare.py", "minute.h5", "minute.h5", "drive.png")
-        drive, constant = (line.split(": ")[1] for line in told.splitlines())
-        self.assertEqual(drive, constant)
-        with plateau.open_run("minute.h5") as run:
-            self.assertIn(f"filled {float(run['series/filled_fraction'][-1]) * 100:.2f} %", drive)
-
 
 class Documents(unittest.TestCase):
     def test_packages_of_the_study_are_those_of_the_checks(self) -> None:

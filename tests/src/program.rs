@@ -52,7 +52,7 @@ pub fn commands() -> Vec<String> {
 pub fn own_commands() -> Vec<String> {
     commands()
         .into_iter()
-        .filter(|name| !["fit", "compare", "plot", "report", "export"].contains(&name.as_str()))
+        .filter(|name| !["cycle", "fit", "compare", "plot", "report", "export"].contains(&name.as_str()))
         .collect()
 }
 

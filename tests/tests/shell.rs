@@ -112,5 +112,5 @@ fn manual_pages_are_replaced_only_with_force() {
     assert!(outcome.stderr.contains(message), "{}", outcome.stderr);
     let outcome = directory.plateau(["man", "rum"]);
     assert_eq!(outcome.status, Some(2));
-    assert!(outcome.stderr.contains("no command is called \"rum\", there are new, run, "), "{}", outcome.stderr);
+    assert!(outcome.stderr.contains("no command is called \"rum\", there are new, cycle, run, "), "{}", outcome.stderr);
 }

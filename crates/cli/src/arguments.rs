@@ -66,6 +66,9 @@ pub enum Command {
         after_help = "Example:\n  plateau new mine.toml --disc data/surfaces/afm_256x256.sdf --radius \"30 mm\" --load \"30 N\""
     )]
     New(NewArguments),
+    /// Make the cycle and the scene of a front brake from a drive of a vehicle
+    #[command(disable_help_flag = true)]
+    Cycle(HandedArguments),
     /// Run a scene and write a run file
     #[command(
         after_help = "Example:\n  plateau run data/scenes/quick.toml -o quick.h5 --set operation.normal_force=\"20 N\""

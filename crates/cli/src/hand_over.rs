@@ -17,7 +17,7 @@ const PROGRAM: &str = "PLATEAU_PROGRAM";
 /// Tells the one that answers, and what it calls, which word was handed over.
 const HANDED: &str = "PLATEAU_HANDED";
 /// Words that the Python package answers.
-const OF_PYTHON: [&str; 8] = ["sweep", "fit", "compare", "plot", "report", "export", "figure", "surface"];
+const OF_PYTHON: [&str; 9] = ["sweep", "fit", "compare", "cycle", "plot", "report", "export", "figure", "surface"];
 
 /// Becomes the program that answers a word, with these arguments; comes back only where that fails.
 pub fn hand_over(word: &str, arguments: impl IntoIterator<Item = OsString>) -> Result<(), Failure> {

@@ -61,6 +61,7 @@ fn perform(arguments: Arguments) -> Result<(), Failure> {
     message::set_level(arguments.quiet, arguments.verbose);
     match arguments.command {
         Command::New(arguments) => new::new(&arguments),
+        Command::Cycle(handed) => hand_over("cycle", handed.arguments),
         Command::Run(arguments) => run::run(&arguments),
         Command::Check(arguments) => check::check(&arguments),
         Command::Plot(handed) => hand_over("plot", handed.arguments),
