@@ -11,6 +11,11 @@ class Pages(Guide):
         with h5py.File(self.own / file) as run:
             return run["series"][series][-1]
 
+    def test_the_readme(self):
+        self.expect_page("../README.md", "cermet.h5", "cermet.html", "rig.toml")
+        self.run_blocks("../README.md")
+        self.assertGreater((self.own / "disc.png").stat().st_size, 10000)
+
     def test_the_first_run(self):
         self.expect_page("first-run.md", "first.h5", "heavier.h5", "mine.h5", "rough-disc.png", "my-disc.h5", "rig.h5")
 
