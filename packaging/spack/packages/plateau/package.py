@@ -1,3 +1,5 @@
+from pathlib import Path
+
 from spack_repo.builtin.build_systems.cargo import CargoPackage
 
 from spack.package import *
@@ -6,9 +8,8 @@ from spack.package import *
 class Plateau(CargoPackage):
     """Contact area, contact pressure, topography and secondary plateaus of a brake pin on a rough, coated disc, by a cellular automaton."""
 
-    # Where the repository of the site is: `git = "https://…"` here, or `spack develop plateau@main` with a checkout.
-    homepage = "https://example.org/plateau"
-    git = "https://example.org/plateau.git"
+    # The clone that has this recipe: the source comes from it, wherever it is.
+    git = f"file://{Path(__file__).resolve().parents[4]}"
 
     license("MIT OR Apache-2.0")
 
