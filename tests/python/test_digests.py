@@ -13,7 +13,7 @@ import h5py
 import numpy
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-OF_THE_EXECUTION = {"host", "instruction_set", "start_time", "end_time", "workers", "wall_time"}
+OF_THE_EXECUTION = {"decomposition", "host", "instruction_set", "start_time", "end_time", "workers", "wall_time"}
 DIGESTS = {"attributes_sha256", "execution_sha256"}
 
 

@@ -7,7 +7,7 @@ use plateau_core::engine::kernel::InstructionSet;
 use plateau_core::model::parameters::{DebrisRule, Integrator, Parameters};
 use plateau_core::model::state::InitialSurfaces;
 use plateau_core::observe::{Map, Sample};
-use plateau_core::simulation::{Execution, Simulation, SimulationError};
+use plateau_core::simulation::{Decomposition, Execution, Simulation, SimulationError};
 use plateau_io::{scene as scene_file, surface};
 use plateau_tests::divergence::{differences, first_divergence};
 use plateau_tests::patience::within;
@@ -69,15 +69,16 @@ impl Scene {
         assert!(happens(&end), "{}: nothing to compare in {end:?}", self.name);
         // Sectors alone with every instruction set, and the best grid of sectors and bands.
         let best = InstructionSet::best();
-        let grids = InstructionSet::available().map(|each| (each, Some(1))).chain([(best, None)]).collect::<Vec<_>>();
+        let grids = InstructionSet::available().map(|each| (each, Decomposition::Sectors));
+        let grids = grids.chain([(best, Decomposition::Auto)]).collect::<Vec<_>>();
         let is_long = self.steps > 10_000;
         let stride = few_or_all(if is_long { grids.len() } else { 3 }, 1);
         for (place, workers) in WORKERS.into_iter().enumerate() {
-            for (instructions, bands) in grids.iter().copied().skip(place % stride).step_by(stride) {
-                let grid = if bands.is_some() { "in one band" } else { "in the best bands" };
-                let variant = format!("{}, {workers} workers {grid} with {}", self.name, instructions.name());
+            for (instructions, decomposition) in grids.iter().copied().skip(place % stride).step_by(stride) {
+                let with = instructions.name();
+                let variant = format!("{}, {workers} workers, {decomposition:?} with {with}", self.name);
                 let scene = self.clone();
-                let execution = Execution { workers, instructions, bands, ..Execution::default() };
+                let execution = Execution { workers, instructions, decomposition, ..Execution::default() };
                 let compare = move || first_divergence(scene.steps, || scene.reference(), || scene.start(execution));
                 if let Some(divergence) = within(PATIENCE, &variant, compare) {
                     panic!("{variant}: {divergence}");

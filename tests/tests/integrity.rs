@@ -137,7 +137,16 @@ fn numbers_among_the_attributes_are_what_was_written() {
         |file: &hdf5::File, name: &str| set::<VarLenUnicode>(file, name, "2001-01-01T00:00:00Z".parse().unwrap());
     assert_eq!(places("workers", &|file| set(file, "workers", 64_i64)), [execution]);
     assert_eq!(places("wall_time", &|file| set(file, "wall_time", 1e-3)), [execution]);
-    for name in ["workers", "wall_time", "host", "start_time", "end_time", "instruction_set", "execution_sha256"] {
+    for name in [
+        "decomposition",
+        "workers",
+        "wall_time",
+        "host",
+        "start_time",
+        "end_time",
+        "instruction_set",
+        "execution_sha256",
+    ] {
         assert_eq!(places(name, &|file| file.delete_attr(name).unwrap()), [execution], "{name}");
     }
     assert_eq!(places("start_time", &|file| text(file, "start_time")), [execution]);

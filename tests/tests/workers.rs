@@ -13,7 +13,8 @@ use serde_json::Value;
 
 /// Run attributes that tell how, where and when a run was carried out, or whose content does: the resolved scene has
 /// a line for the workers, and the digest of the attributes is one of the scene, too.
-const OF_THE_EXECUTION: [&str; 8] = [
+const OF_THE_EXECUTION: [&str; 9] = [
+    "decomposition",
     "workers",
     "instruction_set",
     "scene",
@@ -42,7 +43,10 @@ fn run(arguments: &[&str]) -> (Outcome, RunFile, WorkingDirectory) {
 /// All that a run file tells but how the run was carried out.
 fn told(file: &RunFile) -> (BTreeMap<String, Content>, Vec<(String, String)>) {
     let scene = file.text("scene");
-    let lines = scene.lines().filter(|line| !line.starts_with("workers = ")).map(|line| ("scene".into(), line.into()));
+    let lines = scene
+        .lines()
+        .filter(|line| !["workers = ", "decomposition = "].iter().any(|key| line.starts_with(key)))
+        .map(|line| ("scene".into(), line.into()));
     let attributes = file.attributes().into_iter().filter(|(name, _)| !OF_THE_EXECUTION.contains(&name.as_str()));
     (file.content(), attributes.chain(lines).collect())
 }
@@ -55,9 +59,10 @@ fn assert_alike(scene: &[&str]) -> (RunFile, WorkingDirectory) {
     let (content, attributes) = told(&reference);
     assert_eq!((reference.number("workers"), reference.text("instruction_set")), (1.0, "portable".into()));
     let sets: Vec<&str> = InstructionSet::available().map(InstructionSet::name).collect();
-    let of_workers = ["2", "3", "5", "8"].map(|workers| vec!["--workers", workers]);
+    let of_workers = ["2", "3", "5", "8"].into_iter().zip(["auto", "sectors", "bands", "sectors"]);
+    let of_workers = of_workers.map(|(workers, kind)| vec!["--workers", workers, "--decomposition", kind]);
     let of_sets = sets.iter().flat_map(|set| [vec!["--isa", *set], vec!["--isa", *set, "--workers", "3"]]);
-    for arguments in of_workers.into_iter().chain(of_sets) {
+    for arguments in of_workers.chain(of_sets) {
         let (_, file, _directory) = run(&[scene, &arguments].concat());
         let (other_content, other_attributes) = told(&file);
         assert_eq!(differences(&content, &other_content), [""; 0], "{arguments:?}");
@@ -183,6 +188,11 @@ fn a_check_tells_of_workers_and_instruction_set() {
     let one = check(&["--isa", "portable"]);
     assert_eq!((&one["workers"], &one["instruction_set"]), (&1.into(), &"portable".into()));
     assert_eq!((reason(&one, "needed"), reason(&one, "left_out")), (None, Some("workers = 1".into())));
+    assert_eq!(one["decomposition"], "none");
+    // 20 rows are three strips of eight.
+    assert_eq!(check(&["--workers", "2", "--decomposition", "bands"])["decomposition"], "2 bands of rows");
+    let sectors = check(&["--workers", "2", "--set", "numerics.decomposition=sectors"])["decomposition"].to_string();
+    assert!(sectors.ends_with(" sectors\""), "{sectors}");
     let two = check(&["--workers", "2"]);
     assert_eq!((&two["workers"], &two["instruction_set"]), (&2.into(), &InstructionSet::best().name().into()));
     assert_eq!((reason(&two, "needed"), reason(&two, "left_out")), (Some("workers = 2".into()), None));

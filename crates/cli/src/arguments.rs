@@ -12,6 +12,7 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 use plateau_core::engine::kernel::InstructionSet;
 use plateau_core::simulation::Engine;
+use plateau_io::scene::schema::choices;
 use plateau_io::text::{odd_character, shown_on_one_line};
 use plateau_io::units::{self, Dimension};
 use plateau_run::ExecutionOptions;
@@ -225,6 +226,9 @@ pub struct SceneArguments {
     /// Threads that share the ring: a number or "auto"; overrides the scene
     #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = workers)]
     pub workers: Option<String>,
+    /// What each of several workers has: sectors, bands (of rows) or auto; overrides the scene
+    #[arg(long, value_name = "KIND", value_parser = PossibleValuesParser::new(choices::DECOMPOSITION.map(|(word, _)| word)))]
+    pub decomposition: Option<String>,
     /// Print one JSON document instead of text
     #[arg(long)]
     pub json: bool,

@@ -11,7 +11,7 @@ use std::sync::Arc;
 use crate::engine::comm::Communicator as _;
 #[cfg(feature = "mpi")]
 use crate::engine::comm::mpi::Mpi;
-pub use crate::engine::execution::{Engine, Execution};
+pub use crate::engine::execution::{Decomposition, Engine, Execution};
 #[cfg(feature = "mpi")]
 use crate::engine::kernel::InstructionSet;
 #[cfg(feature = "mpi")]
@@ -211,6 +211,11 @@ impl Simulation {
     /// How it is carried out.
     pub fn execution(&self) -> Execution {
         self.execution
+    }
+
+    /// What of the mesh each worker has, in words.
+    pub fn decomposition(&self) -> String {
+        workers::partition(&self.parameters, self.execution).told()
     }
 
     /// What the steps so far were like.

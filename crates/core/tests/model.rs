@@ -13,7 +13,7 @@ use plateau_core::model::mesh::Mesh;
 use plateau_core::model::parameters::{DebrisRule, Parameters, PlateauRules};
 use plateau_core::model::state::{Base, Disc, InitialSurfaces, Pin};
 use plateau_core::observe::{Map, Sample};
-use plateau_core::simulation::{Engine, Execution, Simulation};
+use plateau_core::simulation::{Decomposition, Engine, Execution, Simulation};
 
 /// Accepted deviation of heights, m.
 const HEIGHT: f64 = 1e-12;
@@ -166,7 +166,7 @@ fn agrees(debris: DebrisRule) {
         let execution = Execution {
             instructions,
             workers: 1 + seed as usize / 3 % 4,
-            bands: (seed % 2 == 0).then_some(1),
+            decomposition: [Decomposition::Sectors, Decomposition::Auto, Decomposition::Bands][seed as usize % 3],
             shortcut: seed % 5 != 0,
             ..Execution::default()
         };

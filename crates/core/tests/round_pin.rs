@@ -8,7 +8,7 @@ use plateau_core::model::mesh::{Mesh, Outline};
 use plateau_core::model::parameters::{DebrisRule, Parameters, PlateauRules};
 use plateau_core::model::state::{Base, InitialSurfaces};
 use plateau_core::observe::{ABSENT, Map, MapValues, Sample};
-use plateau_core::simulation::{Engine, Execution, Simulation};
+use plateau_core::simulation::{Decomposition, Engine, Execution, Simulation};
 use plateau_core::surface::{Body, FibreSynthesis, HeightSynthesis, fibre_fraction};
 
 /// Relative rounding of a sum over a few thousand cells.
@@ -170,8 +170,8 @@ fn workers_and_instruction_sets_give_the_same_bits() {
         let expected = told(&mut run(&parameters, steps, reference));
         for (place, instructions) in InstructionSet::available().enumerate() {
             for workers in [1, 2, 3] {
-                let bands = (place % 2 == 0).then_some(workers);
-                let execution = Execution { workers, instructions, bands, ..Execution::default() };
+                let decomposition = [Decomposition::Bands, Decomposition::Sectors][place % 2];
+                let execution = Execution { workers, instructions, decomposition, ..Execution::default() };
                 assert_eq!(told(&mut run(&parameters, steps, execution)), expected, "{debris:?}, {execution:?}");
             }
         }

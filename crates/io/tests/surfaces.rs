@@ -10,6 +10,7 @@ use plateau_core::model::mesh::Mesh;
 use plateau_core::model::parameters::Parameters;
 use plateau_core::model::state::Base;
 use plateau_core::observe::schedule::SampleEvery;
+use plateau_core::simulation::Decomposition;
 use plateau_core::surface::{FibreSynthesis, Fill, HeightSynthesis, Level, Preparation};
 use plateau_io::scene::{BaseSource, HeightSettings, HeightSource, OutputSettings, Scene, Workers};
 use plateau_io::surface::{Loaded, ReadOptions, load};
@@ -40,6 +41,7 @@ pub(crate) fn scene() -> Scene {
         pin_base: BaseSource::Uniform(Base::Primary),
         pin_base_mirror: false,
         workers: Workers::Count(1),
+        decomposition: Decomposition::Auto,
         output: OutputSettings {
             extras: Vec::new(),
             checkpoint_every: 60.0,

@@ -54,7 +54,8 @@ pub fn decide(
         }
         return Ok(Execution { engine, instructions, ..Execution::default() });
     }
-    let execution = Execution { instructions, pin: options.pin, ..Execution::default() };
+    let execution =
+        Execution { instructions, pin: options.pin, decomposition: scene.decomposition, ..Execution::default() };
     if ranks > 1 {
         if workers != Workers::Count(1) || options.pin {
             observer.warning(&format_args!(

@@ -45,6 +45,7 @@ pub fn header(
         source_revision: program.revision.clone(),
         host: execution::host(),
         workers: execution.workers,
+        decomposition: assembly.simulation.decomposition(),
         instruction_set: execution.means().into(),
         seeds: scene.seeds.clone(),
         inputs: input_files(scene, surface_files),

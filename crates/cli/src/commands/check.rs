@@ -12,7 +12,7 @@ use plateau_core::model::parameters::Parameters;
 use plateau_core::model::state::Base;
 use plateau_core::observe::running_in::pulse_time;
 use plateau_core::observe::window_mean::LEAST_REVOLUTIONS;
-use plateau_core::simulation::{Execution, Simulation};
+use plateau_core::simulation::Simulation;
 use plateau_io::claim::lock_of;
 use plateau_io::run_file::{checkpoint, image_estimate, resolve, size_estimate};
 use plateau_io::scene::{Scene, Warning, memory_estimate};
@@ -56,8 +56,7 @@ pub fn check(arguments: &CheckArguments) -> Result<(), Failure> {
         Simulation::with_execution(scene.parameters.clone(), surfaces, decided).map_err(Failure::input)?;
     let seconds_per_step = time_per_step(&mut simulation, scene.steps, TRIAL).map_err(Failure::run)?;
     // A ring of few columns has no work for many workers: what there are, the simulation knows.
-    let check =
-        CheckReport::new(&scene, files, report, &parts, pulse, simulation.execution(), [preparing, seconds_per_step]);
+    let check = CheckReport::new(&scene, files, report, &parts, pulse, &simulation, [preparing, seconds_per_step]);
     stiffness_warning(&scene.parameters).iter().for_each(message::warning);
     if scene.output.file.exists() {
         message::warning(format_args!(
@@ -159,6 +158,7 @@ struct CheckReport {
     run_file: u64,
     checkpoint: u64,
     workers: usize,
+    decomposition: String,
     instruction_set: &'static str,
     /// Of the steps and the surfaces, s.
     estimated_time: f64,
@@ -192,10 +192,10 @@ impl CheckReport {
         surfaces: Vec<String>,
         parts: &[Part],
         pulse: Option<PulseReport>,
-        execution: Execution,
+        simulation: &Simulation,
         [preparing_time, seconds_per_step]: [f64; 2],
     ) -> Self {
-        let parameters = &scene.parameters;
+        let (parameters, execution) = (&scene.parameters, simulation.execution());
         let mesh = &parameters.mesh;
         let schedule = scene.schedule();
         let mut reasoned: Vec<(bool, Reasoned)> = parts
@@ -253,6 +253,7 @@ impl CheckReport {
                 maps as u64,
             )),
             workers: execution.workers,
+            decomposition: simulation.decomposition(),
             instruction_set: execution.means(),
             estimated_time: preparing_time + seconds_per_step * scene.steps as f64,
             preparing_time,
@@ -331,7 +332,8 @@ impl CheckReport {
             return table(&self.title, &rows) + "\nThe resolved scene and what is left out: --all\n";
         }
         rows.push(("stiffness number", self.stiffness()));
-        rows.push(("workers", format!("{}, instruction set {}", self.workers, self.instruction_set)));
+        let Self { workers, decomposition, instruction_set, .. } = self;
+        rows.push(("workers", format!("{workers}, decomposition {decomposition}, instruction set {instruction_set}")));
         [
             table(&self.title, &rows),
             table("Files", &self.files.iter().map(File::row).collect::<Vec<_>>()),

@@ -95,7 +95,8 @@ pub fn load_scene(arguments: &SceneArguments) -> Result<Scene, Failure> {
 /// All changes of a scene on the command line, as after `--set`.
 pub fn sets(arguments: &SceneArguments) -> Vec<String> {
     let workers = arguments.workers.iter().map(|workers| format!("numerics.workers={workers}"));
-    arguments.sets.iter().cloned().chain(workers).collect()
+    let decomposition = arguments.decomposition.iter().map(|kind| format!("numerics.decomposition={kind}"));
+    arguments.sets.iter().cloned().chain(workers).chain(decomposition).collect()
 }
 
 #[cfg(test)]

@@ -37,6 +37,18 @@ impl fmt::Display for Engine {
     }
 }
 
+/// Division of the mesh among workers.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Decomposition {
+    /// Whichever of the two, or both, is fastest by a model of costs.
+    #[default]
+    Auto,
+    /// The ring into angular sectors, which hand columns on as the pin sweeps across their boundaries.
+    Sectors,
+    /// The radius into bands of rows, as many as the number of workers can be divided by, and each band into sectors for the others.
+    Bands,
+}
+
 /// How a simulation is carried out. Nothing of it shows in the results, but that the two engines round differently.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Execution {
@@ -46,8 +58,8 @@ pub struct Execution {
     pub workers: usize,
     /// Instruction set of the kernels.
     pub instructions: InstructionSet,
-    /// Bands of rows that the radius is divided into, at most as many as there are workers; the best number unless given.
-    pub bands: Option<usize>,
+    /// Division of the mesh among the workers.
+    pub decomposition: Decomposition,
     /// Whether each worker stays on a core of its own.
     pub pin: bool,
     /// Whether cells to which nothing out of the ordinary happens are swept with few instructions: false is for tests.
@@ -67,6 +79,13 @@ impl Execution {
 impl Default for Execution {
     fn default() -> Self {
         let instructions = InstructionSet::best();
-        Self { engine: Engine::Fast, workers: 1, instructions, bands: None, pin: false, shortcut: true }
+        Self {
+            engine: Engine::Fast,
+            workers: 1,
+            instructions,
+            decomposition: Decomposition::Auto,
+            pin: false,
+            shortcut: true,
+        }
     }
 }

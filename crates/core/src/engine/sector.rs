@@ -7,6 +7,7 @@
 
 use std::ops::Range;
 
+use crate::engine::execution::Decomposition;
 use crate::engine::lanes::LANES;
 use crate::engine::strips::strips;
 use crate::model::mesh::Mesh;
@@ -57,16 +58,17 @@ pub struct Entering {
 }
 
 impl Partition {
-    /// The partition that keeps the most loaded worker's work least, on average over a revolution; with `bands`, the
-    /// best one of so many bands, at most as many as there are workers and strips.
+    /// The partition that keeps the most loaded worker's work least, on average over a revolution, among those of a
+    /// kind.
     ///
     /// A sector has at least `shortest` columns, two of them or more; where the ring has too few for that, some workers get none.
-    pub fn new(mesh: &Mesh, workers: usize, bands: Option<usize>, shortest: usize) -> Self {
+    pub fn new(mesh: &Mesh, workers: usize, kind: Decomposition, shortest: usize) -> Self {
         let most_bands = strips(mesh.rows()).min(workers);
         let possible = |count: &usize| workers.is_multiple_of(*count);
-        let candidates: Vec<usize> = match bands {
-            Some(bands) => (1..=bands.clamp(1, most_bands)).rev().find(possible).into_iter().collect(),
-            None => (1..=most_bands).filter(possible).collect(),
+        let candidates: Vec<usize> = match kind {
+            Decomposition::Auto => (1..=most_bands).filter(possible).collect(),
+            Decomposition::Sectors => vec![1],
+            Decomposition::Bands => (1..=most_bands).rev().find(possible).into_iter().collect(),
         };
         let partitions = candidates.into_iter().flat_map(|bands| Self::of_bands(mesh, workers, bands, shortest));
         let best = partitions.map(|each| (each.cost(), each)).min_by(|a, b| a.0.total_cmp(&b.0));
@@ -101,6 +103,14 @@ impl Partition {
         let boundaries = (self.sectors() * self.pin_columns) as f64 / self.disc_columns as f64;
         let boundary_cost = if groups > 1 { BOUNDARY_COST * boundaries / groups as f64 } else { 0.0 };
         self.strips.div_ceil(self.bands) as f64 * (self.mean_largest_load() + boundary_cost)
+    }
+
+    /// What each worker has, in words.
+    pub fn told(&self) -> String {
+        let part = |count: usize, name: &str| (count > 1).then(|| format!("{count} {name}"));
+        let sectors = if self.groups() > 1 { part(self.sectors(), "sectors") } else { None };
+        let parts: Vec<String> = [part(self.bands, "bands of rows"), sectors].into_iter().flatten().collect();
+        if parts.is_empty() { "none".to_owned() } else { parts.join(" of ") }
     }
 
     /// Number of bands.
@@ -232,7 +242,7 @@ mod tests {
             [(2764, 161, 2), (40, 40, 3), (17, 5, 8), (9, 9, 1), (30, 1, 5), (7, 4, 5)]
         {
             let mesh = mesh(disc_columns, pin_columns);
-            let partition = Partition::new(&mesh, workers, Some(1), 2);
+            let partition = Partition::new(&mesh, workers, Decomposition::Sectors, 2);
             for step in 0..2 * disc_columns as u64 {
                 let mut next = 0;
                 for segment in partition.segments(mesh.disc_column(0, step)) {
@@ -258,7 +268,7 @@ mod tests {
     #[test]
     fn work_is_shared_evenly() {
         for workers in [2, 3, 4, 8] {
-            let partition = Partition::new(&mesh(2764, 161), workers, Some(1), 2);
+            let partition = Partition::new(&mesh(2764, 161), workers, Decomposition::Sectors, 2);
             let even = 161.0 / workers as f64;
             let largest = partition.mean_largest_load();
             assert!(largest < even + 4.0, "{workers} workers: {largest} columns instead of {even}");
@@ -269,14 +279,18 @@ mod tests {
     fn bands_are_taken_where_the_rows_can_be_shared() {
         let paper = Mesh::new(80, 2764, 161, 20e-3, 24e-3).unwrap();
         let grid = |workers| {
-            let partition = Partition::new(&paper, workers, None, 2);
+            let partition = Partition::new(&paper, workers, Decomposition::Auto, 2);
             (partition.bands(), partition.groups())
         };
         // Ten strips: halves and fifths are equal, thirds nearly so.
         assert_eq!([grid(1), grid(2), grid(3), grid(5)], [(1, 1), (2, 1), (3, 1), (5, 1)]);
-        let partition = Partition::new(&paper, 2, None, 2);
+        let partition = Partition::new(&paper, 2, Decomposition::Auto, 2);
         assert_eq!([partition.rows_of(0), partition.rows_of(1)], [0..40, 40..80]);
+        let told = |workers, kind| Partition::new(&paper, workers, kind, 2).told();
+        assert_eq!(told(1, Decomposition::Auto), "none");
+        assert_eq!(told(2, Decomposition::Bands), "2 bands of rows");
+        assert!(told(2, Decomposition::Sectors).ends_with(" sectors"));
         // One strip of rows cannot be shared.
-        assert_eq!(Partition::new(&mesh(100, 10), 4, None, 2).bands(), 1);
+        assert_eq!(Partition::new(&mesh(100, 10), 4, Decomposition::Auto, 2).bands(), 1);
     }
 }

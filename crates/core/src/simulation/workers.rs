@@ -48,9 +48,9 @@ macro_rules! call {
 }
 
 /// The partition for so many workers, whose sectors are longer than what of a segment waits for the next.
-fn partition(parameters: &Parameters, execution: Execution) -> Arc<Partition> {
+pub(super) fn partition(parameters: &Parameters, execution: Execution) -> Arc<Partition> {
     let shortest = waiting_columns(Needs::of(parameters).transport) + 1;
-    Arc::new(Partition::new(&parameters.mesh, execution.workers, execution.bands, shortest))
+    Arc::new(Partition::new(&parameters.mesh, execution.workers, execution.decomposition, shortest))
 }
 
 impl Workers {

@@ -83,6 +83,7 @@ fn write_provenance(file: &File, header: &Header, start: SystemTime) -> hdf5::Re
     write_text(file, "seeds", &serde_json::Value::from(seeds).to_string())?;
     write_text(file, "host", &header.host)?;
     write_number(file, "workers", header.workers as i64)?;
+    write_text(file, "decomposition", &header.decomposition)?;
     write_text(file, "instruction_set", &header.instruction_set)?;
     write_text(file, "start_time", &iso_8601(start))?;
     write_text(file, "state", State::Running.name())

@@ -107,7 +107,8 @@ pub(super) const EXECUTION_DIGEST: &str = "execution_sha256";
 
 /// Attributes of the root that differ between runs of equal results, and have a digest of their own, so that the others do not
 /// differ.
-const OF_THE_EXECUTION: [&str; 6] = ["host", "instruction_set", "start_time", "end_time", "workers", "wall_time"];
+const OF_THE_EXECUTION: [&str; 7] =
+    ["decomposition", "host", "instruction_set", "start_time", "end_time", "workers", "wall_time"];
 
 /// Writes the digests of the attributes that are there. No attribute may be written afterwards.
 pub(super) fn write_attribute_digests(file: &File) -> hdf5::Result<()> {

@@ -71,6 +71,8 @@ pub struct Header {
     pub host: String,
     /// Threads that share the ring.
     pub workers: usize,
+    /// What of the mesh each of them has, in words.
+    pub decomposition: String,
     /// The instruction set that the kernel uses.
     pub instruction_set: String,
     /// Seeds as (key path in the scene, seed).

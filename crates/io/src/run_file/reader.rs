@@ -443,6 +443,7 @@ impl Header {
             source_revision: text("source_revision")?,
             host: text("host")?,
             workers: run.number("workers").ok_or_else(|| damaged("it has no workers".to_owned()))? as usize,
+            decomposition: text("decomposition")?,
             instruction_set: text("instruction_set")?,
             seeds: seeds.collect::<Result<_, _>>()?,
             inputs,

@@ -112,6 +112,7 @@ fn build(mut settings: Settings, mut files: Vec<(PathBuf, String)>, path: &Path)
         pin_base: base(&settings)?,
         pin_base_mirror: settings.bool("pin.base.mirror")?,
         workers,
+        decomposition: settings.optional_choice("numerics.decomposition", &choices::DECOMPOSITION)?.unwrap_or_default(),
         seeds: seeds.collect(),
         resolved: resolved::write(&settings),
         files,

@@ -12,6 +12,7 @@ use plateau_core::observe::brake::{BRAKE_EMISSION, BRAKE_TORQUE, EMISSION_ON_ROA
 use plateau_core::observe::extra::{EMISSION, Extra, FRICTION, HEAT};
 use plateau_core::observe::schedule::{End, SampleEvery, Schedule};
 use plateau_core::observe::{ACCELERATION, CYCLE, Map, ROAD};
+use plateau_core::simulation::Decomposition;
 use plateau_core::surface::micrograph::Micrograph;
 use plateau_core::surface::{Body, FibreSynthesis, HeightSynthesis, Preparation};
 
@@ -51,6 +52,8 @@ pub struct Scene {
     pub pin_base_mirror: bool,
     /// Threads.
     pub workers: Workers,
+    /// Division of the mesh among them.
+    pub decomposition: Decomposition,
     /// Output: files, series, maps, and their times.
     pub output: OutputSettings,
     /// Seeds of the scene as (key path, seed), for the run file's provenance.

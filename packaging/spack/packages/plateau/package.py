@@ -20,7 +20,7 @@ class Plateau(CargoPackage):
     variant("system_hdf5", default=True, description="Links the HDF5 of Spack in place of one of its own")
 
     depends_on("c", type="build")
-    depends_on("rust@1.95:", type="build")
+    depends_on("rust@1.94:", type="build")
     depends_on("hdf5~mpi", when="+system_hdf5")
     depends_on("pkgconfig", type="build", when="+system_hdf5")
     depends_on("cmake@3.26:", type="build", when="~system_hdf5")

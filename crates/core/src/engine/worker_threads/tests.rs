@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use super::*;
 use crate::engine::comm::threads::Threads;
-use crate::engine::execution::Execution;
+use crate::engine::execution::{Decomposition, Execution};
 use crate::engine::kernel::InstructionSet;
 use crate::engine::sector::Partition;
 use crate::engine::strips::PinStrips;
@@ -81,7 +81,7 @@ fn start(rank: usize, fault: Option<Fault>) -> (WorkerThreads, Arc<()>) {
         pin_height: (0..mesh.pin_cells()).map(|cell| (cell * 5 % 13) as f64 * 1e-7).collect(),
         pin_base: vec![Base::Primary; mesh.pin_cells()],
     };
-    let partition = Arc::new(Partition::new(&mesh, WORKERS, None, 2));
+    let partition = Arc::new(Partition::new(&mesh, WORKERS, Decomposition::Auto, 2));
     let alive = Arc::new(());
     let worker = |threads: Threads| {
         let alarm = threads.alarm();

@@ -3,6 +3,7 @@
 use plateau_core::model::cycle::Interpolation;
 use plateau_core::model::parameters::{DebrisRule, Integrator};
 use plateau_core::model::state::Base;
+use plateau_core::simulation::Decomposition;
 use plateau_core::surface::micrograph::Fibres;
 use plateau_core::surface::{Fill, Flip, Level};
 
@@ -20,6 +21,9 @@ pub(crate) const DEBRIS_POOL: Choices<DebrisRule, 2> = [DEBRIS[1], DEBRIS[2]];
 /// `numerics.integrator`.
 pub const INTEGRATOR: Choices<Integrator, 2> =
     [("explicit", Integrator::Explicit), ("exponential", Integrator::Exponential)];
+/// `numerics.decomposition`.
+pub const DECOMPOSITION: Choices<Decomposition, 3> =
+    [("auto", Decomposition::Auto), ("sectors", Decomposition::Sectors), ("bands", Decomposition::Bands)];
 /// `operation.cycle.interpolation`.
 pub(crate) const INTERPOLATION: Choices<Interpolation, 2> =
     [("linear", Interpolation::Linear), ("hold", Interpolation::Hold)];

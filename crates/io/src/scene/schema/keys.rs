@@ -230,6 +230,9 @@ pub(super) fn all() -> Vec<Key> {
         "how much a step wears; exponential is stable for any step, docs/model.md",
     );
     table.key("workers", CountOr("auto"), Default("1"), "threads that share the ring").role = Role::Nothing;
+    let kinds = Choice(&const { words(&choices::DECOMPOSITION) });
+    let decomposition = "what each of several workers has: angular sectors, bands of rows, or whichever is faster";
+    table.key("decomposition", kinds, Optional, decomposition).role = Role::Nothing;
 
     table.role = Role::Series;
     table.section = "output";
