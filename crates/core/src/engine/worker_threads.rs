@@ -217,4 +217,5 @@ fn panic_message(panic: &(dyn Any + Send)) -> String {
 }
 
 #[cfg(test)]
+#[path = "../../tests/unit/engine/worker_threads.rs"]
 mod tests;

@@ -408,4 +408,5 @@ impl Cycle {
 }
 
 #[cfg(test)]
+#[path = "../../tests/unit/model/cycle.rs"]
 mod tests;

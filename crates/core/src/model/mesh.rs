@@ -286,4 +286,5 @@ pub fn columns_of_disc(radius: f64, mean_radius: f64, column_angle: f64) -> Opti
 }
 
 #[cfg(test)]
+#[path = "../../tests/unit/model/mesh.rs"]
 mod tests;
