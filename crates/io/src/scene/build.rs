@@ -172,7 +172,7 @@ fn parameters(settings: &Settings) -> Result<(Parameters, Option<OperationCycle>
         by_torque,
         angular_velocity,
         cycle: cycle.filter(|cycle| cycle.constant().is_none()),
-        is_controlled: false,
+        control: None,
         foundation_height: settings.number("contact.foundation_height")?,
         materials: materials(settings)?,
         plateaus: plateaus(settings)?,
