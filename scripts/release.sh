@@ -53,8 +53,8 @@ archive() {
     date=$(git_here log -1 --format=%ct) || exit 1
     (cd "$scratch" && tar --sort=name --owner=0 --group=0 --numeric-owner --mtime="@$date" -cf - "$name" | gzip -n -9) \
         >"$folder/$name.tar.gz" || die "cannot write $folder/$name.tar.gz"
-    cp "$scratch"/wheel/plateau_brake-"$version".dist-info/sboms/*.json "$folder/plateau-$version.cdx.json" ||
-        die "the wheel has no list of components"
+    cp "$scratch/wheel/plateau_brake-$version.dist-info/sboms/program.cdx.json" "$folder/plateau-$version.cdx.json" ||
+        die "the wheel has no list of the components of the program"
 }
 
 check_tag

@@ -22,7 +22,8 @@ build() {
     # Of the works of others in the program; they go into the wheel, and not into the checkout.
     python3 "$root/scripts/notices.py" >"$root/THIRD-PARTY-NOTICES" || die "the notices could not be collected, see above"
     set -- --zig --compatibility "manylinux_$glibc" --target-dir "$target"
-    (cd "$root" && python packaging/backend/wheel_backend.py "$@" && maturin build --release --locked "$@" --out "$folder") ||
+    (cd "$root" && python packaging/backend/wheel_backend.py "$@" && maturin build --release --locked "$@" \
+        --sbom-include packaging/wheel/program.cdx.json --out "$folder") ||
         die "the wheel could not be built, see above"
 }
 

@@ -1,20 +1,24 @@
 """Commands that the program answers, as functions."""
 
 import os
-from collections.abc import Mapping
+import tempfile
+import warnings
+from collections.abc import Iterator, Mapping
+from contextlib import ExitStack, contextmanager
 from typing import Any
 
-from plateau.errors import InputError, InputTypeError
+from plateau.errors import InputError, InputTypeError, PlateauWarning, shown
 from plateau.program import call, file_name, listen
+from plateau.scenes import Scene, scene_of
 from plateau.study.data import Study
 from plateau.study.results import open_study
-from plateau.toml_text import toml_of
+from plateau.toml_text import change_of
 
 # A path, as usual in Python.
 Path = str | os.PathLike[str]
 
 
-def check(scene: Path, *, set: Mapping[str, Any] | None = None, workers: int | str | None = None) -> dict[str, Any]:
+def check(scene: Path | Mapping[str, Any] | Scene, *, set: Mapping[str, Any] | None = None, workers: int | str | None = None) -> dict[str, Any]:
     """Checks a scene without running it.
 
     Parameters
@@ -33,7 +37,27 @@ def check(scene: Path, *, set: Mapping[str, Any] | None = None, workers: int | s
     >>> check("quick.toml", set={"mesh.rows": 10, "output.file": "ten-rows.h5"})["rows"]
     10
     """
-    return dict(call(["check", file_name(scene, "a scene"), *_scene_arguments(set, workers)]))
+    if isinstance(scene, Mapping) or isinstance(scene, str) and "\n" in scene:
+        # The program warns, too.
+        with warnings.catch_warnings(action="ignore", category=PlateauWarning):
+            scene = scene_of(scene, {}, 2)
+    with _file_of(scene) as name:
+        found = dict(call(["check", name, *_scene_arguments(set, workers)]))
+    if isinstance(scene, Scene):
+        found["files"] = [file for file in found["files"] if file["path"] != name]
+    return found
+
+
+@contextmanager
+def _file_of(scene: Path | Scene) -> Iterator[str]:
+    """A file with a scene: its own, or one for a while. That is in the working directory, from where the scene names files."""
+    if not isinstance(scene, Scene):
+        yield file_name(scene, "a scene")
+        return
+    with tempfile.NamedTemporaryFile("w", dir=os.curdir, prefix=".scene-", suffix=".toml", encoding="utf-8") as file:
+        file.write(scene.toml)
+        file.flush()
+        yield os.path.relpath(file.name)
 
 
 def collect(study: Path, *, force: bool = False) -> Study:
@@ -60,7 +84,7 @@ def command(*arguments: Any, json: bool = False, **options: Any) -> Any:
 
     Parameters
     ----------
-    *arguments : str or path
+    *arguments : str, path or Scene
         The command and its arguments: ``"surface", "disc.sdf"``.
     json : bool
         Whether the command prints JSON, which is returned as Python objects. ``plateau COMMAND --help`` says which commands can do this.
@@ -87,17 +111,21 @@ def command(*arguments: Any, json: bool = False, **options: Any) -> Any:
     wrote figures/status.png: Status of the cells, with parts of the area
     wrote figures/heights.png: Distribution of the heights, positive toward the other body, and Abbott-Firestone curve
     """
-    line: list[Path] = [argument if isinstance(argument, os.PathLike) else str(argument) for argument in arguments]
-    for name, given in options.items():
-        flag = f"--{name.replace('_', '-')}"
-        if isinstance(given, Mapping):
-            given = [f"{key}={toml_of(value)}" for key, value in given.items()]
-        if given is True:
-            line.append(flag)
-        elif given is not None and given is not False:
-            for value in given if isinstance(given, list | tuple) else [given]:
-                line += [flag, os.fspath(value) if isinstance(value, os.PathLike) else str(value)]
-    return call(line) if json else listen(line)
+    line: list[Path] = []
+    with ExitStack() as files:
+        for argument in arguments:
+            named = files.enter_context(_file_of(argument)) if isinstance(argument, Scene) else argument
+            line.append(named if isinstance(named, os.PathLike) else str(named))
+        for name, given in options.items():
+            flag = f"--{name.replace('_', '-')}"
+            if isinstance(given, Mapping):
+                given = [change_of(key, value) for key, value in given.items()]
+            if given is True:
+                line.append(flag)
+            elif given is not None and given is not False:
+                for value in given if isinstance(given, list | tuple) else [given]:
+                    line += [flag, os.fspath(value) if isinstance(value, os.PathLike) else str(value)]
+        return call(line) if json else listen(line)
 
 
 def _scene_arguments(changes: Mapping[str, Any] | None, workers: int | str | None) -> list[Path]:
@@ -106,8 +134,8 @@ def _scene_arguments(changes: Mapping[str, Any] | None, workers: int | str | Non
         raise InputTypeError(f'set = {changes!r}: expected a dictionary, such as set={{"operation.normal_force": "20 N"}}')
     for key, value in (changes or {}).items():
         if not isinstance(key, str) or "=" in key:
-            raise InputError(f"set: {key!r} is not a key of a scene, expected text such as \"operation.normal_force\"")
-        arguments += ["--set", f"{key}={toml_of(value)}"]
+            raise InputError(f"set: {shown(key)} is not a key of a scene, expected text such as \"operation.normal_force\"")
+        arguments += ["--set", change_of(key, value)]
     if workers is not None:
         arguments += ["--workers", str(workers)]
     return arguments

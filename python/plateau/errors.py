@@ -25,6 +25,10 @@ WORDS = [
 IN_MESSAGES = [(re.compile(rf"(?<![\w./-]){word}"), here) for word, here in WORDS]
 
 
+# Characters of a value in a message.
+LONGEST = 80
+
+
 class PlateauWarning(UserWarning):
     """A warning of the program."""
 
@@ -87,6 +91,22 @@ class RunStopped(PlateauError):
     """A signal stopped the run (exit status 128 and the number of the signal); ``resume=True`` continues it."""
 
 
+def shown(value: object) -> str:
+    """A value as messages show it, which is short, whatever it is.
+
+    Examples
+    --------
+    >>> shown("5 N"), shown(10**5000), len(shown([0] * 1000))
+    ("'5 N'", 'this int', 80)
+    """
+    try:
+        text = repr(value)
+    except (RecursionError, ValueError):
+        # Too deep, or a whole number of thousands of digits.
+        return f"this {type(value).__name__}"
+    return text if len(text) <= LONGEST else f"{text[: LONGEST - 1]}…"
+
+
 @contextmanager
 def in_program_words() -> Iterator[None]:
     """Leaves messages in the words of the program, for its commands."""
@@ -110,7 +130,8 @@ def in_python(message: str) -> str:
     """
     for word, here in IN_MESSAGES:
         message = word.sub(here, message)
-    return message
+    # Half of a character, as in names that are not UTF-8, could not be printed.
+    return message.encode(errors="backslashreplace").decode()
 
 
 def not_installed(name: str | None) -> str:

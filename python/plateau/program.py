@@ -12,7 +12,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from plateau.errors import InputError, InputTypeError, PlateauError, PlateauWarning, error_of
+from plateau.errors import InputError, InputTypeError, PlateauError, PlateauWarning, error_of, shown
 
 # The beginning of every message of the program.
 BEGIN = re.compile(r"^plateau: ", re.MULTILINE)
@@ -87,8 +87,13 @@ def file_name(path: str | os.PathLike[str], what: str) -> str:
     """
     try:
         name = os.fsdecode(path)
+        os.fsencode(name)
     except TypeError as error:
-        raise InputTypeError(f"{path!r}: expected the path of {what}") from error
+        raise InputTypeError(f"{shown(path)}: expected the path of {what}") from error
+    except UnicodeError:
+        raise InputError(f"{shown(path)} has half of a character, which no path has: take it out") from None
+    if "\0" in name:
+        raise InputError(f"{shown(path)} has a character 0, which no path has: take it out")
     return os.path.join(".", name) if name.startswith("-") else name
 
 

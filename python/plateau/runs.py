@@ -13,7 +13,7 @@ from plateau.native import native
 from plateau.program import file_name
 from plateau.progress import Progress
 from plateau.run_file import open_run
-from plateau.scenes import Scene, scene_of
+from plateau.scenes import Scene, engine_name, scene_of
 from plateau.study.data import Study
 from plateau.study.runs import make_missing
 from plateau.units import quantity
@@ -94,7 +94,7 @@ def run(
     file = None if output is None else file_name(output, "a run file")
     _refuse_other_format(os.fspath(made._resolved.output) if file is None else file)
     with Progress(progress) as shown:
-        summary: str | None = native().run(made._resolved, file, force, mode, engine, shown.tell)
+        summary: str | None = native().run(made._resolved, file, force, mode, engine_name(engine), shown.tell)
     if summary is None:
         # The run to continue is finished: nothing was done.
         return open_run(made._resolved.output if file is None else file)

@@ -9,10 +9,10 @@ import warnings
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Any
 
-from plateau.errors import InputError, InputTypeError, PlateauError, PlateauWarning, UnknownNameError
+from plateau.errors import InputError, InputTypeError, PlateauError, PlateauWarning, UnknownNameError, shown
 from plateau.native import native
 from plateau.program import file_name
-from plateau.toml_text import toml_of
+from plateau.toml_text import TOO_DEEP, change_of, in_utf8
 
 if TYPE_CHECKING:
     from plateau._native import Scene as NativeScene
@@ -54,7 +54,7 @@ class Scene:
     __slots__ = ("_changes", "_path", "_resolved", "_text")
 
     def __init__(self, scene: "str | os.PathLike[str] | Mapping[str, Any] | Scene | None" = None, /, **changes: Any) -> None:
-        self._build(*_source(scene), dict(_flat(changes)), 3)
+        self._build(*_source(scene), _layer(changes), 3)
 
     def _build(self, path: str, text: str | None, before: Layers, changes: Mapping[str, Any], stacklevel: int | None) -> None:
         """Reads the scene, and warns of it in the name of the caller so many calls up, unless None."""
@@ -62,7 +62,7 @@ class Scene:
         again = bool(before) and changes.keys() <= before[-1].keys()
         layers = (*before[:-1], {**before[-1], **changes}) if again else (*before, changes)
         self._path, self._text, self._changes = path, text, layers
-        sets = [[f"{key}={toml_of(value)}" for key, value in layer.items()] for layer in layers]
+        sets = [[change_of(key, value) for key, value in layer.items()] for layer in layers]
         try:
             self._resolved: NativeScene = native().Scene(path, text, sets)
         except PlateauError as error:
@@ -88,7 +88,7 @@ class Scene:
         """
         if changes is not None and not isinstance(changes, Mapping):
             raise InputTypeError(f"{changes!r}: expected a dictionary, such as {{\"operation.normal_force\": \"20 N\"}}")
-        return self._changed({**dict(_flat(changes or {})), **dict(_flat(more))}, 4)
+        return self._changed({**_layer(changes or {}), **_layer(more)}, 4)
 
     def _changed(self, changes: Mapping[str, Any], stacklevel: int | None) -> "Scene":
         made = object.__new__(Scene)
@@ -147,10 +147,17 @@ def scene_of(scene: Any, changes: Mapping[str, Any], stacklevel: int) -> Scene:
     if scene is None:
         raise InputTypeError("None: expected a scene, or the path of one")
     if isinstance(scene, Scene):
-        return scene._changed(dict(_flat(changes)), None) if changes else scene
+        return scene._changed(_layer(changes), None) if changes else scene
     made = object.__new__(Scene)
-    made._build(*_source(scene), dict(_flat(changes)), stacklevel + 2)
+    made._build(*_source(scene), _layer(changes), stacklevel + 2)
     return made
+
+
+def engine_name(engine: object) -> str:
+    """What takes the steps, as it is called."""
+    if engine not in ("fast", "plain"):
+        raise InputError(f'engine {shown(engine)}: expected "fast" or "plain"')
+    return str(engine)
 
 
 def _source(scene: Any) -> tuple[str, str | None, Layers]:
@@ -158,13 +165,10 @@ def _source(scene: Any) -> tuple[str, str | None, Layers]:
     if isinstance(scene, Scene):
         return scene._path, scene._text, scene._changes
     if scene is None or isinstance(scene, Mapping):
-        return UNNAMED, "", ({"version": 1, **dict(_flat(scene or {}))},)
+        return UNNAMED, "", ({"version": 1, **_layer(scene or {})},)
     if isinstance(scene, str) and ("\n" in scene or "=" in scene and not os.path.exists(scene)):
-        return UNNAMED, scene, ()
-    path = file_name(scene, "a scene")
-    if "\0" in path:
-        raise InputError(f"{path!r} has a character 0, which no path has: take it out")
-    return path, None, ()
+        return UNNAMED, in_utf8(scene, "the text of the scene"), ()
+    return file_name(scene, "a scene"), None, ()
 
 
 @functools.cache
@@ -172,11 +176,19 @@ def _keys() -> frozenset[str]:
     return frozenset(native().keys())
 
 
+def _layer(tables: Mapping[str, Any]) -> dict[str, Any]:
+    """Whole paths of keys and their values."""
+    try:
+        return dict(_flat(tables))
+    except RecursionError:
+        raise InputError(f"the tables are {TOO_DEEP}") from None
+
+
 def _flat(tables: Mapping[str, Any], above: str = "") -> Iterator[tuple[str, Any]]:
     """Whole paths of keys and their values; single words are keys of any table."""
     for name, value in tables.items():
         if not isinstance(name, str) or "=" in name:
-            raise InputError(f"{name!r} is not a key of a scene, expected text such as \"operation.normal_force\"")
+            raise InputError(f"{shown(name)} is not a key of a scene, expected text such as \"operation.normal_force\"")
         path = f"{above}.{name}" if above else name if isinstance(value, Mapping) else _path_of(name)
         if isinstance(value, Mapping) and value and path not in _keys():
             yield from _flat(value, path)
@@ -184,8 +196,10 @@ def _flat(tables: Mapping[str, Any], above: str = "") -> Iterator[tuple[str, Any
             yield path, value
 
 
-def _path_of(name: str) -> str:
+def _path_of(name: Any) -> str:
     """The whole path of a key that is given by its last word."""
+    if not isinstance(name, str):
+        raise InputTypeError(f"{shown(name)} is not a key of a scene, expected text such as \"operation.normal_force\"")
     if "." in name or name in _keys():
         return name
     # Columns of a cycle are called as keys are.

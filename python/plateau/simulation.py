@@ -6,11 +6,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import pandas
 
-from plateau.errors import InputError
+from plateau.errors import InputError, InputTypeError
 from plateau.native import native
+from plateau.program import file_name
 from plateau.progress import Progress
-from plateau.scenes import Scene, scene_of
-from plateau.units import quantity
+from plateau.scenes import Scene, engine_name, scene_of
+from plateau.units import quantity, whole
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -57,7 +58,7 @@ class Simulation:
     (690, (40, 20), True)
     """
 
-    __slots__ = ("_native", "_progress", "_scene")
+    __slots__ = ("_native", "_progress", "_samples", "_scene")
 
     def __init__(
         self,
@@ -69,7 +70,8 @@ class Simulation:
     ) -> None:
         self._scene = scene_of(scene, {} if workers is None else {"numerics.workers": workers}, 2)
         self._progress = progress
-        self._native: Native = native().Simulation(self._scene._resolved, engine, Progress(False).tell)
+        self._samples: list[dict[str, float]] = []
+        self._native: Native = native().Simulation(self._scene._resolved, engine_name(engine), Progress(False).tell)
 
     @classmethod
     def load(cls, path: str | os.PathLike[str], *, workers: int | None = None, progress: bool | None = None) -> "Simulation":
@@ -86,8 +88,10 @@ class Simulation:
         Simulation
         """
         made = object.__new__(cls)
-        made._native = native().Simulation.load(path, None if workers is None else str(workers), Progress(False).tell)
-        made._scene, made._progress = scene_of(made._native.scene.resolved, {}, 2), progress
+        made._native = native().Simulation.load(
+            file_name(path, "a state"), None if workers is None else str(whole(workers, "workers", 1)), Progress(False).tell
+        )
+        made._scene, made._progress, made._samples = scene_of(made._native.scene.resolved, {}, 2), progress, []
         return made
 
     def save(self, path: str | os.PathLike[str]) -> None:
@@ -97,7 +101,7 @@ class Simulation:
         ----------
         path : path
         """
-        self._native.save(path)
+        self._native.save(file_name(path, "a state"))
 
     def advance(self, steps: int | None = None, *, time: float | str | None = None, watch: bool = True) -> None:
         """Takes steps; the interpreter is free for other threads meanwhile. Ctrl-C ends it between two steps, and it may go on.
@@ -122,7 +126,7 @@ class Simulation:
             if steps is not None:
                 raise InputError("advance: expected steps or a time, not both")
             steps = max(0, self._native.steps_until(quantity(time, "s")) - self._native.steps)
-        steps = 1 if steps is None else _count(steps)
+        steps = 1 if steps is None else whole(steps, "steps")
         if steps < MANY_STEPS:
             self._native.advance(steps, watch)
             return
@@ -147,15 +151,20 @@ class Simulation:
         if (steps is None) is (time is None):
             raise InputError("observe: expected a number of steps, or a time to come to")
         first = self.steps
-        last = self._native.steps_until(quantity(time, "s")) if time is not None else first + _count(steps)
-        every = self.revolution if every is None else _count(every, 1)
-        rows = []
+        last = self._native.steps_until(quantity(time, "s")) if time is not None else first + whole(steps, "steps")
+        every = self.revolution if every is None else whole(every, "steps", 1)
+        self._samples = []
         with Progress(self._progress) as progress:
             while self.steps < last:
                 self._native.advance(min(last - self.steps, every))
-                rows.append(self.sample())
+                self._samples.append(self.sample())
                 progress.steps(self.steps - first, last - first)
-        return pandas.DataFrame(rows).set_index("step") if rows else pandas.DataFrame()
+        return self.observed
+
+    @property
+    def observed(self) -> pandas.DataFrame:
+        """The table of the last `observe`, also of one that Ctrl-C or an error ended."""
+        return pandas.DataFrame(self._samples).set_index("step") if self._samples else pandas.DataFrame()
 
     def sample(self) -> dict[str, float]:
         """The series of a run file after the last step, in SI units (`units`); ``step`` and ``time`` first. ``contact_area``,
@@ -272,7 +281,7 @@ class Simulation:
 
     @disc_height.setter
     def disc_height(self, heights: Any) -> None:
-        self.set_heights(disc_height=heights)
+        self._set("disc_height", heights)
 
     @property
     def disc_substrate(self) -> "NDArray[np.float64]":
@@ -281,7 +290,7 @@ class Simulation:
 
     @disc_substrate.setter
     def disc_substrate(self, heights: Any) -> None:
-        self.set_heights(disc_substrate=heights)
+        self._set("disc_substrate", heights)
 
     @property
     def pin_height(self) -> "NDArray[np.float64]":
@@ -290,7 +299,7 @@ class Simulation:
 
     @pin_height.setter
     def pin_height(self, heights: Any) -> None:
-        self.set_heights(pin_height=heights)
+        self._set("pin_height", heights)
 
     @property
     def pin_substrate(self) -> "NDArray[np.float64]":
@@ -299,7 +308,7 @@ class Simulation:
 
     @pin_substrate.setter
     def pin_substrate(self, heights: Any) -> None:
-        self.set_heights(pin_substrate=heights)
+        self._set("pin_substrate", heights)
 
     @property
     def disc_status(self) -> "NDArray[np.uint8]":
@@ -353,11 +362,13 @@ class Simulation:
                 arrays.append(None)
                 continue
             expected = (disc if name.startswith("disc") else pin, rows)
-            array = np.ascontiguousarray(heights, dtype=np.float64)
-            if array.shape != expected:
-                raise InputError(f"{name} has the shape {array.shape}, expected {expected}: columns and rows")
-            arrays.append(array)
+            arrays.append(_heights(name, heights, expected))
         self._native.set_heights(arrays)
+
+    def _set(self, name: str, heights: Any) -> None:
+        if heights is None:
+            raise InputTypeError(f"{name} is None, expected an array of numbers, in m")
+        self.set_heights(**{name: heights})
 
     def _numbers(self, name: str) -> "NDArray[np.float64]":
         return np.frombuffer(self._native.field(name), dtype=np.float64).reshape(-1, self._native.mesh[0])
@@ -372,8 +383,16 @@ class Simulation:
         raise TypeError("a simulation cannot be pickled or copied: save its state, and load it where it is to go on")
 
 
-def _count(number: Any, least: int = 0) -> int:
-    """A number of steps."""
-    if isinstance(number, bool) or not hasattr(number, "__index__") or int(number) < least:
-        raise InputError(f"{number!r} steps, expected a whole number of at least {least}")
-    return int(number)
+def _heights(name: str, heights: Any, expected: tuple[int, int]) -> "NDArray[np.float64]":
+    """Heights that are given, of this shape."""
+    if isinstance(heights, np.ma.MaskedArray):
+        raise InputTypeError(f"{name} is a masked array, in which heights are missing: expected one of numbers, fill it first")
+    try:
+        given = np.asarray(heights)
+    except (OverflowError, RecursionError, TypeError, ValueError) as error:
+        raise InputTypeError(f"{name} is no array: {error}; expected one of numbers, in m") from None
+    if given.dtype.kind not in "iuf":
+        raise InputTypeError(f"{name} is an array of {given.dtype}, expected one of numbers, in m")
+    if given.shape != expected:
+        raise InputError(f"{name} has the shape {given.shape}, expected {expected}: columns and rows")
+    return np.ascontiguousarray(given, dtype=np.float64)

@@ -2,6 +2,7 @@
 
 import json
 import math
+import operator
 import re
 from dataclasses import dataclass
 from fractions import Fraction
@@ -10,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from plateau.errors import InputError, InputTypeError
+from plateau.errors import InputError, InputTypeError, shown
 
 # By SI unit, from the smallest on: symbol, how many of it are one SI unit, and the size, SI, below which it is taken.
 LADDERS: dict[str, list[tuple[str, float, float]]] = {
@@ -30,6 +31,8 @@ LADDERS: dict[str, list[tuple[str, float, float]]] = {
     "m-1": [("km⁻¹", 1e3, math.inf)],
 }
 NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
+# To which doubles count exactly.
+MOST = 2**53
 # 0 °C.
 ICE = 273.15
 
@@ -208,6 +211,13 @@ def in_si(number: str | float, unit: str, si: str, *, is_difference: bool = Fals
         raise InputError(f"{number} {unit} is too large a number") from None
 
 
+def whole(number: Any, what: str, least: int = 0) -> int:
+    """A whole number of something, at most as large as doubles count exactly."""
+    if isinstance(number, bool) or not hasattr(number, "__index__") or not least <= operator.index(number) <= MOST:
+        raise InputError(f"{shown(number)} {what}, expected a whole number from {least} to {MOST}")
+    return operator.index(number)
+
+
 def text_of(number: Any) -> str:
     """The text of a number with a unit, as of pint.
 
@@ -257,16 +267,19 @@ def quantity(said: object, si: str, *, is_difference: bool = False, needs_unit: 
     if hasattr(said, "magnitude") and hasattr(said, "units"):  # of pint
         said = text_of(said)
     is_number = isinstance(said, Real) and not isinstance(said, bool)
-    if is_number and math.isfinite(said):  # type: ignore[arg-type]
-        return float(said)  # type: ignore[arg-type]
-    shown = json.dumps(said, default=str, ensure_ascii=False)
+    try:
+        if is_number and math.isfinite(said):  # type: ignore[arg-type]
+            return float(said)  # type: ignore[arg-type]
+    except OverflowError:
+        raise InputError(f"{shown(said)} is too large a number, {expected}") from None
     if not is_number and not isinstance(said, str):
-        raise InputTypeError(f"{shown}, {expected}")
+        raise InputTypeError(f"{shown(said)}, {expected}")
+    told = json.dumps(said, default=str, ensure_ascii=False)
     found = re.fullmatch(rf"({NUMBER})\s*(\D.*)?", str(said).strip().replace("\N{MINUS SIGN}", "-"))
     unit = (found and found[2] or "").strip() or ("" if needs_unit else si)
     if found is None or not unit or not math.isfinite(float(found[1])) or si == "1" and unit not in ("%", "1" if not needs_unit else "%"):
-        raise InputError(f"{shown}, {expected}")
+        raise InputError(f"{told}, {expected}")
     try:
         return in_si(found[1], unit, si, is_difference=is_difference)
     except InputError as error:
-        raise InputError(f"{shown}: {error}, {expected}") from None
+        raise InputError(f"{told}: {error}, {expected}") from None

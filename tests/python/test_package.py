@@ -99,6 +99,17 @@ class Runs(InFolder):
         # 60 s at 850 turns a minute, of which one simulated stands for 20: 42.5 of 690 columns each.
         self.assertEqual((found["rows"], found["steps"], found["workers"]), (10, 29325, 2))
 
+    def test_check_and_commands_of_a_scene_that_is_in_no_file(self):
+        scene = plateau.Scene(QUICK, rows=10).replace(captured_fraction=0.4)
+        for given in (scene, scene.tables, scene.toml):
+            found = plateau.check(given, set={"operation.normal_force": "5 N"})
+            self.assertEqual((found["rows"], tomllib.loads(found["scene"])["plateaus"]["captured_fraction"]), (10, 0.4))
+        self.assertNotIn("reads", [file["access"] for file in plateau.check(scene)["files"]])
+        self.assertEqual([surface["rows"] for surface in plateau.command("surface", "--prepare", scene, json=True)], [10, 10])
+        with self.assertRaisesRegex(plateau.InputError, "mesh.rows"):
+            plateau.check({"mesh": {"rows": 0}})
+        self.assertFalse([name for name in os.listdir() if name.startswith(".scene")])
+
     def test_warnings_of_the_program(self):
         with self.assertWarnsRegex(plateau.PlateauWarning, "nominal pressure of 669.6 MPa"):
             plateau.check("quick.toml", set={"operation.normal_force": "5 kN"})
@@ -152,7 +163,7 @@ class Runs(InFolder):
         for call in (plateau.run, plateau.check, plateau.sweep, plateau.collect, plateau.study.effects, plateau.open_study, plateau.open_run):
             for wrong in (None, 3, {}):
                 # The number of an open file, and a scene without keys.
-                if (call, wrong) not in [(plateau.open_run, 3), (plateau.run, {})]:
+                if (call, wrong) not in [(plateau.open_run, 3), (plateau.run, {}), (plateau.check, {})]:
                     self.assertRaises(plateau.InputTypeError, call, wrong)
         with self.assertRaisesRegex(plateau.InputError, "is empty"):
             plateau.open_run("")

@@ -4,7 +4,6 @@ Expected numbers are those of the program's run files, closed forms of the load 
 
 import ast
 import gc
-import inspect
 import math
 import os
 import pathlib
@@ -175,6 +174,17 @@ class Fields(InFolder):
         with self.assertRaisesRegex(plateau.InputError, "no plateaus form"):
             without.disc_height = without.disc_height + 1e-6
 
+    def test_what_is_no_array_of_heights(self):
+        simulation = plateau.Simulation(QUICK)
+        heights = simulation.pin_height
+        kept = heights.tobytes()
+        for wrong in (heights.astype(complex), heights > 0.0, heights.astype(str), heights.astype(object), np.ma.masked_less(heights, 0.0),
+                      [[1.0], [1.0, 2.0]], [[10**400] * 20] * 40, "heights", None):
+            with self.assertRaisesRegex(plateau.InputTypeError, "^pin_height is .*expected (an array|one) of numbers"):
+                simulation.pin_height = wrong
+        simulation.pin_height = heights.tolist()
+        self.assertEqual(simulation.pin_height.tobytes(), kept)
+
     def test_columns_under_the_pin(self):
         """The first displacement carries the load with the overlaps of all pairs: k A u summed here."""
         simulation = plateau.Simulation(QUICK)
@@ -216,16 +226,36 @@ class Control(InFolder):
         self.assertEqual(warned.filename, __file__)
         with self.assertRaisesRegex(plateau.InputError, "leave out .operation.cycle."):
             cycle.rotational_speed = 1.0
-        for wrong in (-1, 1.5, True, "3"):
+        for wrong in (-1, 1.5, True, "3", 2**64, 10**30):
             self.assertRaises(plateau.InputError, simulation.advance, wrong)
+            self.assertRaises(plateau.InputError, simulation.observe, wrong)
         with self.assertRaisesRegex(plateau.InputError, "choose it, give a number"):
             plateau.Simulation(plateau.Scene(QUICK).replace({"numerics.time_acceleration": {"tolerance": 0.01, "max": 100}}))
         with self.assertRaisesRegex(plateau.InputError, 'expected "fast" or "plain"'):
             plateau.Simulation(QUICK, engine="slow")
         simulation.advance(2, watch=False)
+        for wrong in ("1e300 rad/s", 1e-320):
+            with self.assertRaisesRegex(plateau.InputError, "a step takes .* s, which is lost .* expected one nearer to 89"):
+                simulation.rotational_speed = wrong
         with self.assertRaisesRegex(plateau.InputError, "pressures of step 2 were not kept"):
             simulation.sample()
 
+    def test_arguments_that_nothing_can_hold(self):
+        simulation, deep, half = plateau.Simulation(QUICK), [], "\ud800"
+        for _ in range(100_000):
+            deep = [deep]
+        calls = [lambda: simulation.advance(time=10**400), lambda: simulation.advance(time=deep), lambda: simulation.save(half),
+                 lambda: setattr(simulation, "normal_force", half), lambda: plateau.Simulation.load("a\0b"),
+                 lambda: plateau.Simulation.load("a.state", workers=10**30), lambda: plateau.Simulation(QUICK, engine=half),
+                 lambda: plateau.Scene(half), lambda: plateau.Scene(QUICK, title=half), lambda: plateau.Scene(f"version = 1\n# {half}"),
+                 lambda: plateau.Scene(QUICK, title=deep), lambda: plateau.Scene(QUICK, rows=10**5000), lambda: plateau.Scene(QUICK)[3],
+                 lambda: plateau.run(QUICK, half), lambda: plateau.run(QUICK, "q.h5", engine=None),
+                 lambda: plateau.sweep("none.toml", jobs=-1), lambda: plateau.sweep("none.toml", max_failures=10**30)]
+        for place, call in enumerate(calls):
+            with self.subTest(place), self.assertRaises(plateau.InputError) as caught:
+                call()
+            # It can be printed.
+            str(caught.exception).encode()
 
     def test_a_step_that_failed_is_followed_by_nothing(self):
         for workers in (1, 2):
@@ -328,6 +358,32 @@ class Processes(InFolder):
         out, err = process.communicate(timeout=120)
         self.assertEqual(out, "1 True\n", err)
 
+    def test_samples_before_an_interrupt_are_kept(self):
+        process = python(
+            f"s = plateau.Simulation({str(QUICK)!r})\nprint('begun', flush=True)\n"
+            "try:\n    s.observe(10**12, every=10)\nexcept KeyboardInterrupt:\n"
+            "    print(list(s.observed.index) == list(range(10, 10 * len(s.observed) + 1, 10)), 0 <= s.steps - s.observed.index[-1] <= 10)"
+        )
+        self.assertEqual(process.stdout.readline(), "begun\n")
+        time.sleep(1.0)
+        process.send_signal(signal.SIGINT)
+        out, err = process.communicate(timeout=120)
+        self.assertEqual(out, "True True\n", err)
+
+    def test_a_run_that_could_not_be_written_lets_go_of_its_file(self):
+        limits = resource.getrlimit(resource.RLIMIT_FSIZE)
+        resource.setrlimit(resource.RLIMIT_FSIZE, (200_000, limits[1]))
+        try:
+            with self.assertRaisesRegex(plateau.RunFailed, "File too large"):
+                plateau.run(QUICK, "full.h5")
+        finally:
+            resource.setrlimit(resource.RLIMIT_FSIZE, limits)
+        there = os.stat("full.h5")
+        opened = [os.stat(f"/proc/self/fd/{name}") for name in os.listdir("/proc/self/fd") if os.path.exists(f"/proc/self/fd/{name}")]
+        self.assertNotIn((there.st_dev, there.st_ino), [(file.st_dev, file.st_ino) for file in opened])
+        subprocess.run([os.environ["PLATEAU_PROGRAM"], "repair", "full.h5"], check=True, capture_output=True)
+        self.assertEqual(plateau.open_run("full.h5").attrs["state"], "interrupted")
+
     def test_memory_stays_the_same_over_samples(self):
         simulation = plateau.Simulation(QUICK)
 
@@ -342,33 +398,14 @@ class Processes(InFolder):
         self.assertLess(take(10000) - before, 2048)
 
 
-class Stubs(unittest.TestCase):
-    def test_they_say_what_the_module_has(self):
-        module, tree = native(), ast.parse((ROOT / "python/plateau/_native.pyi").read_text())
-        public = {name for name in vars(module) if not name.startswith("_")}
-        told = set()
-        for item in tree.body:
-            if isinstance(item, ast.AnnAssign):
-                told.add(item.target.id)
-            elif isinstance(item, ast.FunctionDef):
-                told.add(item.name)
-                self.compare(getattr(module, item.name), item, 0)
-            elif isinstance(item, ast.ClassDef):
-                told.add(item.name)
-                found = getattr(module, item.name)
-                members = {member.name: member for member in item.body}
-                self.assertEqual(set(members) - {"__new__"}, {name for name in vars(found) if not name.startswith("_")})
-                for name, member in members.items():
-                    if name == "__new__":
-                        self.compare(found, member, 1)
-                    elif not member.decorator_list:
-                        self.compare(getattr(found, name), member, 0)
-        self.assertEqual(told, public)
-
-    def compare(self, function, stub, first):
-        parameters = [argument.arg for argument in stub.args.args][first:]
-        self.assertEqual(list(inspect.signature(function).parameters), parameters, stub.name)
-        self.assertTrue(function.__doc__, stub.name)
+class Stubs(InFolder):
+    def test_they_are_those_of_the_module(self):
+        subprocess.run(["sh", str(ROOT / "scripts/stubs.sh"), "_native.pyi"], check=True, timeout=60)
+        found, kept = pathlib.Path("_native.pyi").read_text(), (ROOT / "python/plateau/_native.pyi").read_text()
+        self.assertEqual(found, kept, "sh scripts/stubs.sh writes them anew")
+        # What it tells is all that there is, so that nothing is left out.
+        told = {item.name for item in ast.parse(found).body if isinstance(item, ast.ClassDef | ast.FunctionDef)}
+        self.assertEqual(told, {name for name in vars(native()) if not name.startswith("_")})
 
 
 if __name__ == "__main__":

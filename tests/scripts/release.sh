@@ -57,7 +57,7 @@ esac
 with zipfile.ZipFile(sys.argv[1], "w") as wheel:
     wheel.writestr("plateau_brake-1.2.3.data/scripts/plateau", program)
     wheel.writestr("plateau_brake-1.2.3.dist-info/licenses/THIRD-PARTY-NOTICES", "notices")
-    wheel.writestr("plateau_brake-1.2.3.dist-info/sboms/plateau.cyclonedx.json", "{}")
+    wheel.writestr("plateau_brake-1.2.3.dist-info/sboms/program.cdx.json", "{}")
 print(sys.argv[1])
 PYTHON
 END

@@ -20,7 +20,7 @@ impl Parameters {
             by_torque: false,
             angular_velocity: 850.0 * TAU / 60.0,
             cycle: None,
-            is_controlled: false,
+            control: None,
             foundation_height: 50e-6,
             materials: Materials {
                 disc_primary: disc,

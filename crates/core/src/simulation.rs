@@ -17,7 +17,7 @@ use crate::engine::kernel::InstructionSet;
 #[cfg(feature = "mpi")]
 use crate::engine::parts::Needs;
 use crate::model::accounts::{AccountsReport, Resting};
-use crate::model::clock::Clock;
+use crate::model::clock::{Clock, Operation};
 use crate::model::cycle::Kind;
 pub use crate::model::error::SimulationError;
 use crate::model::heat::account::HeatModel;
@@ -30,7 +30,7 @@ use crate::model::state::{Base, Disc, InitialSurfaces, Pin};
 use crate::observe::extra::{self, Extra};
 use crate::observe::schedule::Moment;
 use crate::observe::{ABSENT, Map, MapValues, QUANTITIES, Quantity, Sample, Snapshot, quantities};
-use crate::simulation::checkpoint::{Checkpoint, LastContact};
+use crate::simulation::checkpoint::{Checkpoint, Kept, LastContact};
 use crate::simulation::workers::Workers;
 
 /// A pin on a disc, and everything that happened to them so far.
@@ -45,6 +45,8 @@ pub struct Simulation {
     reference_height: f64,
     /// Speed of the last step, rad/s, where another one is told since.
     last_speed: Option<f64>,
+    /// Load and speed of the scene.
+    of_scene: Operation,
     contact: Option<LastContact>,
     resting: Option<LastMoment>,
 }
@@ -99,9 +101,7 @@ impl Simulation {
         let (parameters, pin_base) = (Arc::new(parameters), surfaces.pin_base.clone());
         let reference_height = surfaces.reference_height();
         let workers = Workers::start(&parameters, surfaces, execution, columns)?;
-        let clock = parameters.clock();
-        let (last_speed, contact, resting) = (None, None, None);
-        Ok(Self { parameters, pin_base, execution, workers, clock, reference_height, last_speed, contact, resting })
+        Ok(Self::of(parameters, pin_base, execution, workers, reference_height))
     }
 
     /// The same as [`Simulation::new`] on the ranks of an MPI job, of which this process is one (feature `mpi`).
@@ -125,9 +125,30 @@ impl Simulation {
         let parameters = Arc::new(parameters);
         let execution = Execution { workers: communicator.size(), instructions, ..Execution::default() };
         let workers = Workers::on_ranks(&parameters, &surfaces, execution, communicator);
-        let (clock, reference_height, pin_base) = (parameters.clock(), surfaces.reference_height(), surfaces.pin_base);
-        let (last_speed, contact, resting) = (None, None, None);
-        Ok(Self { parameters, pin_base, execution, workers, clock, reference_height, last_speed, contact, resting })
+        let reference_height = surfaces.reference_height();
+        Ok(Self::of(parameters, surfaces.pin_base, execution, workers, reference_height))
+    }
+
+    fn of(
+        parameters: Arc<Parameters>,
+        pin_base: Vec<Base>,
+        execution: Execution,
+        workers: Workers,
+        reference_height: f64,
+    ) -> Self {
+        let Parameters { normal_force: load, angular_velocity, .. } = *parameters;
+        Self {
+            clock: parameters.clock(),
+            of_scene: Operation { load, angular_velocity, control: None },
+            parameters,
+            pin_base,
+            execution,
+            workers,
+            reference_height,
+            last_speed: None,
+            contact: None,
+            resting: None,
+        }
     }
 
     /// One step: see the table in [`crate`].
@@ -169,7 +190,7 @@ impl Simulation {
     pub fn accelerate(&mut self, acceleration: f64) -> Result<(), SimulationError> {
         self.workers.accelerate(acceleration)?;
         self.resting = None;
-        Arc::make_mut(&mut self.parameters).time_acceleration = acceleration;
+        self.parameters = Arc::new(self.parameters.accelerated(acceleration, self.steps_done()));
         self.clock = self.clock.changed(self.steps_done(), self.parameters.step_time());
         Ok(())
     }
@@ -190,11 +211,17 @@ impl Simulation {
         if let Some(what) = checkpoint.misfit(&memory, engine.as_ref()) {
             return Err(SimulationError::OtherState { what });
         }
+        let (operation, last_speed) = checkpoint.kept.control().unwrap_or((self.of_scene, None));
+        if operation != self.operation() {
+            self.workers.operate(&operation)?;
+        }
         self.workers.restore(checkpoint)?;
         self.resting = None;
         self.clock = checkpoint.clock();
-        self.contact = checkpoint.contact.clone();
-        Arc::make_mut(&mut self.parameters).time_acceleration = checkpoint.memory.time_acceleration;
+        self.contact = checkpoint.kept.contact().cloned();
+        self.last_speed = last_speed;
+        let time_acceleration = checkpoint.memory.time_acceleration;
+        self.parameters = Arc::new(Parameters { time_acceleration, ..self.parameters.under(&operation) });
         Ok(())
     }
 
@@ -522,9 +549,9 @@ impl Simulation {
             let name = |cell| format!("the {name} at (column {}, row {})", cell / rows, cell % rows);
             self.refuse_not_finite(values.iter().copied(), name)?;
         }
-        let contact = self.last_contact().cloned();
+        let kept = Kept::new(self.operation(), self.last_speed, self.last_contact().cloned());
         let heights = Heights { disc_height, disc_substrate, pin_height, pin_substrate };
-        Ok(Checkpoint { heights, contact, memory, engine })
+        Ok(Checkpoint { heights, kept, memory, engine })
     }
 
     /// Looks at all heights: one that is no number is followed by others, and shows in no series for a while.

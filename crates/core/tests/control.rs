@@ -123,3 +123,80 @@ fn what_cannot_be_is_refused_and_changes_nothing() {
     assert!(matches!(simulation.set_heights(short), Err(SimulationError::Checkpoint(_))));
     assert_eq!(heights(&mut simulation), before);
 }
+
+#[test]
+fn a_state_holds_load_and_speed_that_were_set() {
+    let execution = |engine, workers| Execution { engine, workers, ..Execution::default() };
+    for (seed, engine) in (0..few_or_all(8, 300)).flat_map(|seed| [(seed, Engine::Fast), (seed, Engine::Plain)]) {
+        let parameters = Parameters { cycle: None, by_torque: false, ..random_scene(seed, DebrisRule::Local) };
+        let load = parameters.normal_force;
+        let mut first = start(&parameters, seed, execution(engine, 1));
+        first.advance_to(2).expect("steps");
+        let untouched = first.checkpoint().expect("a state");
+        for (of_load, speed) in [(9.0, 3.0), (0.5, 70.0)] {
+            // What sums are multiples of goes by the largest load, whatever is made anew since.
+            first.accelerate(parameters.time_acceleration + of_load).expect("an acceleration");
+            first.operate(of_load * load, speed).expect("a load");
+            first.advance_to(first.steps_done() + STEPS).expect("steps");
+        }
+        // Told after the last step, which had another.
+        first.operate(2.0 * load, 11.0).expect("a load");
+        let state = first.checkpoint().expect("a state");
+        let mut ends = Vec::new();
+        let mut end = |simulation: &mut Simulation| {
+            let speed = simulation.last_speed();
+            simulation.advance_to(simulation.steps_done() + 2 * STEPS).expect("steps");
+            ends.push((speed, simulation.sample().expect("a sample"), simulation.checkpoint().expect("a state")));
+        };
+        end(&mut first);
+        for workers in [1, 2] {
+            let mut again = start(&parameters, seed, execution(engine, workers));
+            again.restore(&state).expect("its state");
+            end(&mut again);
+        }
+        // Whatever was told a simulation before.
+        first.restore(&state).expect("its state");
+        end(&mut first);
+        assert!(ends.iter().all(|found| found == &ends[0]), "scene {seed}, {engine:?}");
+        assert_eq!(ends[0].0, 70.0);
+        let mut anew = start(&parameters, seed, execution(engine, 1));
+        for simulation in [&mut anew, &mut first] {
+            simulation.restore(&untouched).expect("its state");
+            assert_eq!(simulation.parameters(), &parameters);
+            simulation.advance_to(40).expect("steps");
+        }
+        assert_eq!(anew.checkpoint(), first.checkpoint(), "scene {seed}, {engine:?}");
+    }
+}
+
+#[test]
+fn distance_goes_on_from_a_change_of_the_acceleration() {
+    for engine in [Engine::Fast, Engine::Plain] {
+        let parameters = Parameters { cycle: None, ..random_scene(1, DebrisRule::Local) };
+        let mut simulation = start(&parameters, 1, Execution { engine, ..Execution::default() });
+        let column = parameters.mesh.column_angle() * parameters.mesh.mean_radius();
+        let mut distance = 0.0;
+        for (acceleration, speed) in [(2.0, None), (3.0, Some(10.0)), (5.0, None), (1.0, Some(2.0))] {
+            simulation.accelerate(acceleration).expect("an acceleration");
+            if let Some(speed) = speed {
+                simulation.operate(parameters.normal_force, speed).expect("a speed");
+            }
+            simulation.advance_to(simulation.steps_done() + 6).expect("steps");
+            distance += 6.0 * acceleration * column;
+            let found = simulation.sample().expect("a sample").sliding_distance;
+            assert!((found / distance - 1.0).abs() < 1e-14, "{engine:?}: {found:e}, expected {distance:e}");
+        }
+    }
+}
+
+#[test]
+fn a_speed_at_which_time_stands_still_is_refused() {
+    let parameters = Parameters { cycle: None, ..random_scene(2, DebrisRule::Local) };
+    let mut simulation = start(&parameters, 2, Execution::default());
+    simulation.advance_to(3).expect("steps");
+    for wrong in [1e300, 1e-320] {
+        let refused = simulation.operate(parameters.normal_force, wrong);
+        assert!(matches!(refused, Err(SimulationError::TimeLost { .. })), "{refused:?}");
+    }
+    assert_eq!(simulation.parameters(), &parameters);
+}

@@ -251,10 +251,23 @@ fn belongs_to(process: u32, user: u32) -> bool {
 }
 
 fn writes(process: u32, wanted: &fs::Metadata) -> io::Result<bool> {
-    let files = fs::read_dir(format!("/proc/{process}/fd"))?;
-    Ok(files.flatten().any(|file| {
-        let same = fs::metadata(file.path()).is_ok_and(|file| (file.dev(), file.ino()) == (wanted.dev(), wanted.ino()));
-        same && is_writing(process, &file.file_name().to_string_lossy())
+    Ok(written_by(process, (wanted.dev(), wanted.ino()))?.next().is_some())
+}
+
+/// Numbers of the open files with which this process writes a file, given by device and inode.
+pub(crate) fn written_here(file: (u64, u64)) -> Vec<i32> {
+    let numbers =
+        written_by(std::process::id(), file).map(|names| names.filter_map(|name| name.parse().ok()).collect());
+    numbers.unwrap_or_default()
+}
+
+/// Names in `/proc/PID/fd` with which a process writes a file.
+fn written_by(process: u32, wanted: (u64, u64)) -> io::Result<impl Iterator<Item = String>> {
+    let files = fs::read_dir(format!("/proc/{process}/fd"))?.flatten();
+    Ok(files.filter_map(move |file| {
+        let is_same = fs::metadata(file.path()).is_ok_and(|file| (file.dev(), file.ino()) == wanted);
+        let name = file.file_name().to_string_lossy().into_owned();
+        (is_same && is_writing(process, &name)).then_some(name)
     }))
 }
 

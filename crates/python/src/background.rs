@@ -10,6 +10,7 @@ use std::thread;
 use std::time::Duration;
 
 use plateau_core::simulation::Simulation;
+use plateau_io::run_file::close_abandoned;
 use plateau_run::Observer;
 use plateau_run::sweep::SweepObserver;
 use pyo3::prelude::*;
@@ -108,6 +109,14 @@ impl SweepObserver for Messages {
     }
 }
 
+/// Puts a file in memory in the place of an open one.
+fn put_aside(py: Python<'_>, number: i32) -> PyResult<()> {
+    let os = py.import("os")?;
+    let other = os.call_method1("memfd_create", ("plateau",))?;
+    os.call_method1("dup2", (&other, number))?;
+    os.call_method1("close", (other,)).map(drop)
+}
+
 /// Does `work` on a thread and gives what comes of it. An exception in this thread, such as that of Ctrl-C, asks the work to stop, and is
 /// raised when it has.
 ///
@@ -137,6 +146,8 @@ pub fn in_background<T: Send>(
         }
         thread.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))
     });
+    // The file of a run that failed is given up, and this process goes on.
+    close_abandoned(|number| put_aside(py, number).is_ok());
     // What is said last is worth knowing also where it was stopped, but no exception takes the place of the first.
     let delivered = messages.deliver(tell);
     match (raised, done) {

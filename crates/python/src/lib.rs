@@ -40,10 +40,9 @@ mod native {
     use pyo3::types::IntoPyDict as _;
 
     #[pymodule_init]
-    fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
-        let forked = pyo3::wrap_pyfunction!(super::simulation::forked, module)?;
-        let options = [("after_in_child", forked)].into_py_dict(module.py())?;
-        module.py().import("os")?.call_method("register_at_fork", (), Some(&options))?;
-        module.add("program", super::program().build())
+    fn init(py: Python<'_>) -> PyResult<()> {
+        let forked = pyo3::wrap_pyfunction!(super::simulation::forked, py)?;
+        let options = [("after_in_child", forked)].into_py_dict(py)?;
+        py.import("os")?.call_method("register_at_fork", (), Some(&options)).map(drop)
     }
 }

@@ -42,8 +42,6 @@ struct Inner {
     assembly: Assembly,
     /// Surface files that were read, with their SHA-256.
     inputs: Vec<(PathBuf, String)>,
-    /// Load, speed and the largest load so far, where they were set between steps.
-    operation: Option<[f64; 3]>,
     /// Why a step failed: nothing follows.
     failed: Option<String>,
 }
@@ -63,7 +61,7 @@ impl Inner {
         let options = ExecutionOptions { engine, ..ExecutionOptions::default() };
         let execution = execution::decide(&scene, 1, &options, &loaded.surfaces, &mut observer)?;
         let assembly = Assembly::new(&scene, loaded.surfaces, execution)?;
-        Ok(Self { scene, assembly, inputs: loaded.inputs, operation: None, failed: None })
+        Ok(Self { scene, assembly, inputs: loaded.inputs, failed: None })
     }
 
     /// Keeps sample and pressures of the last step, if they were, until there is another one.
@@ -77,24 +75,9 @@ impl Inner {
         }
     }
 
-    fn operate(&mut self, load: f64, speed: f64, largest: f64) -> Result<(), SimulationError> {
-        let largest = self.operation.map_or(largest, |[.., before]| largest.max(before));
-        let simulation = &mut self.assembly.simulation;
-        simulation.operate(load, speed)?;
-        self.operation = Some([load, speed, largest]);
-        Ok(())
-    }
-
     /// Goes on from a state.
     fn restore(&mut self, state: &State) -> Result<(), Failure> {
         state.compare(&self.inputs)?;
-        if let Some([load, speed, largest]) = state.operation {
-            // What sums are multiples of goes by the largest load.
-            self.operate(largest, speed, largest)?;
-            self.assembly.restore(&state.simulation)?;
-            self.operate(load, speed, largest)?;
-            return Ok(());
-        }
         Ok(self.assembly.restore(&state.simulation)?)
     }
 
@@ -201,7 +184,7 @@ impl Simulation {
             py.detach(|| {
                 inner.keep_contact()?;
                 let state = inner.assembly.checkpoint()?;
-                State::new(&inner.scene, &inner.inputs, inner.operation, state).write(&path)
+                State::new(&inner.scene, &inner.inputs, state).write(&path)
             })
         })
     }
@@ -240,10 +223,7 @@ impl Simulation {
 
     /// Sets load and speed of the coming steps.
     fn operate(&self, py: Python<'_>, load: f64, speed: f64) -> PyResult<()> {
-        self.with(py, |inner| {
-            let first = inner.assembly.simulation.parameters().normal_force;
-            Ok(inner.operate(load, speed, load.max(first))?)
-        })
+        self.with(py, |inner| Ok(inner.assembly.simulation.operate(load, speed)?))
     }
 
     /// Rows, disc columns, pin columns, the angle of a column (rad), and the disc column under pin column 0 in the coming step.
@@ -282,6 +262,7 @@ impl Simulation {
     }
 
     /// The series after the last step, by name.
+    #[pyo3(signature = () -> "dict[str, float]")]
     fn sample<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let (sample, quantities) = self.with(py, |inner| {
             let extras = inner.scene.extras(false);

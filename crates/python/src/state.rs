@@ -18,22 +18,15 @@ pub struct State {
     pub scene: String,
     /// Surface files that were read, with their SHA-256.
     pub inputs: Vec<(PathBuf, String)>,
-    /// Load (N, or N m), rotational speed (rad/s) and the largest load so far, where they were set between steps.
-    pub operation: Option<[f64; 3]>,
     /// The simulation.
     pub simulation: SimulationState,
 }
 
 impl State {
     /// Puts a state together.
-    pub fn new(
-        scene: &Scene,
-        inputs: &[(PathBuf, String)],
-        operation: Option<[f64; 3]>,
-        simulation: SimulationState,
-    ) -> Self {
+    pub fn new(scene: &Scene, inputs: &[(PathBuf, String)], simulation: SimulationState) -> Self {
         let (program, scene) = (program().build(), scene.resolved.clone());
-        Self { program, scene, inputs: inputs.to_vec(), operation, simulation }
+        Self { program, scene, inputs: inputs.to_vec(), simulation }
     }
 
     /// Writes it; what was there before stays until it is complete.

@@ -17,6 +17,7 @@ from plateau.progress import Progress
 from plateau.study.data import Factor, Study
 from plateau.study.results import analysed
 from plateau.toml_text import toml_document
+from plateau.units import whole
 
 # Keys of a study file that say where its points are, and the settings of a fit.
 OF_DESIGNS = {"resolution", "generators", "points", "trajectories", "levels", "alpha", "centre_points", "seed", "fit"}
@@ -85,8 +86,10 @@ def make_missing(
     max_failures: int | None = None,
 ) -> None:
     """Makes the missing runs of a study file in this process."""
+    given = [(jobs, "jobs", 1), (workers, "workers", 1), (max_failures, "failures", 0)]
+    counts = [None if number is None else whole(number, what, least) for number, what, least in given]
     with Progress(progress, stacklevel) as shown:
-        native().make_runs(path, jobs, workers, max_failures, retry, shown.tell)
+        native().make_runs(path, *counts, retry, shown.tell)
 
 
 def _document(study: Study) -> dict[str, Any]:

@@ -15,7 +15,7 @@ use crate::engine::coefficients::Coefficients;
 use crate::engine::comm::Communicator;
 use crate::engine::contact::Contact;
 use crate::engine::debris::Debris;
-use crate::engine::exact::{ExactSum, Quantum};
+use crate::engine::exact::Quantum;
 use crate::engine::execution::Execution;
 use crate::engine::filling::{Filling, relief};
 use crate::engine::forecast::Forecast;
@@ -28,7 +28,7 @@ use crate::engine::sector::Partition;
 use crate::engine::strips::{DiscSector, PinStrips, strips};
 use crate::engine::sums::{RowWeights, Sums};
 use crate::model::accounts::{Accounts, StepFacts};
-use crate::model::clock::{Clock, StepOperation};
+use crate::model::clock::{Clock, Operation, StepOperation};
 use crate::model::error::SimulationError;
 use crate::model::memory::{Course, Heights, History, Memory};
 use crate::model::parameters::Parameters;
@@ -83,10 +83,10 @@ pub(crate) struct Worker<C> {
     edges: Vec<Edge>,
     message: Vec<u64>,
     halo: Vec<u64>,
-    /// Σ k A u of the own cells in the last step, if it was watched.
-    load: ExactSum,
-    /// p of the own pin cells in the last step, column by column, Pa; empty if it was not watched.
-    pressure: Vec<f64>,
+    /// The own pairs that touched in the last step that was watched: of a step pressures are seldom asked for.
+    touching: Vec<NearPair>,
+    /// Whether that was the last step.
+    is_watched: bool,
     course: Course,
     /// Friction, heat and emission, where the scene asks for any.
     accounts: Option<Box<Accounts>>,
@@ -158,8 +158,8 @@ impl<C: Communicator> Worker<C> {
             weights,
             message: Vec::new(),
             halo: Vec::new(),
-            load: ExactSum::default(),
-            pressure: Vec::new(),
+            touching: Vec::new(),
+            is_watched: false,
             course: Course { largest_stiffness_number, ..Course::default() },
             accounts: Accounts::of(&parameters).map(Box::new),
             wear_rate_factor: 1.0,
@@ -184,7 +184,7 @@ impl<C: Communicator> Worker<C> {
     /// Takes steps until `step` of them are done; the last may be watched, for a sample or maps of pressure to follow.
     pub fn advance_to(&mut self, step: u64, watched: bool) -> Result<(), SimulationError> {
         while self.course.steps < step {
-            self.pressure.clear();
+            self.is_watched = false;
             self.advance(watched && self.course.steps + 1 == step)?;
         }
         Ok(())
@@ -193,7 +193,7 @@ impl<C: Communicator> Worker<C> {
     /// Refuses to report pressures of a step that was not watched.
     fn check_watched(&self) -> Result<(), SimulationError> {
         let steps = self.course.steps;
-        if steps > 0 && self.pressure.is_empty() { Err(SimulationError::NotWatched { step: steps }) } else { Ok(()) }
+        if steps > 0 && !self.is_watched { Err(SimulationError::NotWatched { step: steps }) } else { Ok(()) }
     }
 
     /// One step:
@@ -213,7 +213,7 @@ impl<C: Communicator> Worker<C> {
         self.operation = self.parameters.operation_by(step, &self.clock, friction)?;
         let largest_overlap = self.balance()?;
         if watched {
-            self.record_pressures();
+            self.record_touching();
         }
         let touching = || self.contact.touching_pairs(&self.sums, &self.reading.near);
         self.debris.prepare(&self.contact, largest_overlap, touching);
@@ -272,16 +272,16 @@ impl<C: Communicator> Worker<C> {
 
     /// Has the coming steps stand for `acceleration` revolutions each, in place of what it was so far (model 4.6).
     pub fn accelerate(&mut self, acceleration: f64) -> Result<(), SimulationError> {
-        let parameters = Parameters { time_acceleration: acceleration, ..Parameters::clone(&self.parameters) };
+        let parameters = self.parameters.accelerated(acceleration, self.course.steps);
         self.clock = self.clock.changed(self.course.steps, parameters.step_time());
         self.accept_coefficients(&parameters);
         // The sums of the coming step were taken with the weights of before.
         self.bracket.map_or(Ok(()), |bracket| self.read_columns(&bracket))
     }
 
-    /// Has the coming steps taken under another load (N, or N m) and at another speed (rad/s).
-    pub fn operate(&mut self, load: f64, angular_velocity: f64) -> Result<(), SimulationError> {
-        let parameters = self.parameters.under(load, angular_velocity);
+    /// Has the coming steps taken under another load and at another speed.
+    pub fn operate(&mut self, operation: &Operation) -> Result<(), SimulationError> {
+        let parameters = self.parameters.under(operation);
         self.clock = self.clock.changed(self.course.steps, parameters.step_time());
         if parameters.largest_load() <= self.weights.largest_load {
             self.parameters = Arc::new(parameters);
@@ -356,7 +356,8 @@ impl<C: Communicator> Worker<C> {
         self.debris.set_account(account);
         (self.contact, self.history, self.forecast) = (contact, history, forecast);
         (self.bracket, self.overlap_quantum) = (bracket, overlap_quantum);
-        self.pressure.clear();
+        self.is_watched = false;
+        self.touching.clear();
         // What the last pass read of the coming step is read again.
         self.bracket.map_or(Ok(()), |bracket| self.read_columns(&bracket))?;
         self.course = course;

@@ -10,6 +10,7 @@ use crossbeam::channel::{Receiver, Sender, unbounded};
 use crate::engine::comm::threads::Alarm;
 use crate::engine::comm::{CommError, Communicator};
 use crate::engine::worker::{EngineMemory, Worker};
+use crate::model::clock::Operation;
 use crate::model::error::SimulationError;
 use crate::model::memory::{Course, Heights, Memory};
 use crate::observe::{Map, Sample, Snapshot};
@@ -22,7 +23,7 @@ enum Order {
     /// Change the acceleration.
     Accelerate(f64),
     /// Change load and speed.
-    Operate(f64, f64),
+    Operate(Operation),
     /// Take over a state.
     Restore(Arc<(Heights, Memory, EngineMemory)>),
     /// Tell what all workers know alike.
@@ -107,9 +108,9 @@ impl WorkerThreads {
         self.go(&Order::Accelerate(acceleration))
     }
 
-    /// Changes load (N, or N m) and speed (rad/s) of the coming steps.
-    pub fn operate(&mut self, load: f64, angular_velocity: f64) -> Result<(), SimulationError> {
-        self.go(&Order::Operate(load, angular_velocity))
+    /// Changes load and speed of the coming steps.
+    pub fn operate(&mut self, operation: &Operation) -> Result<(), SimulationError> {
+        self.go(&Order::Operate(*operation))
     }
 
     fn go(&mut self, order: &Order) -> Result<(), SimulationError> {
@@ -200,7 +201,7 @@ fn follow<C: Communicator>(worker: &mut Worker<C>, order: &Order) -> Result<Answ
     match order {
         Order::AdvanceTo(step, watched) => worker.advance_to(*step, *watched).map(|()| Answer::Course(worker.course())),
         Order::Accelerate(acceleration) => worker.accelerate(*acceleration).map(|()| Answer::Course(worker.course())),
-        Order::Operate(load, speed) => worker.operate(*load, *speed).map(|()| Answer::Course(worker.course())),
+        Order::Operate(operation) => worker.operate(operation).map(|()| Answer::Course(worker.course())),
         Order::Restore(state) => {
             let (heights, memory, engine) = &**state;
             worker.restore(heights, memory, engine).map(|()| Answer::Course(worker.course()))

@@ -19,6 +19,11 @@ impl Clock {
         Self { step: 0, time: 0.0, step_time }
     }
 
+    /// Steps done when the time of a step changed last.
+    pub fn since(&self) -> u64 {
+        self.step
+    }
+
     /// m Δt = m Δθ/ω, s: physical time of one step.
     pub fn step_time(&self) -> f64 {
         self.step_time
@@ -41,6 +46,28 @@ impl Clock {
         // Nothing is rounded once more where nothing changes.
         if step_time == self.step_time { *self } else { Self { step, time: self.time_at(step), step_time } }
     }
+}
+
+/// Load and speed of the coming steps, set between two steps in place of those of the scene.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Operation {
+    /// F_N, N, or where the brake is told its torque, that, N m.
+    pub load: f64,
+    /// ω, rad/s.
+    pub angular_velocity: f64,
+    /// None where they are those of the scene.
+    pub control: Option<Control>,
+}
+
+/// What is known of a simulation whose load and speed are set between steps.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Control {
+    /// Steps done when the angle of a step changed.
+    pub steps: u64,
+    /// How far the disc had turned then, rad.
+    pub angle: f64,
+    /// The largest load so far, N or N m: what sums are multiples of goes by it.
+    pub largest_load: f64,
 }
 
 /// What a step is told of the operation.

@@ -50,6 +50,11 @@ pub enum SimulationError {
     NotWatched { step: u64 },
     #[error("the {what} is {found}, expected a finite number of more than 0")]
     Operation { what: &'static str, found: f64 },
+    #[error(
+        "at a rotational speed of {found:e} rad/s a step takes {step_time:e} s, which is lost in a time of {time} s or endless: expected \
+         one nearer to {now} rad/s, that of the last step"
+    )]
+    TimeLost { found: f64, step_time: f64, time: f64, now: f64 },
     #[error("load and speed are those of the scene's cycle: leave out [operation.cycle] to set them between steps")]
     OfCycle,
     #[error("{field} at (column {column}, row {row}) is {found}, expected {expected}")]

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use crate::model::clock::{Clock, StepOperation};
+use crate::model::clock::{Clock, Control, Operation, StepOperation};
 use crate::model::cycle::Cycle;
 use crate::model::emission::Emission;
 use crate::model::error::SimulationError;
@@ -90,8 +90,8 @@ pub struct Parameters {
     pub angular_velocity: f64,
     /// Load and speed that change with time (model 9).
     pub cycle: Option<Arc<Cycle>>,
-    /// Whether load and speed are set anew between steps ([`Simulation::operate`](crate::simulation::Simulation::operate)).
-    pub is_controlled: bool,
+    /// Where load and speed are set between steps ([`Simulation::operate`](crate::simulation::Simulation::operate)).
+    pub control: Option<Control>,
     /// h, m: height of the elastic foundation.
     pub foundation_height: f64,
     /// Properties by (body, status).
@@ -116,9 +116,18 @@ impl Parameters {
         Self { materials: self.materials.with_wear_rate_factor(factor), ..self.clone() }
     }
 
-    /// The same under another load (N; N m where it is a braking torque) and at another rotational speed (rad/s).
-    pub fn under(&self, load: f64, angular_velocity: f64) -> Self {
-        Self { normal_force: load, angular_velocity, is_controlled: true, ..self.clone() }
+    /// The same under another load and at another rotational speed.
+    pub fn under(&self, operation: &Operation) -> Self {
+        let Operation { load, angular_velocity, control } = *operation;
+        Self { normal_force: load, angular_velocity, control, ..self.clone() }
+    }
+
+    /// The same whose coming steps stand for `time_acceleration` revolutions each, after so many.
+    pub fn accelerated(&self, time_acceleration: f64, steps: u64) -> Self {
+        let is_same = time_acceleration == self.time_acceleration;
+        let changed = |control| Control { steps, angle: self.angle_turned(steps, f64::NAN), ..control };
+        let control = if is_same { self.control } else { self.control.map(changed) };
+        Self { time_acceleration, control, ..self.clone() }
     }
 
     /// Π with the wear rates of the temperature with which a run begins.
@@ -209,9 +218,12 @@ impl Parameters {
 
     /// The angle that so many steps turned, which end at a time (s), rad.
     pub fn angle_turned(&self, steps: u64, time: f64) -> f64 {
-        // The time of constant operation knows steps of another acceleration, too.
-        let changes = self.cycle.is_some() || self.is_controlled;
-        if changes { steps as f64 * self.step_angle() } else { time * self.angular_velocity }
+        match &self.control {
+            Some(control) => control.angle + (steps - control.steps) as f64 * self.step_angle(),
+            None if self.cycle.is_some() => steps as f64 * self.step_angle(),
+            // The time of constant operation knows steps of another acceleration, too.
+            None => time * self.angular_velocity,
+        }
     }
 
     /// The load of a step, counted from 1, N; or its braking torque, N m.
@@ -232,7 +244,8 @@ impl Parameters {
 
     /// What no load of any step is above, N.
     pub fn largest_load(&self) -> f64 {
-        let largest = self.cycle.as_ref().map_or(self.normal_force, |cycle| cycle.largest_force());
+        let set = self.control.map_or(self.normal_force, |control| control.largest_load);
+        let largest = self.cycle.as_ref().map_or(set, |cycle| cycle.largest_force());
         if self.by_torque { self.load_at(largest, LEAST_FRICTION) } else { largest }
     }
 

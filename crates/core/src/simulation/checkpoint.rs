@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::engine::execution::Engine;
 use crate::engine::worker::EngineMemory;
-use crate::model::clock::Clock;
+use crate::model::clock::{Clock, Operation};
 use crate::model::error::WrongMesh;
 use crate::model::memory::{Heights, Memory};
 use crate::model::mesh::Mesh;
@@ -19,12 +19,48 @@ use crate::observe::Sample;
 pub struct Checkpoint {
     /// Heights of both surfaces.
     pub heights: Heights,
-    /// What the last step showed, where it may be reported once more: in a pause.
-    pub(crate) contact: Option<LastContact>,
+    /// What only some simulations have.
+    pub(crate) kept: Kept,
     /// What is kept beside the heights.
     pub(crate) memory: Memory,
     /// What the engine keeps beside it; the plain model needs nothing more.
     pub(crate) engine: Option<EngineMemory>,
+}
+
+/// What a state has of simulations in a pause, and of those whose load and speed were set.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(crate) enum Kept {
+    /// Neither.
+    Nothing,
+    /// What the last step showed, where it may be reported once more: in a pause.
+    Contact(LastContact),
+    /// Load and speed of the coming steps, speed of the last one (rad/s) if it had another, and the same where it may be.
+    Control(Operation, Option<f64>, Option<LastContact>),
+}
+
+impl Kept {
+    /// What there is.
+    pub fn new(operation: Operation, last_speed: Option<f64>, contact: Option<LastContact>) -> Self {
+        match (operation.control, contact) {
+            (Some(_), contact) => Self::Control(operation, last_speed, contact),
+            (None, Some(contact)) => Self::Contact(contact),
+            (None, None) => Self::Nothing,
+        }
+    }
+
+    /// Load and speed, and speed of the last step if it had another.
+    pub fn control(&self) -> Option<(Operation, Option<f64>)> {
+        if let Self::Control(operation, last_speed, _) = self { Some((*operation, *last_speed)) } else { None }
+    }
+
+    /// What the last step showed.
+    pub fn contact(&self) -> Option<&LastContact> {
+        match self {
+            Self::Nothing => None,
+            Self::Contact(contact) => Some(contact),
+            Self::Control(_, _, contact) => contact.as_ref(),
+        }
+    }
 }
 
 /// What the last step showed, kept while the pin rests.
@@ -79,6 +115,10 @@ impl Checkpoint {
             |is_other: fn(&EngineMemory, &EngineMemory) -> bool| both.is_some_and(|(found, own)| is_other(found, own));
         let memory = &self.memory;
         [
+            (
+                self.kept.control().is_some_and(|(operation, _)| !operation.is_possible(memory.course.steps)),
+                "load and speed",
+            ),
             (memory.account.pools.len() != own.account.pools.len(), "debris pools"),
             (differs(|found, own| found.contact.has_statuses() != own.contact.has_statuses()), "sums of the contact"),
             (differs(|found, own| found.forecast.revolution() != own.forecast.revolution()), "past displacements"),

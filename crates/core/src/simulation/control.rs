@@ -4,18 +4,33 @@ use std::sync::Arc;
 
 use super::Simulation;
 use crate::engine::parts::Needs;
+use crate::model::clock::{Control, Operation};
 use crate::model::error::SimulationError;
-use crate::model::memory::Heights;
+use crate::model::memory::{Course, Heights};
+use crate::model::parameters::Parameters;
 
 /// Height above the highest initial one that counts as rounding, m: the thickness below which debris is no build-up.
 const ROUNDING: f64 = 1e-15;
+
+impl Operation {
+    /// Whether a simulation with so many steps done can be told it.
+    pub(super) fn is_possible(&self, steps: u64) -> bool {
+        let Some(Control { steps: since, angle, largest_load }) = self.control else { return false };
+        let numbers = [self.load, self.angular_velocity, largest_load];
+        numbers.iter().all(|number| number.is_finite() && *number > 0.0)
+            && self.load <= largest_load
+            && since <= steps
+            && angle.is_finite()
+    }
+}
 
 impl Simulation {
     /// Has the coming steps taken under another load, N (N m where the scene gives a braking torque), and at another rotational
     /// speed, rad/s.
     ///
     /// # Errors
-    /// [`SimulationError::Operation`] unless both are finite and above 0, [`SimulationError::OfCycle`] where a cycle gives them,
+    /// [`SimulationError::Operation`] unless both are finite and above 0, [`SimulationError::TimeLost`] where the time of a step is
+    /// lost in rounding, [`SimulationError::OfCycle`] where a cycle gives them,
     /// [`SimulationError::Worker`] when a worker failed.
     pub fn operate(&mut self, load: f64, angular_velocity: f64) -> Result<(), SimulationError> {
         if self.parameters.cycle.is_some() {
@@ -27,14 +42,36 @@ impl Simulation {
                 return Err(SimulationError::Operation { what, found });
             }
         }
-        self.workers.operate(load, angular_velocity)?;
-        if self.steps_done() > 0 {
+        let Course { steps, time, .. } = self.course();
+        // Steps of one length have turned the disc by their number, others by the time that they took.
+        let (since, angle) = match self.clock.since() {
+            0 => (0, 0.0),
+            _ => (steps, self.parameters.angle_turned(steps, time)),
+        };
+        let begin = Control { steps: since, angle, largest_load: self.parameters.normal_force };
+        let control = self.parameters.control.unwrap_or(begin);
+        let control = Some(Control { largest_load: control.largest_load.max(load), ..control });
+        let operation = Operation { load, angular_velocity, control };
+        let parameters = self.parameters.under(&operation);
+        let (step_time, now) = (parameters.step_time(), self.parameters.angular_velocity);
+        let clock = self.clock.changed(steps, step_time);
+        let next = clock.time_at(steps + 1);
+        if !(next.is_finite() && next > time) {
+            return Err(SimulationError::TimeLost { found: angular_velocity, step_time, time, now });
+        }
+        self.workers.operate(&operation)?;
+        if steps > 0 {
             self.last_speed = Some(self.last_speed());
         }
         self.resting = None;
-        self.parameters = Arc::new(self.parameters.under(load, angular_velocity));
-        self.clock = self.clock.changed(self.steps_done(), self.parameters.step_time());
+        (self.parameters, self.clock) = (Arc::new(parameters), clock);
         Ok(())
+    }
+
+    /// What the coming steps are told.
+    pub(super) fn operation(&self) -> Operation {
+        let Parameters { normal_force, angular_velocity, control, .. } = *self.parameters;
+        Operation { load: normal_force, angular_velocity, control }
     }
 
     /// Takes over other heights; statuses follow from them. Volumes that are reported count what steps moved, so that

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use crate::model::accounts::{Accounts, AccountsReport, StepFacts};
-use crate::model::clock::Clock;
+use crate::model::clock::{Clock, Operation};
 use crate::model::error::SimulationError;
 use crate::model::material::Status;
 use crate::model::memory::{Course, Heights, History, Memory};
@@ -94,12 +94,12 @@ impl Plain {
 
     /// Has the coming steps stand for `acceleration` revolutions each (model 4.6).
     pub fn accelerate(&mut self, acceleration: f64) -> Result<(), SimulationError> {
-        self.go_on_with(Parameters { time_acceleration: acceleration, ..Parameters::clone(&self.parameters) })
+        self.go_on_with(self.parameters.accelerated(acceleration, self.course.steps))
     }
 
-    /// Has the coming steps taken under another load (N, or N m) and at another speed (rad/s).
-    pub fn operate(&mut self, load: f64, angular_velocity: f64) -> Result<(), SimulationError> {
-        self.go_on_with(self.parameters.under(load, angular_velocity))
+    /// Has the coming steps taken under another load and at another speed.
+    pub fn operate(&mut self, operation: &Operation) -> Result<(), SimulationError> {
+        self.go_on_with(self.parameters.under(operation))
     }
 
     fn go_on_with(&mut self, parameters: Parameters) -> Result<(), SimulationError> {

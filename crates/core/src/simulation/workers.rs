@@ -14,6 +14,7 @@ use crate::engine::sector::Partition;
 use crate::engine::worker::{EngineMemory, Worker, halo_words, waiting_columns};
 use crate::engine::worker_threads::WorkerThreads;
 use crate::model::accounts::Accounts;
+use crate::model::clock::Operation;
 use crate::model::error::SimulationError;
 use crate::model::memory::{Course, Memory};
 use crate::model::parameters::Parameters;
@@ -103,9 +104,9 @@ impl Workers {
         call!(self, worker => worker.accelerate(acceleration))
     }
 
-    /// Has the coming steps taken under another load (N, or N m) and at another speed (rad/s).
-    pub fn operate(&mut self, load: f64, angular_velocity: f64) -> Result<(), SimulationError> {
-        call!(self, worker => worker.operate(load, angular_velocity))
+    /// Has the coming steps taken under another load and at another speed.
+    pub fn operate(&mut self, operation: &Operation) -> Result<(), SimulationError> {
+        call!(self, worker => worker.operate(operation))
     }
 
     /// What is kept beside the surfaces.

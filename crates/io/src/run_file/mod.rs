@@ -39,4 +39,5 @@ pub use output::{KeepError, check_output, keep, resolve};
 pub use reader::{ContactArea, NoDrift};
 pub use reader::{RunFile, Series};
 pub use repair::{LeftOut, Repair, RepairError, is_healthy, last_writer, repair};
+pub use store::close_abandoned;
 pub use writer::{RunWriter, Synced, WriterReport};

@@ -3,6 +3,7 @@
 use std::fs;
 use std::os::unix::fs::MetadataExt;
 use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
 use std::time::{Instant, SystemTime};
 
 use hdf5::{Dataset, File, H5Type};
@@ -20,6 +21,7 @@ use super::output::Output;
 use super::{Earlier, End, Header, ReadError, RunFile, RunFileError, State};
 use crate::hdf5_file::{EMPTY_FILE, open_for_writing, write_text};
 use crate::input::sha256_of;
+use crate::process::written_here;
 use crate::temporary::{self, Temporary};
 
 /// The datasets that grow, and the digests of what they hold.
@@ -323,7 +325,7 @@ impl Store {
     /// Closing it would make HDF5 try once more to write what it could not, and leave the file marked in a way in which
     /// nobody reads it. Not closed, it is what a killed writer leaves: readable up to the last complete sample.
     pub(super) fn abandon(self) {
-        std::mem::forget(self);
+        ABANDONED.lock().unwrap_or_else(PoisonError::into_inner).push(self);
     }
 
     /// Closes the file for good and states how the run ended.
@@ -356,6 +358,22 @@ pub(super) fn set_up(place: &Output, header: &Header, start: SystemTime, mark: &
     let datasets = Datasets::open(&file, header)?;
     file.flush()?;
     Ok((file, datasets))
+}
+
+/// Files that could not be written to the end; they stay open.
+static ABANDONED: Mutex<Vec<Store>> = Mutex::new(Vec::new());
+
+/// Closes the files that this process could not write to the end, which still have their place on the disk, and are being written for all
+/// that others see. `replace` puts another file in the place of the open file of a number, so that nothing more is written to the one
+/// that is given up, and tells whether it did. For who goes on with other work after a run that failed.
+pub fn close_abandoned(replace: impl Fn(i32) -> bool) {
+    let abandoned = std::mem::take(&mut *ABANDONED.lock().unwrap_or_else(PoisonError::into_inner));
+    for store in abandoned {
+        let numbers = store.identity.map(written_here).unwrap_or_default();
+        if numbers.is_empty() || !numbers.into_iter().all(&replace) {
+            std::mem::forget(store);
+        }
+    }
 }
 
 fn identity(path: &Path) -> Option<(u64, u64)> {

@@ -24,7 +24,7 @@ pub use instructions::InstructionSet;
 pub(crate) use moved::Moved;
 pub(crate) use pairs::PLATEAU;
 pub(crate) use pass::{Pass, pass};
-pub(crate) use read::{Read, Span, read};
+pub(crate) use read::{Read, Span, gaps_below, read};
 pub(crate) use reading::{Bracket, NearPair, Reading, told_apart};
 pub(crate) use rules::{Conditions, Rules};
 pub(crate) use transport::{ReachOf, reach_of};

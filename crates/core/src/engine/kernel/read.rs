@@ -3,7 +3,7 @@
 use super::instructions::{InstructionSet, kernel};
 use super::pairs::Pairs;
 use super::reading::{Bracket, BracketLanes, Reading, StripReading};
-use crate::engine::lanes::{Lanes, Mask};
+use crate::engine::lanes::{Chunk, Lanes, Mask};
 use crate::engine::parts::{Needs, build_up};
 use crate::engine::strips::{DiscSector, PinStrips};
 
@@ -73,5 +73,18 @@ fn read_strips<L: Lanes, const BUILD_UP: u8>(
             pin.touches[column] = touches.byte();
         }
         sums.store(strip, reading);
+    }
+}
+
+kernel! {
+    /// Tells which rows of a strip have gaps below a displacement, column by column, one bit each.
+    pub fn gaps_below<>(pin: &[Chunk], disc: &[Chunk], displacement: f64, rows: &mut [u8]) = columns_below
+}
+
+#[inline(always)]
+fn columns_below<L: Lanes>(pin: &[Chunk], disc: &[Chunk], displacement: f64, rows: &mut [u8]) {
+    let displacement = L::splat(displacement);
+    for column in 0..rows.len() {
+        rows[column] = (L::load(&pin[column]) - L::load(&disc[column])).below(displacement).byte();
     }
 }

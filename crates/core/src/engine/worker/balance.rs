@@ -5,8 +5,10 @@ use crate::engine::coefficients::StatusPair;
 use crate::engine::comm::Communicator;
 use crate::engine::contact::{Carried, Verdict};
 use crate::engine::exact::{ExactSum, Quantum, Unit, of_words, words};
-use crate::engine::kernel::{Bracket, Span};
+use crate::engine::kernel::{Bracket, NearPair, Span, gaps_below};
+use crate::engine::lanes::LANES;
 use crate::engine::sector::Segment;
+use crate::engine::strips::OUT_OF_REACH;
 use crate::model::error::{ContactError, SimulationError};
 use crate::model::state::pin_status;
 
@@ -111,11 +113,8 @@ impl<C: Communicator> Worker<C> {
     fn carried(&self, displacement: f64) -> [ExactSum; StatusPair::COUNT] {
         let unit = self.load_unit();
         let mut loads = [ExactSum::default(); StatusPair::COUNT];
-        self.for_each_pair(|row, _, gap, pair| {
-            let overlap = displacement - gap;
-            if overlap > 0.0 {
-                loads[pair].add(unit.exact(self.coefficients.stiffness[pair][row] * overlap));
-            }
+        self.for_each_pair_below(displacement, |row, _, gap, pair| {
+            loads[pair].add(unit.exact(self.coefficients.stiffness[pair][row] * (displacement - gap)));
         });
         loads
     }
@@ -135,7 +134,7 @@ impl<C: Communicator> Worker<C> {
     fn read_around_first_contact(&mut self) -> Result<Bracket, SimulationError> {
         let normal_force = self.operation.load;
         let mut least = f64::INFINITY;
-        self.for_each_pair(|row, _, gap, pair| {
+        self.for_each_pair_below(OUT_OF_REACH, |row, _, gap, pair| {
             least = least.min(gap + normal_force / self.coefficients.stiffness[pair][row]);
         });
         let own = least.to_bits();
@@ -169,38 +168,55 @@ impl<C: Communicator> Worker<C> {
         }
     }
 
-    /// Calls `each` with row, pin column, gap (m) and pair of statuses of every own cell under the pin.
-    fn for_each_pair(&self, mut each: impl FnMut(usize, usize, f64, usize)) {
+    /// Calls `each` with row, pin column, gap (m) and pair of statuses of every own cell under the pin whose gap is less than a
+    /// displacement.
+    fn for_each_pair_below(&self, displacement: f64, mut each: impl FnMut(usize, usize, f64, usize)) {
+        let mut below = vec![0; self.parameters.mesh.pin_columns()];
         for Segment { sector, pin, over, .. } in self.partition.segments(self.first()) {
             let Some(sector) = &self.sectors[sector] else { continue };
-            for (offset, column) in pin.enumerate() {
-                let pin_cells = self.pin.height.column(column).zip(self.pin.substrate().column(column));
-                let disc_cells = sector.height.column(over + offset).zip(sector.substrate().column(over + offset));
-                for (row, ((z_p, b_p), (z_d, b_d))) in pin_cells.zip(disc_cells).enumerate() {
-                    let status = pin_status(z_p, b_p, self.pin.is_resin(row, column));
-                    each(self.rows.start + row, column, z_p - z_d, StatusPair::new(status, z_d > b_d).index());
+            let below = &mut below[..pin.len()];
+            for strip in 0..self.pin.height.strips() {
+                let pin_heights = &self.pin.height.strip(strip)[pin.clone()];
+                let disc_heights = &sector.height.strip(strip)[over..][..pin.len()];
+                gaps_below(self.instructions, pin_heights, disc_heights, displacement, below);
+                for (offset, rows) in below.iter_mut().enumerate() {
+                    let column = pin.start + offset;
+                    while *rows != 0 {
+                        let lane = rows.trailing_zeros() as usize;
+                        *rows &= *rows - 1;
+                        let row = strip * LANES + lane;
+                        let [z_p, z_d] = [&pin_heights[offset], &disc_heights[offset]].map(|chunk| chunk.0[lane]);
+                        let b_p = self.pin.substrate().chunk(strip, column).0[lane];
+                        let b_d = sector.substrate().chunk(strip, over + offset).0[lane];
+                        let status = pin_status(z_p, b_p, self.pin.is_resin(row, column));
+                        each(self.rows.start + row, column, z_p - z_d, StatusPair::new(status, z_d > b_d).index());
+                    }
                 }
             }
         }
     }
 
-    /// p = k u of every own cell under the pin, and what all of them carry.
-    pub(super) fn record_pressures(&mut self) {
-        let mut pressure = std::mem::take(&mut self.pressure);
-        pressure.resize(self.parameters.mesh.pin_cells(), 0.0);
-        let (mesh, unit) = (&self.parameters.mesh, self.load_unit());
-        let displacement = self.contact.displacement();
-        let mut load = ExactSum::default();
-        self.for_each_pair(|row, column, gap, pair| {
-            let overlap = displacement - gap;
-            let stiffness = self.coefficients.stiffness[pair][row];
-            let cell = &mut pressure[mesh.column(column).start + row];
-            *cell = 0.0;
-            if overlap > 0.0 {
-                *cell = stiffness / mesh.area()[row] * overlap;
-                load.add(unit.exact(stiffness * overlap));
-            }
+    /// Keeps the own pairs that touch, of which pressures follow.
+    pub(super) fn record_touching(&mut self) {
+        let mut touching = std::mem::take(&mut self.touching);
+        touching.clear();
+        self.for_each_pair_below(self.contact.displacement(), |row, column, gap, pair| {
+            touching.push(NearPair { gap, row: row as u32, column: column as u32, pair: pair as u8 });
         });
-        (self.pressure, self.load) = (pressure, load);
+        (self.touching, self.is_watched) = (touching, true);
+    }
+
+    /// What the own pairs that touched in the last step carry, if it was watched: Σ k A u, and p = k u (Pa) of every own pin cell,
+    /// column by column.
+    pub(super) fn pressures(&self) -> (ExactSum, Vec<f64>) {
+        let (mesh, unit) = (&self.parameters.mesh, self.load_unit());
+        let (mut load, mut pressure) = (ExactSum::default(), vec![0.0; mesh.pin_cells()]);
+        for NearPair { gap, row, column, pair } in &self.touching {
+            let (row, overlap) = (*row as usize, self.contact.displacement() - gap);
+            let stiffness = self.coefficients.stiffness[usize::from(*pair)][row];
+            pressure[mesh.column(*column as usize).start + row] = stiffness / mesh.area()[row] * overlap;
+            load.add(unit.exact(stiffness * overlap));
+        }
+        (load, pressure)
     }
 }

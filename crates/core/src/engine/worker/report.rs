@@ -69,8 +69,9 @@ impl<C: Communicator> Worker<C> {
     /// What a sample needs of the worker's own cells.
     fn own_part(&self) -> OwnPart {
         let rows = self.parameters.mesh.rows();
-        let mut part =
-            OwnPart { largest_pressure: 0.0, load: self.load, ring: self.filling.own(), pin: vec![0; 3 * rows] };
+        let (load, pressure) = self.pressures();
+        let largest_pressure = pressure.into_iter().fold(0.0, f64::max);
+        let mut part = OwnPart { largest_pressure, load, ring: self.filling.own(), pin: vec![0; 3 * rows] };
         for column in self.own_pin_columns() {
             for (own, status) in self.pin_statuses(column).enumerate() {
                 let is_there = self.pin.is_present(own, column);
@@ -81,8 +82,6 @@ impl<C: Communicator> Worker<C> {
                 let heights = &self.pin.height.chunk(strip, column).0;
                 part.ring.pin_volume.add(self.filling.pin_volume(heights, area, is_there));
             }
-            let cells = self.pressure.get(self.own_cells(column)).unwrap_or(&[]);
-            part.largest_pressure = cells.iter().copied().fold(part.largest_pressure, f64::max);
         }
         part
     }
@@ -145,15 +144,16 @@ impl<C: Communicator> Worker<C> {
     fn gather_pin(&mut self, map: Map) -> Result<Vec<u64>, SimulationError> {
         let mesh = &self.parameters.mesh;
         let mut own = Vec::new();
+        let pressure = match map {
+            Map::PinHeight | Map::PinSubstrate | Map::PinStatus => Vec::new(),
+            _ => self.pressures().1,
+        };
         for column in self.own_pin_columns() {
             match map {
                 Map::PinHeight => own.extend(self.pin.height.column(column).map(f64::to_bits)),
                 Map::PinSubstrate => own.extend(self.pin.substrate_column(column).map(f64::to_bits)),
                 Map::PinStatus => own.extend(self.pin_statuses(column).map(|status| status as u64)),
-                _ => match self.pressure.get(self.own_cells(column)) {
-                    Some(cells) => own.extend(cells.iter().map(|pressure| pressure.to_bits())),
-                    None => own.resize(own.len() + self.rows.len(), 0),
-                },
+                _ => own.extend(pressure[self.own_cells(column)].iter().map(|pressure| pressure.to_bits())),
             }
         }
         let (partition, first, rows) = (self.partition.clone(), self.last_first(), mesh.rows());
