@@ -20,7 +20,7 @@ from package_scenes import InFolder
 import plateau
 from plateau import command_line
 from plateau.figures import surfaces as module
-from plateau.figures.fibres import fibre_map
+from plateau.figures.fibres import SEAM, fibre_map
 from plateau.figures.surfaces import surfaces
 from plateau.surface_data import power_spectrum
 
@@ -261,9 +261,9 @@ class FibreMaps(InFolder):
         pathlib.Path("fibre_map.json").write_text(json.dumps(told))
         _, right, whole, *_ = fibre_map(".")["fibre-map"].axes
         # The picture lies in the middle: 3 mm from 1.5 mm on; it is higher than the pin.
-        seams = sorted(line.get_xdata()[0] for line in right.lines if line.get_color() == "#56b4e9")
+        seams = sorted(line.get_xdata()[0] for line in right.lines if line.get_color() == SEAM["color"])
         np.testing.assert_allclose(seams, [-4.5, -1.5, 1.5, 4.5])
-        angles = [math.atan2(line.get_xdata()[0], line.get_ydata()[0] + 20) for line in whole.lines if line.get_color() == "#56b4e9" and len(line.get_xdata()) == 2]
+        angles = [math.atan2(line.get_xdata()[0], line.get_ydata()[0] + 20) for line in whole.lines if line.get_color() == SEAM["color"] and len(line.get_xdata()) == 2]
         np.testing.assert_allclose(angles, [-4 * math.tau / 100, 1 - 4 * math.tau / 100])
         # Without a picture there is the pin alone.
         pathlib.Path("fibre_map.json").write_text(json.dumps({**told, "micrograph": None, "fibre": None, "picture": None, "is_tiled": False}))

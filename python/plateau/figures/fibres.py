@@ -16,7 +16,7 @@ MOST_POINTS, MOST_COLUMNS, MOST_ROWS, BESIDE = 1000, 720, 60, 0.6
 # Seams of tiles that are still told apart.
 MOST_SEAMS = 400
 FIBRE, RESIN, OUTLINE, PIN = LINES[1], "#3c3c46", LINES[6], LINES[3]
-SEAM: dict[str, Any] = {"color": LINES[4], "linestyle": DASHES[1], "linewidth": 0.8}
+SEAM: dict[str, Any] = {"color": "#ff3b3b", "linestyle": DASHES[1], "linewidth": 1.0}
 NOTE = """The ring is seen as the pin lies on it before the first step. The disc moves in the direction of the arrow and enters under the
 leading edge."""
 

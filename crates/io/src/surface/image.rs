@@ -10,6 +10,7 @@ use std::io::Cursor;
 use plateau_core::surface::micrograph::Picture;
 use png::{BitDepth, ColorType, Transformations};
 use thiserror::Error;
+use tiff::decoder::ifd::Value;
 use tiff::decoder::{Decoder, DecodingResult, Limits};
 use tiff::tags::Tag;
 use zune_jpeg::errors::DecodeErrors;
@@ -197,7 +198,10 @@ fn resolution(decoder: &mut Decoder<Cursor<&[u8]>>) -> Option<[f64; 2]> {
         Some(2) | None => 0.0254,
         _ => return None,
     };
-    let mut pixels = |tag| Some(decoder.get_tag(tag).ok()?.into_f64().ok()? / unit);
+    let mut pixels = |tag| match decoder.get_tag(tag).ok()? {
+        Value::Rational(pixels, units) => Some(f64::from(pixels) / f64::from(units) / unit),
+        _ => None,
+    };
     per_metre([pixels(Tag::XResolution)?, pixels(Tag::YResolution)?])
 }
 

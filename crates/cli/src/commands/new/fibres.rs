@@ -6,6 +6,7 @@ use plateau_core::surface::micrograph::{FibreMap, MicrographError};
 use plateau_core::surface::{Length, fibre_fraction};
 use plateau_io::scene::Scene;
 use plateau_io::surface::{self, FileError, SurfaceError};
+use plateau_io::units::{self, Dimension};
 
 use super::{line, path_from};
 use crate::arguments::NewArguments;
@@ -34,9 +35,8 @@ pub(super) fn lines(arguments: &NewArguments) -> Result<(String, Vec<String>), F
     let pixel = match (pixel, believed) {
         (Some(given), None) => given.clone(),
         (Some(given), Some(stated)) => {
-            let differ = plateau_io::units::parse(given, plateau_io::units::Dimension::Length)
-                .is_ok_and(|given| (given / stated.0 - 1.0).abs() > SAME);
-            if differ {
+            let differs = |given: f64| (given / stated.0 - 1.0).abs() > SAME;
+            if units::parse(given, Dimension::Length).is_ok_and(differs) {
                 notes.push(format!("{}: it states pixels of {stated}, --pixel {given}, which holds", path.display()));
             }
             given.clone()
