@@ -324,7 +324,7 @@ fn a_repeated_picture_is_the_one_that_is_mirrored_at_its_edges() {
     let told = "the picture of 1.76 mm by 1.32 mm repeated 1.7";
     assert!(found.report.iter().any(|line| line.starts_with(told)), "{:?}", found.report);
     // Where the picture covers the pin nothing is repeated.
-    let covered = |enlargement| Micrograph { enlargement, ..settings() }.fibre_map(picture(), &mesh()).unwrap().base;
+    let covered = |enlargement| Micrograph { enlargement, ..settings() }.fibre_map(picture(), &mesh()).unwrap();
     assert_eq!(covered(Some(Enlargement::Tiles)), covered(None));
 }
 

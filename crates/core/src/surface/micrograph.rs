@@ -144,9 +144,9 @@ impl Micrograph {
     /// Base of the cells on which the picture lies, or the picture and its mirror images.
     fn laid(&self, fibre: &Picture<bool>, mesh: &Mesh, report: &mut Vec<String>) -> Result<Vec<Base>, MicrographError> {
         let fractions = fractions(self, fibre, mesh)?;
-        let size = fibre.size(self.pixel);
-        if self.enlargement.is_some() {
-            let (across, up) = PinPlane::new(mesh).half_extent();
+        let (size, plane) = (fibre.size(self.pixel), PinPlane::new(mesh));
+        if !plane.is_covered_by(size) {
+            let (across, up) = plane.half_extent();
             report.push(format!(
                 "the picture of {} by {} repeated {:.2} times along and {:.2} times across sliding, mirrored at the seams",
                 Length(size[0]),
