@@ -5,7 +5,8 @@ from pathlib import Path
 
 from plateau.command_line import Words, of_all
 from plateau.figures.accuracy import plot_accuracy
-from plateau.figures.surfaces import fibre_map, surfaces
+from plateau.figures.fibres import fibre_map
+from plateau.figures.surfaces import surfaces
 from plateau.output_folder import put_together
 from plateau.style import FORMATS, saved
 

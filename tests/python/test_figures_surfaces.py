@@ -20,7 +20,8 @@ from package_scenes import InFolder
 import plateau
 from plateau import command_line
 from plateau.figures import surfaces as module
-from plateau.figures.surfaces import fibre_map, surfaces
+from plateau.figures.fibres import SEAM, fibre_map
+from plateau.figures.surfaces import surfaces
 from plateau.surface_data import power_spectrum
 
 UM, MM = 1e-6, 1e-3
@@ -209,9 +210,16 @@ class FibreMaps(InFolder):
         base[:3, -4:] = 3
         for name, values in (("grey", np.where(fibre, 200, 40).astype("u1")), ("fibre", fibre), ("base", base)):
             np.save(f"{name}.npy", values)
-        told = {"extent": [4 * MM, 2.4 * MM], "micrograph": "grey.npy", "fibre": "fibre.npy", "base": "base.npy"}
+        # A ring of 22 mm with 12 rows of 0.2 mm, and a pin of 28 of its columns.
+        ring = {"mean_radius": 22 * MM, "row_height": 0.2 * MM, "pin_columns": 28, "leading_edge": [[-2 * MM, -1.2 * MM], [-2 * MM, 1.2 * MM]]}
+        told = {"extent": [4 * MM, 2.4 * MM], "picture": [4 * MM, 2.4 * MM], "micrograph": "grey.npy", "fibre": "fibre.npy", "base": "base.npy"}
+        told |= {"is_tiled": False, "seams": {"angles": [], "radii": []}, **ring}
+        heights = np.tile(np.arange(960.0) * UM, (12, 1))
+        disc = described(heights, (0.144 * MM, 0.2 * MM), "disc", is_patch=False)
+        folder = folder_of((disc, heights))
+        shutil.copytree(folder, ".", dirs_exist_ok=True)
         pathlib.Path("fibre_map.json").write_text(json.dumps(told))
-        left, right = (figure := fibre_map(".")["fibre-map"]).axes
+        left, right, whole, near, *_ = (figure := fibre_map(".")["fibre-map"]).axes
         figure.draw_without_rendering()
         for axis, below, above in ((left, 200, 40), (right, 1, 3)):
             image = axis.images[0]
@@ -227,8 +235,39 @@ class FibreMaps(InFolder):
         outline = np.concatenate([path.vertices for path in left.collections[0].get_paths()])
         self.assertAlmostEqual(outline[outline[:, 1] > 0, 0].max(), -1.6)
         self.assertAlmostEqual(outline[outline[:, 0] > 0, 1].max(), -0.8)
-        pathlib.Path("fibre_map.json").write_text(json.dumps({**told, "micrograph": None, "fibre": None}))
-        self.assertEqual(len(fibre_map(".")["fibre-map"].axes), 1)
+        # On the ring the pin is where its columns are, over the first 28 of the disc; none of it hides the disc where there is no pin.
+        for axis in (whole, near):
+            self.assertEqual(axis.images[0].get_extent(), [-2, 2, -1.2, 1.2])
+            self.assertEqual(axis.images[0].get_array()[0, -1] is np.ma.masked, True)
+            self.assertEqual(axis.lines[-1].get_xdata().tolist(), [-2, -2])
+        mesh = near.collections[0]
+        x, y = mesh.get_coordinates()[0, np.argmin(mesh.get_array()[0])]
+        angle = -14 * math.tau / 960
+        # The innermost corner of the lowest column, which is the first.
+        self.assertAlmostEqual(x, 20.8 * math.sin(angle), places=6)
+        self.assertAlmostEqual(y, 20.8 * math.cos(angle) - 22, places=6)
+
+    def test_seams_of_tiles_are_marked(self):
+        base = np.ones((10, 20), "u1")
+        np.save("base.npy", base)
+        np.save("grey.npy", base)
+        np.save("fibre.npy", base.astype(bool))
+        heights = np.zeros((4, 100))
+        heights[0] = 1 * UM
+        shutil.copytree(folder_of((described(heights, (1.2 * MM, 1 * MM), "disc", is_patch=False), heights)), ".", dirs_exist_ok=True)
+        told = {"extent": [10 * MM, 4 * MM], "picture": [3 * MM, 5 * MM], "micrograph": "grey.npy", "fibre": "fibre.npy", "base": "base.npy"}
+        told |= {"is_tiled": True, "seams": {"angles": [0.0, 1.0], "radii": [19 * MM]}, "mean_radius": 20 * MM, "row_height": 1 * MM, "pin_columns": 8}
+        told |= {"leading_edge": [[-5 * MM, -2 * MM], [-5 * MM, 2 * MM]]}
+        pathlib.Path("fibre_map.json").write_text(json.dumps(told))
+        _, right, whole, *_ = fibre_map(".")["fibre-map"].axes
+        # The picture lies in the middle: 3 mm from 1.5 mm on; it is higher than the pin.
+        seams = sorted(line.get_xdata()[0] for line in right.lines if line.get_color() == SEAM["color"])
+        np.testing.assert_allclose(seams, [-4.5, -1.5, 1.5, 4.5])
+        angles = [math.atan2(line.get_xdata()[0], line.get_ydata()[0] + 20) for line in whole.lines if line.get_color() == SEAM["color"] and len(line.get_xdata()) == 2]
+        np.testing.assert_allclose(angles, [-4 * math.tau / 100, 1 - 4 * math.tau / 100])
+        # Without a picture there is the pin alone.
+        pathlib.Path("fibre_map.json").write_text(json.dumps({**told, "micrograph": None, "fibre": None, "picture": None, "is_tiled": False}))
+        self.assertEqual(len([axis for axis in fibre_map(".")["fibre-map"].axes if axis.images]), 3)
 
 
 class Accuracy(InFolder):

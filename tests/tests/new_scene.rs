@@ -19,14 +19,14 @@ fn a_measured_patch_and_the_numbers_of_a_rig_become_a_run() {
     let text = fs::read_to_string(directory.path("mine.toml")).unwrap();
     let own = text.lines().filter(|line| line.contains("# <-")).count();
     assert!((8..15).contains(&own), "{own} keys are the user's:\n{text}");
-    // The scan is smaller than a cell: it is not read as larger unless that is asked for.
-    assert!(text.contains("\n# pixel = \"50 um\" ") && text.contains("less than 4 cells"), "{text}");
+    // The scan is smaller than a cell, and nothing offers to read it as larger.
+    assert!(text.contains("less than 4 cells") && !text.contains("pixel = "), "{text}");
     let refused = directory.plateau(["check", "mine.toml"]);
     assert!(refused.status == Some(2) && refused.stderr.contains("take smaller cells"), "{}", refused.stderr);
     // Sq of the scan is 10.08 nm, as other programs have it (crates/io/tests/sdf.rs).
     assert!(text.contains("\n# cutoff = \"10 nm\" "), "{text}");
     assert!(outcome.stdout.contains("no peaks are cut. With cutoff = \"10 nm\", one rms height"), "{}", outcome.stdout);
-    fs::write(directory.path("mine.toml"), text.replace("# pixel = \"50 um\"", "pixel = \"2 um\"")).unwrap();
+    fs::write(directory.path("mine.toml"), text.replace("[disc.prepare]", "[disc.prepare]\npixel = \"2 um\"")).unwrap();
     for command in [&["check", "mine.toml"][..], &["run", "mine.toml"], &["summary", "mine.h5"]] {
         let outcome = directory.plateau(command);
         assert_eq!(outcome.status, Some(0), "{command:?}: {}", outcome.stderr);
@@ -130,7 +130,7 @@ fn spikes_and_a_sliding_speed_are_taken_as_they_are_meant() {
     fs::copy(repository().join("data/surfaces/afm_256x256.sdf"), directory.path("afm.sdf")).unwrap();
     let said = directory.plateau(["new", "afm.toml", "--disc", "afm.sdf"]).quiet_success();
     assert!(said.contains("the scene does not run as it is: take a cell_size of at most 125 nm"), "{said}");
-    assert!(said.contains("With pixel = \"50 um\" it would be read as 12.8 mm by 12.8 mm"), "{said}");
+    assert!(!said.contains("pixel"), "{said}");
 }
 
 #[test]
@@ -282,4 +282,56 @@ fn a_bowed_surface_with_few_spikes_is_put_right() {
     for line in ["level = \"quadratic\"", "outliers = 6 ", "fill = \"interpolate\"", "# cutoff = \"1 um\""] {
         assert!(text.contains(line), "{line} in\n{text}");
     }
+}
+
+#[test]
+fn a_micrograph_becomes_the_fibres_of_the_pin_and_is_repeated_where_it_is_too_small() {
+    let directory = WorkingDirectory::new();
+    // The shipped picture, 352 x 192 pixels, with a statement of so many in a metre behind its header.
+    let picture = fs::read(repository().join("data/surfaces/micrograph.png")).unwrap();
+    let write = |per_metre: Option<u32>| {
+        let mut content = picture.clone();
+        if let Some(count) = per_metre.map(u32::to_be_bytes) {
+            let chunk = [&b"pHYs"[..], &count, &count, &[1]].concat();
+            let mut sum = flate2::Crc::new();
+            sum.update(&chunk);
+            content.splice(33..33, [&9_u32.to_be_bytes()[..], &chunk, &sum.sum().to_be_bytes()].concat());
+        }
+        directory.write("pin.png", content);
+    };
+    write(None);
+    let new = ["new", "mine.toml", "--micrograph", "pin.png"];
+    let refused = directory.plateau(new);
+    assert_eq!(refused.status, Some(2), "{}", refused.stdout);
+    assert!(refused.stderr.contains("give --pixel, such as --pixel \"2 um\""), "{}", refused.stderr);
+    // 8.8 by 4.8 mm cover the pin of 6 by 4 mm.
+    let numbers = ["--pin-width=4 mm", "--pin-length=6 mm", "--duration=1 s"];
+    let said = directory.plateau([&new[..], &numbers, &["--pixel", "25 um"]].concat()).quiet_success();
+    assert!(said.contains("pin.png: 8.8 mm by 4.8 mm; fibre is ") && said.contains(" % of the pin: compare"), "{said}");
+    let text = fs::read_to_string(directory.path("mine.toml")).unwrap();
+    for line in ["image = \"pin.png\" ", "pixel = \"25 um\" ", "threshold = \"otsu\" ", "fibres = \"bright\" "] {
+        assert!(text.contains(line), "{line} in\n{text}");
+    }
+    assert!(!text.contains("repeat"), "{text}");
+    // What a microscope states is taken, what a program prints at is not.
+    write(Some(200_000));
+    let said = directory.plateau([&new[..], &numbers, &["--force"]].concat()).quiet_success();
+    assert!(said.contains("pixels of 5 um are what it states") && said.contains("smaller than the pin"), "{said}");
+    let text = fs::read_to_string(directory.path("mine.toml")).unwrap();
+    assert!(text.contains("pixel = \"5 um\" ") && text.contains("\nrepeat = true "), "{text}");
+    let run = directory.plateau(["run", "mine.toml"]);
+    assert_eq!(run.status, Some(0), "{}", run.stderr);
+    assert!(run.stdout.contains("the picture of 1.76 mm by 960 um repeated 3."), "{}", run.stdout);
+    let said = directory.plateau([&new[..], &numbers, &["--force", "--pixel", "25 um"]].concat()).quiet_success();
+    assert!(said.contains("it states pixels of 5 um, --pixel 25 um, which holds"), "{said}");
+    write(Some(2835));
+    let refused = directory.plateau([&new[..], &["--force"]].concat());
+    assert!(
+        refused.stderr.contains("it states pixels of 352.7 um, at which a program would print it"),
+        "{}",
+        refused.stderr
+    );
+    let refused = directory.plateau(["new", "other.toml", "--pixel", "2 um"]);
+    assert!(refused.status == Some(2) && refused.stderr.contains("--micrograph"), "{}", refused.stderr);
+    assert!(!directory.path("other.toml").exists());
 }

@@ -374,6 +374,12 @@ pub struct NewArguments {
     pub disc: Option<PathBuf>,
     #[command(flatten)]
     pub reading: ReadArguments,
+    /// Micrograph of the pin's face, its right side in the direction of sliding, its top outward: PNG, TIFF, JPEG
+    #[arg(long, value_name = "FILE")]
+    pub micrograph: Option<PathBuf>,
+    /// Distance of the micrograph's pixels; what the file states unless given
+    #[arg(long, value_name = "LENGTH", allow_hyphen_values = true, requires = "micrograph", value_parser = positive_length)]
+    pub pixel: Option<String>,
     /// Width of the pin, along the radius
     #[arg(long, value_name = "LENGTH", allow_hyphen_values = true, default_value = "4 mm", value_parser = positive_length)]
     pub pin_width: String,

@@ -4,10 +4,10 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use plateau_core::model::state::Base;
-use plateau_core::surface::micrograph::{Fibres, Micrograph, Threshold};
+use plateau_core::surface::micrograph::{Enlargement, Fibres, Micrograph, Threshold};
 use plateau_io::scene;
 use plateau_io::scene::{BaseSource, Scene};
-use plateau_io::surface::{Loaded, load, micrograph};
+use plateau_io::surface::{Loaded, load, micrograph, stated_pixel};
 use png::{BitDepth, ColorType};
 
 /// Square cells of 100 µm, a pin of 3 mm by 2 mm; without `[pin.base]`.
@@ -91,6 +91,7 @@ fn the_keys_of_a_scene_say_how() {
         threshold: Threshold::Otsu,
         fibres: Fibres::Bright,
         despeckle: None,
+        enlargement: None,
     };
     assert_eq!(micrograph, plain);
     for key in ["rotate = \"0 deg\"", "threshold = \"otsu\"", "fibres = \"bright\""] {
@@ -109,6 +110,16 @@ fn the_keys_of_a_scene_say_how() {
         ..plain
     };
     assert_eq!(micrograph, full);
+    for (keys, enlargement, resolved) in [
+        ("repeat = true", Enlargement::Tiles, "repeat = true"),
+        ("extend = \"statistics\"", Enlargement::Statistics { seed: 0 }, "extend_seed = 0"),
+        ("extend = \"statistics\"\nextend_seed = 7", Enlargement::Statistics { seed: 7 }, "extend_seed = 7"),
+    ] {
+        let (_folder, scene) = grey(&format!("pixel = \"20 um\"\n{keys}"));
+        let BaseSource::Image { micrograph, .. } = scene.pin_base else { panic!("{:?}", scene.pin_base) };
+        assert_eq!(micrograph, Micrograph { enlargement: Some(enlargement), ..plain });
+        assert!(scene.resolved.contains(resolved), "{}", scene.resolved);
+    }
     // What is resolved reads back as the same.
     let again = folder.path().join("again.toml");
     fs::write(&again, &scene.resolved).unwrap();
@@ -198,7 +209,7 @@ fn what_gives_no_fibre_map_is_told() {
     let (folder, path) = plain("pixel = \"20 um\"");
     fs::write(folder.path().join("pin.png"), "1 2\n3 4\n").unwrap();
     let found = message((folder, path));
-    assert!(found.ends_with("pin.png: this is a text file, expected an image: PNG or TIFF"), "{found}");
+    assert!(found.ends_with("pin.png: this is a text file, expected an image: PNG, TIFF or JPEG"), "{found}");
     let (folder, path) = plain("pixel = \"20 um\"");
     let content = fs::read(folder.path().join("pin.png")).unwrap();
     for length in [8, 20, 33, 50, content.len() / 2, content.len() - 1] {
@@ -221,4 +232,120 @@ fn the_micrograph_is_what_the_base_is_made_of() {
         assert!((255.0 * map.grey.pixels[at] - level).abs() < 1e-3, "{x}, {line}");
     }
     assert_eq!(load(&scene).unwrap().surfaces.pin_base, map.base);
+}
+
+/// A file of the corpus, as the picture of a scene with these keys; its name says PNG, its content what it is.
+fn jpeg(name: &str, keys: &str) -> (tempfile::TempDir, PathBuf) {
+    let (folder, path) = case(ColorType::Grayscale, BitDepth::Eight, |_, _| vec![0], keys);
+    let corpus = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/corpus/pictures");
+    fs::copy(corpus.join(name), folder.path().join("pin.png")).unwrap();
+    (folder, path)
+}
+
+#[test]
+fn a_jpeg_shows_what_a_png_of_the_same_picture_does() {
+    let (_folder, scene) = grey("pixel = \"20 um\"");
+    let (expected, _) = micrograph(&scene).unwrap().unwrap();
+    for (name, told) in [
+        ("grey.jpg", "160 x 120 pixels, grey, 8 bits"),
+        ("progressive.jpg", "160 x 120 pixels, grey, 8 bits"),
+        ("colour.jpg", "160 x 120 pixels, colours, taken as their luma, 8 bits"),
+    ] {
+        let (_folder, path) = jpeg(name, "pixel = \"20 um\"");
+        let scene = scene::load(&path, &[]).unwrap();
+        let (map, _) = micrograph(&scene).unwrap().unwrap();
+        assert_eq!((map.grey.width, map.grey.height), SIZE);
+        // Blocks of 16 pixels end at its edges or in the middle of the bar: levels ring, what is fibre stays but for some pixels there.
+        let pairs = map.fibre.pixels.iter().zip(&expected.fibre.pixels);
+        let differ = pairs.filter(|(one, other)| one != other).count();
+        assert!(differ <= SIZE.0 + SIZE.1, "{name}: {differ}");
+        let report = load(&scene).unwrap().report;
+        assert!(report.iter().any(|line| line.contains(told)), "{name}: {report:?}");
+    }
+    // Where they do not change, levels of a grey one are those of the PNG.
+    let (_folder, path) = jpeg("grey.jpg", "pixel = \"20 um\"");
+    let (map, _) = micrograph(&scene::load(&path, &[]).unwrap()).unwrap().unwrap();
+    for (x, line) in [(20, 60), (140, 60), (140, 10), (5, 5)] {
+        let off = 255.0 * (map.grey.pixels[line * SIZE.0 + x] - expected.grey.pixels[line * SIZE.0 + x]);
+        assert!(off.abs() <= 2.0, "{x}, {line}: {off}");
+    }
+}
+
+#[test]
+fn a_jpeg_that_is_damaged_turned_or_printed_in_four_colours_is_refused() {
+    for (name, expected) in [
+        ("turned.jpg", "the image is stored turned (EXIF orientation 6), expected 1"),
+        ("cmyk.jpg", "the image has CMYK pixels, expected grey or RGB pixels: save it so"),
+    ] {
+        let (_folder, path) = jpeg(name, "pixel = \"20 um\"");
+        let found = load(&scene::load(&path, &[]).unwrap()).unwrap_err().to_string();
+        assert!(found.contains(expected), "{name}: {found}");
+    }
+    for name in ["grey.jpg", "progressive.jpg", "colour.jpg"] {
+        let (folder, path) = jpeg(name, "pixel = \"20 um\"");
+        let content = fs::read(folder.path().join("pin.png")).unwrap();
+        for length in 3..content.len() {
+            fs::write(folder.path().join("pin.png"), &content[..length]).unwrap();
+            let found = load(&scene::load(&path, &[]).unwrap()).unwrap_err().to_string();
+            assert!(found.contains("pin.png: cannot be read as JPEG: ") || length < 30, "{name}, {length}: {found}");
+        }
+        // Cameras write more behind the end.
+        fs::write(folder.path().join("pin.png"), [&content[..], b"more"].concat()).unwrap();
+        load(&scene::load(&path, &[]).unwrap()).unwrap();
+    }
+}
+
+#[test]
+fn a_picture_that_is_smaller_than_the_pin_is_repeated_or_gives_its_statistics() {
+    for (keys, told) in [
+        ("repeat = true", "the picture of 1.6 mm by 1.2 mm repeated 1.9"),
+        (
+            "extend = \"statistics\"",
+            "random fibres with the fraction and the correlation of the picture of 1.6 mm by 1.2 mm",
+        ),
+    ] {
+        let (_folder, scene) = grey(&format!("pixel = \"10 um\"\n{keys}"));
+        let loaded = load(&scene).unwrap();
+        assert!(loaded.report.iter().any(|line| line.contains(told)), "{:?}", loaded.report);
+        let last = loaded.report.iter().rfind(|line| line.starts_with("pin.base: ")).unwrap();
+        assert!(last.contains("fibre fraction 0.6"), "{last}");
+    }
+    // What the picture cannot tell is a warning.
+    let (_folder, scene) = grey("pixel = \"10 um\"\nextend = \"statistics\"");
+    let warnings: Vec<String> = load(&scene).unwrap().warnings().collect();
+    assert!(warnings[0].starts_with("pin.base: along sliding, fibre is related over a quarter"), "{warnings:?}");
+    let (_folder, path) = case(
+        ColorType::Grayscale,
+        BitDepth::Eight,
+        |_, _| vec![0],
+        "pixel = \"20 um\"\nrepeat = true\nextend = \"statistics\"",
+    );
+    let refused = scene::load(&path, &[]).unwrap_err().to_string();
+    assert!(refused.contains("repeat and extend are given together"), "{refused}");
+}
+
+#[test]
+fn the_distance_of_pixels_is_what_files_state() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("stated.png");
+    let mut encoder = png::Encoder::new(fs::File::create(&path).unwrap(), 2, 1);
+    encoder.set_pixel_dims(Some(png::PixelDimensions { xppu: 500_000, yppu: 500_000, unit: png::Unit::Meter }));
+    encoder.write_header().unwrap().write_image_data(&[0, 9]).unwrap();
+    assert_eq!(stated_pixel(&path).unwrap(), Some(2e-6));
+    // 5000 pixels in a centimetre, and twice as many along as across.
+    for (across, expected) in [(5000, Some(2e-6)), (2500, None)] {
+        let mut encoder = tiff::encoder::TiffEncoder::new(fs::File::create(&path).unwrap()).unwrap();
+        let mut image = encoder.new_image::<tiff::encoder::colortype::Gray8>(2, 1).unwrap();
+        image.resolution_unit(tiff::tags::ResolutionUnit::Centimeter);
+        image.x_resolution(tiff::encoder::Rational { n: 5000, d: 1 });
+        image.y_resolution(tiff::encoder::Rational { n: across, d: 1 });
+        image.write_data(&[0, 9]).unwrap();
+        assert_eq!(stated_pixel(&path).unwrap(), expected);
+    }
+    let (folder, _) = jpeg("grey.jpg", "");
+    // 2540 pixels in an inch.
+    let found = stated_pixel(&folder.path().join("pin.png")).unwrap().unwrap();
+    assert!((found - 1e-5).abs() < 1e-12, "{found}");
+    let (folder, _) = jpeg("progressive.jpg", "");
+    assert_eq!(stated_pixel(&folder.path().join("pin.png")).unwrap(), None);
 }

@@ -149,7 +149,7 @@ fn what_is_needed_or_of_no_use_is_told() {
         (
             "pitch.h5",
             ReadOptions { pitch: Some([5e-5; 2]), ..options() },
-            "the file states a pitch of 25 um, the scene 50 um: leave out pitch (",
+            "the file states a pitch of 25 um, the scene 50 um: leave out pitch",
         ),
         ("grey8.png", options(), "an image does not say its heights: height_range = "),
         ("grey8.png", um(), "the pixels are grey levels, so unit has no meaning"),

@@ -1,5 +1,5 @@
 """The figures of surfaces, from the folder of data that ``plateau surface --figure-data`` writes: map, distribution, material ratio curve,
-power spectrum and autocorrelation of each, or its relief; and the fibre map of a pin."""
+power spectrum and autocorrelation of each, or its relief."""
 
 import os
 import tempfile
@@ -12,8 +12,8 @@ import numpy as np
 from plateau.commands import command
 from plateau.errors import InputError
 from plateau.program import file_name
-from plateau.style import APART, DASHES, GROUND, LINES, QUIET, WIDE, Figures, in_style, new, wrapped
-from plateau.surface_data import Surface, autocorrelation, in_bands, read, thinned, told
+from plateau.style import APART, DASHES, LINES, QUIET, WIDE, Figures, in_style, new, wrapped
+from plateau.surface_data import Surface, autocorrelation, in_bands, read, thinned
 from plateau.units import Unit, unit_for
 
 # Surfaces on a page and the height of each, mm; points that are drawn along a side of a map and of a relief.
@@ -29,7 +29,6 @@ DIRECTIONS: list[tuple[int, str, dict[str, Any]]] = [
     (1, "x", {"color": LINES[0], "linewidth": 0.9}),
     (0, "y", {"color": LINES[6], "linewidth": 0.9, "linestyle": DASHES[1]}),
 ]
-FIBRE, RESIN, OUTLINE = LINES[1], "#3c3c46", LINES[6]
 NOTE = """Heights are counted from their mean. Material ratio: line through the flattest 40 % of the curve; the core has the height Sk,
 the triangles Spk and Svk. Power spectral density (PSD): one-sided, mean over all profiles along x or y, each less its mean, with a Hann
 window; its integral is the mean square of these profiles. Autocorrelation: mean over all pairs of points, over Sq²; dotted: Sal, at which
@@ -189,38 +188,6 @@ def _reliefs(page: list[tuple[Surface, Scale]]) -> Any:
         axis.xaxis.labelpad = 8
         axis.set_title(wrapped(surface.told["title"], 40), y=0.95)
     return figure
-
-
-@in_style
-def fibre_map(folder: str | os.PathLike[str]) -> Figures:
-    """Draws the fibre map of a folder of data: the base of the pin's cells beside the micrograph that it comes from."""
-    from matplotlib.colors import ListedColormap
-    from matplotlib.lines import Line2D
-    from matplotlib.patches import Patch
-
-    found = told(folder, "fibre_map.json")
-    x, y = (0.5e3 * length for length in found["extent"])
-    micrograph, fibre, base = (found[name] and np.load(Path(folder) / found[name]) for name in ("micrograph", "fibre", "base"))
-    panels = 1 if micrograph is None else 2
-    caption = "The base of the pin's cells, fibre or resin" + (", beside the micrograph that it comes from." if panels == 2 else ".")
-    figure, axes = new(WIDE, min(WIDE / panels * y / x + 20, 240), caption, 1, panels, sharey=True)
-    meanings: list[Any] = [Patch(color=FIBRE, label="fibre"), Patch(color=RESIN, label="resin")]
-    if micrograph is not None:
-        axes[0, 0].imshow(thinned(micrograph, MOST_POINTS), cmap="gray", vmin=0, vmax=255, extent=(-x, x, -y, y))
-        axes[0, 0].set_title("micrograph", loc="left")
-        parts = thinned(fibre, MOST_POINTS)
-        across, down = (of * ((2 * np.arange(n) + 1) / n - 1) for of, n in ((x, parts.shape[1]), (y, parts.shape[0])))
-        if 0 < fibre.mean() < 1:
-            axes[0, 0].contour(across, -down, parts, [0.5], colors=[OUTLINE], linewidths=0.6)
-            meanings.append(Line2D([], [], color=OUTLINE, label="outline of what was taken for fibre"))
-    colours = ListedColormap([RESIN, FIBRE, GROUND, GROUND])
-    axes[0, -1].imshow(base, cmap=colours, vmin=0, vmax=3, interpolation="nearest", extent=(-x, x, -y, y))
-    axes[0, -1].set_title("base of the pin", loc="left")
-    axes[0, 0].set_ylabel("y, mm")
-    for axis in axes.flat:
-        axis.set_xlabel("x, mm")
-    figure.legend(handles=meanings, loc="outside upper left", ncols=3)
-    return {"fibre-map": figure}
 
 
 def plot_surfaces(

@@ -1,4 +1,6 @@
-//! `plateau new`: write a commented scene to begin with, also for a measured disc.
+//! `plateau new`: write a commented scene to begin with, also for a measured disc and a micrograph of the pin.
+
+mod fibres;
 
 use std::ffi::OsStr;
 use std::fmt;
@@ -30,13 +32,30 @@ const SYNTHETIC: &str = r#"synthetic = { seed = 1, rms_height = "3 um", correlat
 [disc.prepare]
 cutoff = "3 um"                         # peaks are cut at this height above the mean"#;
 
+/// Place for what is made of a picture that is smaller than the pin, behind the keys of the base.
+const BEYOND: &str = "{beyond}";
+
 /// Makes a scene, looks whether it can be run, writes it, and says what to do next.
 pub fn new(arguments: &NewArguments) -> Result<(), Failure> {
     let path = &arguments.scene;
-    let inputs: Vec<_> = arguments.disc.iter().cloned().collect();
+    let inputs: Vec<_> = arguments.disc.iter().chain(&arguments.micrograph).cloned().collect();
     output::check(path, arguments.force, &inputs)?;
-    let Written { text, notes } = scene_text(arguments)?;
-    let scene = scene::of_text(path, &text).map_err(|error| refusal(arguments, &error))?;
+    let Written { text: draft, mut notes } = scene_text(arguments)?;
+    let of_text = |text: &str| scene::of_text(path, text).map_err(|error| refusal(arguments, &error));
+    let mut text = draft.replace(BEYOND, "");
+    let mut scene = of_text(&text)?;
+    if let Some(micrograph) = &arguments.micrograph {
+        let mut found = surface::micrograph(&scene);
+        let is_small = fibres::is_too_small(&found);
+        if is_small {
+            text = draft.replace(BEYOND, &format!("\n{}", fibres::beyond()));
+            scene = of_text(&text)?;
+            found = surface::micrograph(&scene);
+        }
+        if let Some((map, pixel)) = found.map_err(|error| Failure::input(format!("{error}\nnothing is written")))? {
+            notes.extend(fibres::told(micrograph, &map, pixel, &scene, is_small));
+        }
+    }
     output::write(path, text.as_bytes(), arguments.force)?;
     scene.warnings.iter().chain(&plausibility::of_scene(&scene)).for_each(message::warning);
     let (program, name) = (invocation::program(), invocation::argument(&path.to_string_lossy()));
@@ -84,6 +103,8 @@ fn scene_text(arguments: &NewArguments) -> Result<Written, Failure> {
             return Err(Failure::input(format!("{} {message}", named.join(", "))));
         }
     };
+    let (base, said) = fibres::lines(arguments)?;
+    notes.extend(said);
     let speed_key = arguments.speed_key();
     let other_speed = other_speed(speed_key, speed, radius).unwrap_or_default();
     let operation = [
@@ -102,6 +123,7 @@ fn scene_text(arguments: &NewArguments) -> Result<Written, Failure> {
         ("{mesh}", mesh.join("\n")),
         ("{operation}", operation.join("\n")),
         ("{disc}", disc),
+        ("{base}", base + BEYOND),
         ("{file}", line("file", run.as_str(), "in the folder in which the program is called")),
         ("{name}", name),
         ("{run}", invocation::argument(&run)),
@@ -186,8 +208,8 @@ fn disc_lines(
             Spikes::LIMIT
         ));
     }
-    if let Some((pixel, note)) = too_small {
-        lines.extend(pixel);
+    if let Some((remark, note)) = too_small {
+        lines.extend(remark);
         notes.push(format!("{}: {note}", disc.display()));
     }
     if spikes.is_some() || measured.heights.iter().any(|height| height.is_nan()) {
@@ -376,8 +398,7 @@ fn path_from(scene: &Path, disc: &Path) -> Result<String, String> {
     path.to_str().map(str::to_owned).ok_or_else(|| "its path is not UTF-8, as a scene is: rename it".to_owned())
 }
 
-/// Lines of the scene about a patch that is smaller than the fewest cells that are needed of it, and what that means; it is not read as
-/// larger unless the user says so.
+/// Lines of the scene about a patch that is smaller than the fewest cells that are needed of it, and what that means.
 fn smaller_than_cells(measured: &Measured) -> Option<(Vec<String>, String)> {
     let Measured { columns, rows, pitch, profile_lay, .. } = *measured;
     let [x, y] = pitch?;
@@ -390,21 +411,18 @@ fn smaller_than_cells(measured: &Measured) -> Option<(Vec<String>, String)> {
         return None;
     }
     let cells = if fewest == 1 { "a cell".to_owned() } else { format!("{fewest} cells") };
-    let size = |x: f64, y: f64| match profile_lay {
+    let is = match profile_lay {
         Some(_) => format!("{} long", Length(columns as f64 * x)),
         None => format!("{} by {}", Length(columns as f64 * x), Length(rows as f64 * y)),
     };
-    let (is, read_as) = (size(x, y), size(CELL * 1e-6, CELL * 1e-6));
-    let pixel = format!("pixel = \"{CELL} um\"");
     let most = Length(least / fewest as f64);
     let lines = vec![
-        format!("{:40}# <- the patch is {is}, less than {cells}: it does not run before you", format!("# {pixel}")),
-        format!("{:40}# take smaller cells (cell_size of at most {most}) or a larger patch, or read it as larger", ""),
+        format!("{:40}# <- the patch is {is}, less than {cells}: it does not run before you", ""),
+        format!("{:40}# take smaller cells (cell_size of at most {most}) or a larger patch", ""),
     ];
     let note = format!(
         "it is {is}, less than {cells} of {CELL} um, and the scene does not run as it is: take a cell_size of at most {most}, or \
-         measure a larger area. With {pixel} it would be read as {read_as}, with the heights as they are: a much smoother disc than \
-         the measured one. If this is not its size, correct the pitch"
+         measure a larger area. If this is not its size, correct the pitch"
     );
     Some((lines, note))
 }

@@ -1,9 +1,14 @@
 //! The pin's fibre map from a micrograph of its face.
 
+mod plane;
+mod statistics;
+
+pub use plane::PinPlane;
+use plane::fractions;
 use thiserror::Error;
 
-use super::Length;
 use super::gaussian_filter::mirrored;
+use super::{Extension, Length};
 use crate::model::mesh::Mesh;
 use crate::model::state::Base;
 
@@ -22,6 +27,20 @@ pub struct Micrograph {
     pub fibres: Fibres,
     /// Area of the smallest region that stays, m²; first specks of fibre are removed, then holes in fibre.
     pub despeckle: Option<f64>,
+    /// What is made of a picture that is smaller than the pin; none where it is refused.
+    pub enlargement: Option<Enlargement>,
+}
+
+/// What is made of a picture that is smaller than the pin.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Enlargement {
+    /// The picture again and again, mirrored at the seams.
+    Tiles,
+    /// Random fibres with the area fraction and the two-point correlation of the picture, in place of it.
+    Statistics {
+        /// Seed of the random stream.
+        seed: u64,
+    },
 }
 
 /// The grey level that parts fibre and resin.
@@ -74,10 +93,23 @@ pub enum MicrographError {
     #[error("all pixels have the same grey level, so there is no threshold between fibre and resin; use uniform")]
     Uniform,
     #[error(
-        "the picture is {} by {}, the pin {} by {}: a pixel of at least {} lets the picture cover it",
-        Length(*width), Length(*height), Length(pin.0), Length(pin.1), Length(*pixel)
+        "the picture is {} by {}, the pin {} by {}: repeat = true repeats it, mirrored at the seams, extend = \"statistics\" makes \
+         random fibres with its fraction and correlation; or take a larger picture",
+        Length(*width), Length(*height), Length(pin.0), Length(pin.1)
     )]
-    Small { width: f64, height: f64, pin: (f64, f64), pixel: f64 },
+    Small { width: f64, height: f64, pin: (f64, f64) },
+    #[error(
+        "{} by {} whole cells lie in the picture of {} by {}, expected at least {least} by {least} for its statistics: take a \
+         larger picture or smaller cells, or repeat = true in place of extend",
+        cells[0], cells[1], Length(picture[0]), Length(picture[1]), least = Extension::FEWEST_CELLS
+    )]
+    FewCells { picture: [f64; 2], cells: [usize; 2] },
+    #[error(
+        "the statistics of the picture of {} by {} ask for a field of {} by {}, more than there is room for: take a part of it, \
+         or larger cells",
+        Length(picture[0]), Length(picture[1]), field[0], field[1]
+    )]
+    LargeField { picture: [f64; 2], field: [usize; 2] },
 }
 
 impl Micrograph {
@@ -102,12 +134,30 @@ impl Micrograph {
         if let Some(area) = self.despeckle {
             self.remove_specks(&mut fibre, area, &mut report);
         }
-        let fractions = fractions(&fibre, self.pixel, mesh)?;
+        let base = match self.enlargement {
+            Some(Enlargement::Statistics { seed }) => statistics::base(&fibre, self.pixel, seed, mesh, &mut report)?,
+            Some(Enlargement::Tiles) | None => self.laid(&fibre, mesh, &mut report)?,
+        };
+        Ok(FibreMap { base, grey, fibre, report })
+    }
+
+    /// Base of the cells on which the picture lies, or the picture and its mirror images.
+    fn laid(&self, fibre: &Picture<bool>, mesh: &Mesh, report: &mut Vec<String>) -> Result<Vec<Base>, MicrographError> {
+        let fractions = fractions(self, fibre, mesh)?;
+        let (size, plane) = (fibre.size(self.pixel), PinPlane::new(mesh));
+        if !plane.is_covered_by(size) {
+            let (across, up) = plane.half_extent();
+            report.push(format!(
+                "the picture of {} by {} repeated {:.2} times along and {:.2} times across sliding, mirrored at the seams",
+                Length(size[0]),
+                Length(size[1]),
+                2.0 * across / size[0],
+                2.0 * up / size[1]
+            ));
+        }
         let covered: f64 = fractions.iter().zip(mesh.pin_areas()).map(|(fraction, area)| fraction * area).sum();
         report.push(format!("fibre fraction of the picture on the pin {:.4}", covered / mesh.pin_area()));
-        let base =
-            fractions.iter().map(|fraction| if *fraction >= 0.5 { Base::Primary } else { Base::Resin }).collect();
-        Ok(FibreMap { base, grey, fibre, report })
+        Ok(fractions.iter().map(|fraction| if *fraction >= 0.5 { Base::Primary } else { Base::Resin }).collect())
     }
 
     fn part(&self, grey: &Picture<f32>, report: &mut Vec<String>) -> Result<Picture<bool>, MicrographError> {
@@ -179,6 +229,13 @@ pub struct Picture<T> {
     pub height: usize,
     /// Pixels, line by line.
     pub pixels: Vec<T>,
+}
+
+impl<T> Picture<T> {
+    /// Width and height, m, of a picture whose pixels are this far apart, m.
+    pub fn size(&self, pixel: f64) -> [f64; 2] {
+        [self.width as f64 * pixel, self.height as f64 * pixel]
+    }
 }
 
 impl<T: Copy> Picture<T> {
@@ -326,110 +383,4 @@ fn neighbours(pixel: usize, width: usize, count: usize) -> [Option<usize>; 4] {
         pixel.checked_sub(width),
         (pixel + width < count).then_some(pixel + width),
     ]
-}
-
-/// Points of a cell along either direction: at least this many, and at least [`PER_PIXEL`] for every pixel, up to
-/// [`MOST_POINTS`].
-const FEWEST_POINTS: usize = 8;
-const PER_PIXEL: f64 = 2.0;
-const MOST_POINTS: usize = 64;
-
-/// Lengths that differ by less than this are the same length.
-const SAME_LENGTH: f64 = 1e-9;
-
-/// Where the picture lies: its middle on the pin's middle (mean radius, middle of the columns), its lines along the
-/// sliding direction there, its top outward. The point at the radius r and the angle φ from the middle column has
-/// x = r sin φ and y = r cos φ − mean radius.
-#[derive(Debug, Clone, Copy)]
-pub struct PinPlane<'a> {
-    mesh: &'a Mesh,
-}
-
-impl<'a> PinPlane<'a> {
-    /// The plane of this mesh's pin.
-    pub fn new(mesh: &'a Mesh) -> Self {
-        Self { mesh }
-    }
-
-    /// The pin cell at a point of the plane, m, if there is one.
-    pub fn cell(&self, x: f64, y: f64) -> Option<usize> {
-        let (mesh, y) = (self.mesh, y + self.mesh.mean_radius());
-        let row = (libm::hypot(x, y) - self.inner_radius()) / mesh.row_height();
-        let column = libm::atan2(x, y) / mesh.column_angle() + 0.5 * mesh.pin_columns() as f64;
-        let inside = (0.0..mesh.rows() as f64).contains(&row) && (0.0..mesh.pin_columns() as f64).contains(&column);
-        inside.then(|| column as usize * mesh.rows() + row as usize)
-    }
-
-    /// Half the extent of the smallest picture that covers the pin, m.
-    pub fn half_extent(&self) -> (f64, f64) {
-        let (mesh, inner) = (self.mesh, self.inner_radius());
-        if mesh.is_rectangle() {
-            return self.half_extent_of(inner, inner + mesh.rows() as f64 * mesh.row_height(), mesh.pin_columns());
-        }
-        let of_row = |row: usize| {
-            let inner = inner + row as f64 * mesh.row_height();
-            self.half_extent_of(inner, inner + mesh.row_height(), mesh.chord(row).len())
-        };
-        let rows = (0..mesh.rows()).filter(|row| !mesh.chord(*row).is_empty()).map(of_row);
-        rows.fold((0.0, 0.0), |(across, up): (f64, f64), (own_across, own_up)| (across.max(own_across), up.max(own_up)))
-    }
-
-    /// The same of so many columns between two radii, m.
-    fn half_extent_of(&self, inner: f64, outer: f64, columns: usize) -> (f64, f64) {
-        let mesh = self.mesh;
-        let angle = 0.5 * columns as f64 * mesh.column_angle();
-        let quarter = std::f64::consts::FRAC_PI_2;
-        let across = if angle < quarter { outer * libm::sin(angle) } else { outer };
-        // The lowest point is a corner of the innermost row, or of the outermost where the pin spans half the ring.
-        let lowest = (inner * libm::cos(angle)).min(outer * libm::cos(angle));
-        (across, (outer - mesh.mean_radius()).max(mesh.mean_radius() - lowest))
-    }
-
-    fn inner_radius(&self) -> f64 {
-        self.mesh.mean_radius() - 0.5 * self.mesh.rows() as f64 * self.mesh.row_height()
-    }
-}
-
-/// Fraction of every pin cell that is set, column by column: the mean over points that stand for equal shares of angle
-/// and radius, weighted by the radius.
-fn fractions(picture: &Picture<bool>, pixel: f64, mesh: &Mesh) -> Result<Vec<f64>, MicrographError> {
-    let plane = PinPlane::new(mesh);
-    let (across, up) = plane.half_extent();
-    let (width, height) = (picture.width as f64 * pixel, picture.height as f64 * pixel);
-    if 0.5 * width < across * (1.0 - SAME_LENGTH) || 0.5 * height < up * (1.0 - SAME_LENGTH) {
-        let needed = (2.0 * across / picture.width as f64).max(2.0 * up / picture.height as f64);
-        return Err(MicrographError::Small { width, height, pin: (2.0 * across, 2.0 * up), pixel: needed });
-    }
-    let points = |cell: f64| ((libm::ceil(PER_PIXEL * cell / pixel)) as usize).clamp(FEWEST_POINTS, MOST_POINTS);
-    let per_column = points(mesh.column_width());
-    let per_row = points(mesh.row_height());
-    let radii: Vec<f64> = (0..mesh.rows() * per_row)
-        .map(|point| plane.inner_radius() + (point as f64 + 0.5) / per_row as f64 * mesh.row_height())
-        .collect();
-    let directions: Vec<(f64, f64)> = (0..mesh.pin_columns() * per_column)
-        .map(|point| {
-            let column = (point as f64 + 0.5) / per_column as f64 - 0.5 * mesh.pin_columns() as f64;
-            let angle = column * mesh.column_angle();
-            (libm::sin(angle), libm::cos(angle))
-        })
-        .collect();
-    let mut fractions = Vec::with_capacity(mesh.pin_cells());
-    for column in directions.chunks_exact(per_column) {
-        for row in radii.chunks_exact(per_row) {
-            let (mut set, mut all) = (0.0, 0.0);
-            for radius in row {
-                let hits = column.iter().filter(|(sin, cos)| {
-                    let (x, y) = (radius * sin, radius * cos - mesh.mean_radius());
-                    // Casts saturate, so what rounding puts outside belongs to the outermost pixels.
-                    let x = ((x + 0.5 * width) / pixel) as usize;
-                    let y = ((0.5 * height - y) / pixel) as usize;
-                    picture.pixels[y.min(picture.height - 1) * picture.width + x.min(picture.width - 1)]
-                });
-                set += radius * hits.count() as f64;
-                all += radius * per_column as f64;
-            }
-            fractions.push(set / all);
-        }
-    }
-    Ok(fractions)
 }

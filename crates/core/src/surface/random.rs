@@ -12,6 +12,7 @@ pub(crate) enum Stream {
     PinBase = 3,
     DiscExtension = 4,
     PinExtension = 5,
+    PinBaseExtension = 6,
 }
 
 /// One random stream of one seed.

@@ -47,6 +47,30 @@ impl Patch {
     pub fn cell_averages(&self, mesh: &Mesh) -> Option<Self> {
         Some(cell_averages(self, mesh)).filter(|cells| !cells.heights.is_empty())
     }
+
+    /// Where the patch, laid on the disc as it is or repeated, meets itself or its mirror image: angles from the first column, rad,
+    /// and radii, m, both increasing.
+    pub fn seams(&self, repeat: bool, mesh: &Mesh) -> [Vec<f64>; 2] {
+        let ring = Body::Disc.length(mesh);
+        let mut places = vec![0.0];
+        let mut radii = Vec::new();
+        if repeat && self.columns > 1 {
+            let half: Vec<f64> =
+                (1..).map(|seam| f64::from(seam) * self.length()).take_while(|place| *place < 0.5 * ring).collect();
+            places.extend(half.iter().copied().chain([0.5 * ring]));
+            places.extend(half.iter().rev().map(|place| ring - place));
+        }
+        if repeat && self.rows > 1 {
+            let track = mesh.rows() as f64 * mesh.row_height();
+            let outward: Vec<f64> = (0..)
+                .map(|seam| (f64::from(seam) + 0.5) * self.height())
+                .take_while(|place| *place < 0.5 * track)
+                .collect();
+            radii.extend(outward.iter().rev().map(|place| mesh.mean_radius() - place));
+            radii.extend(outward.iter().map(|place| mesh.mean_radius() + place));
+        }
+        [places.into_iter().map(|place| place / mesh.mean_radius()).collect(), radii]
+    }
 }
 
 /// The mean of the patch in every cell of the mesh's size that lies in it whole, the cells in the middle of the patch; as

@@ -145,3 +145,31 @@ fn the_bits_of_wide_patches_are_known() {
     let found: String = digest.finalize().iter().map(|byte| format!("{byte:02x}")).collect();
     assert_eq!(found, "ccaad3fd8b0e003d7b2a3e51e28cd25ca2e68fa22b790504a934d76d9574e39b");
 }
+
+#[test]
+fn seams_are_where_a_repeated_patch_meets_its_image() {
+    // A ring of 100 by 8 cells of 100 um, and a patch of 3 by 0.3 mm.
+    let mean_radius = 10e-3 / std::f64::consts::TAU;
+    let mesh = Mesh::new(8, 100, 10, mean_radius - 0.4e-3, mean_radius + 0.4e-3).unwrap();
+    let patch = Patch { columns: 30, rows: 3, column_pitch: 1e-4, row_pitch: 1e-4, heights: vec![0.0; 90] };
+    let [angles, radii] = patch.seams(true, &mesh);
+    let near = |found: &[f64], expected: &[f64]| {
+        found.len() == expected.len() && found.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-9)
+    };
+    let turn = std::f64::consts::TAU;
+    assert!(near(&angles, &[0.0, 0.3 * turn, 0.5 * turn, 0.7 * turn]), "{angles:?}");
+    let beyond: Vec<f64> = radii.iter().map(|radius| radius - mesh.mean_radius()).collect();
+    assert!(near(&beyond, &[-0.15e-3, 0.15e-3]), "{beyond:?}");
+    // Laid once, it has one where the ring closes.
+    assert_eq!(patch.seams(false, &mesh), [vec![0.0], vec![]]);
+    // Heights differ across a seam and nowhere else from those of a patch that goes on: they are a mirror image there.
+    let slope = Patch { heights: (0..90).map(|at| f64::from(at / 3)).collect(), ..patch };
+    let heights = tiled(&slope, Body::Disc, &mesh);
+    let turns = (0..100).filter(|column| {
+        let [before, here, next] = [99, 0, 1].map(|more| heights[(column + more) % 100 * 8]);
+        (here - before) * (next - here) < 1e-6
+    });
+    let at: Vec<usize> = turns.collect();
+    // Two equal heights on both sides of each.
+    assert_eq!(at, [0, 29, 30, 49, 50, 69, 70, 99]);
+}

@@ -99,6 +99,7 @@ fn build(mut settings: Settings, mut files: Vec<(PathBuf, String)>, path: &Path)
         "disc.surface.synthetic.seed",
         "disc.prepare.extend_seed",
         "pin.base.synthetic.seed",
+        "pin.base.extend_seed",
         "pin.surface.synthetic.seed",
         "pin.prepare.extend_seed",
     ];

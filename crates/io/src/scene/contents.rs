@@ -13,7 +13,7 @@ use plateau_core::observe::extra::{EMISSION, Extra, FRICTION, HEAT};
 use plateau_core::observe::schedule::{End, SampleEvery, Schedule};
 use plateau_core::observe::{ACCELERATION, CYCLE, Map, ROAD};
 use plateau_core::simulation::Decomposition;
-use plateau_core::surface::micrograph::Micrograph;
+use plateau_core::surface::micrograph::{Enlargement, Micrograph};
 use plateau_core::surface::{Body, FibreSynthesis, HeightSynthesis, Preparation};
 
 use super::error::{Origin, Warning};
@@ -258,7 +258,16 @@ pub fn memory_estimate(scene: &Scene) -> u64 {
     let extended = |settings: &HeightSettings, body: Body| {
         settings.preparation.extend.map_or(0, |_| field(body.columns(mesh), mesh.rows(), body == Body::Disc))
     };
-    run.max(extended(&scene.disc_surface, Body::Disc)).max(extended(&scene.pin_surface, Body::Pin))
+    let fibres = match &scene.pin_base {
+        BaseSource::Image { micrograph, .. }
+            if matches!(micrograph.enlargement, Some(Enlargement::Statistics { .. })) =>
+        {
+            field(mesh.pin_columns(), mesh.rows(), false)
+        }
+        _ => 0,
+    };
+    let surfaces = [extended(&scene.disc_surface, Body::Disc), extended(&scene.pin_surface, Body::Pin), fibres];
+    surfaces.into_iter().fold(run, u64::max)
 }
 
 /// Bytes of the field from which heights of a body are taken that are extended by statistics: a complex number, an

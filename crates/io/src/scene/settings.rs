@@ -178,14 +178,12 @@ impl Settings {
             }
             "output.maps" => Some(Setting::Maps(Map::CHOICES.to_vec())),
             // They have a meaning only beside an image.
-            "pin.base.rotate" | "pin.base.threshold" | "pin.base.fibres" if !entries.contains_key("pin.base.image") => {
-                None
-            }
+            path if path.starts_with("pin.base.") && !entries.contains_key("pin.base.image") => None,
             "pin.base.rotate" => Some(Setting::Text("0 deg".to_owned())),
             "pin.base.threshold" => Some(Setting::Text("otsu".to_owned())),
             "pin.base.fibres" => Some(Setting::Text("bright".to_owned())),
             // Of these two a scene has one.
-            "disc.prepare.repeat" | "pin.prepare.repeat" | "disc.prepare.extend_seed" | "pin.prepare.extend_seed" => {
+            path if path.ends_with(".repeat") || path.ends_with(".extend_seed") => {
                 let (table, name) = path.rsplit_once('.').unwrap_or_default();
                 let extends = entries.contains_key(&schema::join(table, "extend"));
                 match name {

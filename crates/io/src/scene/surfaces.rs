@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use plateau_core::surface::micrograph::{Micrograph, Threshold};
+use plateau_core::surface::micrograph::{Enlargement, Micrograph, Threshold};
 use plateau_core::surface::{Crop, Extension, FibreSynthesis, HeightSynthesis, Preparation, Texture, Unroll};
 
 use super::contents::{BaseSource, HeightSettings, HeightSource, ReadOptions};
@@ -52,8 +52,8 @@ fn preparation(settings: &Settings, table: &str) -> Result<Preparation, Problem>
         s_filter,
         l_filter,
         cutoff: number("cutoff")?,
-        repeat: settings.get(&key("repeat")).is_some_and(|repeat| *repeat == Setting::Bool(true)),
-        extend: extension(settings, &key)?,
+        repeat: repeats(settings, &key("repeat")),
+        extend: extension(settings, &key)?.map(|seed| Extension::Statistics { seed }),
         scale: settings.number(&key("scale"))?,
     })
 }
@@ -68,13 +68,18 @@ fn range(settings: &Settings, path: &str) -> Result<Option<[f64; 2]>, Problem> {
     Ok(pair)
 }
 
-/// Extension of a patch that is smaller than the body, besides tiling it.
-fn extension(settings: &Settings, key: &impl Fn(&str) -> String) -> Result<Option<Extension>, Problem> {
+/// Whether what is smaller than the body is tiled; a scene that extends it has no such key.
+fn repeats(settings: &Settings, key: &str) -> bool {
+    settings.get(key).is_some_and(|repeat| *repeat == Setting::Bool(true))
+}
+
+/// Seed of what has the statistics of a patch or a picture that is smaller than the body, if that is asked for.
+fn extension(settings: &Settings, key: &impl Fn(&str) -> String) -> Result<Option<u64>, Problem> {
     if settings.get(&key("extend")).is_none() {
         return Ok(None);
     }
     settings.choice(&key("extend"), &choices::EXTEND)?;
-    Ok(Some(Extension::Statistics { seed: settings.integer(&key("extend_seed"))? }))
+    settings.integer(&key("extend_seed")).map(Some)
 }
 
 /// The settings of synthetic heights in this inline table.
@@ -169,6 +174,10 @@ fn micrograph(settings: &Settings) -> Result<Micrograph, Problem> {
         },
         fibres: settings.choice("pin.base.fibres", &choices::FIBRES)?,
         despeckle: settings.optional_number("pin.base.despeckle")?,
+        enlargement: match extension(settings, &|name| format!("pin.base.{name}"))? {
+            Some(seed) => Some(Enlargement::Statistics { seed }),
+            None => repeats(settings, "pin.base.repeat").then_some(Enlargement::Tiles),
+        },
     })
 }
 

@@ -56,7 +56,7 @@ pub enum FileError {
     Workbook(&'static str),
     #[error("this is a damaged zip archive: {0}")]
     Zip(String),
-    #[error("this is {0}, expected an image: PNG or TIFF")]
+    #[error("this is {0}, expected an image: PNG, TIFF or JPEG")]
     NotAnImage(Format),
     #[error("cannot be written as PNG: {0}")]
     Write(#[from] png::EncodingError),
@@ -66,10 +66,7 @@ pub enum FileError {
     Absurd { found: String, expected: String },
     #[error("this is {format}, which has no datasets: leave out dataset = \"{dataset}\"")]
     NoDatasets { format: Format, dataset: String },
-    #[error(
-        "this is {format}, for which {key} has no meaning: leave it out (pixel and scale in the prepare table read a \
-         file differently than it says)"
-    )]
+    #[error("this is {format}, for which {key} has no meaning: leave it out")]
     Meaningless { format: Format, key: &'static str },
     #[error(transparent)]
     Disagree(#[from] Disagreement),

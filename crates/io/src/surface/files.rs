@@ -70,7 +70,7 @@ fn read_format(path: &Path, options: &ReadOptions) -> Result<Measured, FileError
             Ok(npy::read(&content, options)?)
         }
         Format::Npz => Ok(npy::read_archive(&input::read(path, limits::SURFACE)?, options)?),
-        Format::Png | Format::Tiff => {
+        Format::Png | Format::Tiff | Format::Jpeg => {
             image::heights(&input::read(path, limits::SURFACE)?, format, options).map_err(|reason| match reason {
                 ImageError::Tiff(_) | ImageError::Pixels { .. } if format == Format::Tiff => FileError::Tiff { reason },
                 other => other.into(),
@@ -106,15 +106,15 @@ fn refuse_absurd(measured: &Measured) -> Result<(), FileError> {
 
 /// Refuses what would silently not be used.
 fn refuse_meaningless(options: &ReadOptions, format: Format) -> Result<(), FileError> {
-    use Format::{Hdf5, Npy, Npz, Png, Text, Tiff};
+    use Format::{Hdf5, Jpeg, Npy, Npz, Png, Text, Tiff};
     if let (Some(dataset), false) = (&options.dataset, matches!(format, Hdf5 | Npz | Text)) {
         return Err(FileError::NoDatasets { format, dataset: dataset.clone() });
     }
     for (key, given, meaningful) in [
         ("at", options.at.is_some(), format == Hdf5),
-        ("unit", options.unit.is_some(), matches!(format, Text | Npy | Npz | Png | Tiff)),
-        ("pitch", options.pitch.is_some(), matches!(format, Text | Npy | Npz | Png | Tiff | Hdf5)),
-        ("height_range", options.height_range.is_some(), matches!(format, Png | Tiff)),
+        ("unit", options.unit.is_some(), matches!(format, Text | Npy | Npz | Png | Tiff | Jpeg)),
+        ("pitch", options.pitch.is_some(), matches!(format, Text | Npy | Npz | Png | Tiff | Jpeg | Hdf5)),
+        ("height_range", options.height_range.is_some(), matches!(format, Png | Tiff | Jpeg)),
         ("decimal", options.decimal.is_some(), format == Text),
         ("skip", options.skip.is_some(), format == Text),
     ] {
@@ -188,6 +188,7 @@ fn from_head(head: &[u8]) -> Option<Format> {
     for (signature, format) in [
         (b"\x93NUMPY".as_slice(), Format::Npy),
         (b"\x89PNG\r\n\x1a\n", Format::Png),
+        (b"\xff\xd8\xff", Format::Jpeg),
         // The second number is that of files beyond 4 GiB.
         (b"II\x2a\0", Format::Tiff),
         (b"MM\0\x2a", Format::Tiff),

@@ -135,6 +135,8 @@ pub enum Format {
     Png,
     /// TIFF image.
     Tiff,
+    /// JPEG image, which is read as a picture, not as heights.
+    Jpeg,
     /// Matrix of numbers or list of points as text.
     Text,
     /// An instrument's own format; such files are not read.
@@ -150,6 +152,7 @@ impl fmt::Display for Format {
             Self::Npz => "an archive of NumPy arrays (.npz)",
             Self::Png => "a PNG image",
             Self::Tiff => "a TIFF image",
+            Self::Jpeg => "a JPEG image",
             Self::Text => "a text file",
             Self::Instrument(instrument) => instrument.name,
         })

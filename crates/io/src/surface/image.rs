@@ -1,15 +1,19 @@
-//! Images (PNG, TIFF): as heights, and as grey levels.
+//! Images (PNG, TIFF, JPEG): as heights, and as grey levels.
 //!
 //! The first line of an image is at the top, where y is largest. Stored numbers are taken as they are: colour profiles
 //! and gamma are for the eye.
+
+mod jpeg;
 
 use std::io::Cursor;
 
 use plateau_core::surface::micrograph::Picture;
 use png::{BitDepth, ColorType, Transformations};
 use thiserror::Error;
+use tiff::decoder::ifd::Value;
 use tiff::decoder::{Decoder, DecodingResult, Limits};
 use tiff::tags::Tag;
+use zune_jpeg::errors::DecodeErrors;
 
 use super::format::Format;
 use super::measured::{MOST_POINTS, Measured, ReadOptions, inflated};
@@ -23,6 +27,12 @@ pub enum ImageError {
     Png(#[from] png::DecodingError),
     #[error("cannot be read as TIFF: {0}")]
     Tiff(#[from] tiff::TiffError),
+    #[error("cannot be read as JPEG: {0}")]
+    Jpeg(String),
+    #[error(
+        "JPEG alters levels to save room, and so the heights: have the image saved as PNG or TIFF by what measured it"
+    )]
+    Lossy,
     #[error("the image has {found}, expected {expected}")]
     Pixels { found: String, expected: &'static str },
     #[error(
@@ -31,8 +41,10 @@ pub enum ImageError {
     TooLarge { width: u64, height: u64, bytes: usize },
     #[error("{width} x {height} pixels need {no_room}")]
     Memory { width: u64, height: u64, no_room: NoRoom },
-    #[error("the image is stored turned (TIFF orientation {found}), expected 1, its first line at the top: save it so")]
-    Orientation { found: u32 },
+    #[error(
+        "the image is stored turned ({kind} orientation {found}), expected 1, its first line at the top: save it so"
+    )]
+    Orientation { kind: &'static str, found: u32 },
     #[error("an image does not say its heights: height_range = [\"0 um\", \"10 um\"] gives those of black and white")]
     NoHeightRange,
     #[error("the pixels are decimal heights of an unknown unit: unit = \"um\" gives it, in place of height_range")]
@@ -43,6 +55,12 @@ pub enum ImageError {
     Infinite { count: usize, points: usize },
 }
 
+impl From<DecodeErrors> for ImageError {
+    fn from(error: DecodeErrors) -> Self {
+        Self::Jpeg(error.to_string().trim_matches('"').to_owned())
+    }
+}
+
 /// Pixels line by line, the first line at the top.
 #[derive(Debug, PartialEq)]
 struct Raster {
@@ -51,6 +69,8 @@ struct Raster {
     colour: Colour,
     /// As many samples a pixel as the colour has.
     samples: Samples,
+    /// Distance of the pixels along x and y, m, that the file states.
+    pixel: Option<[f64; 2]>,
     /// What is left out of the file.
     warnings: Vec<String>,
 }
@@ -108,9 +128,10 @@ impl Raster {
             }
             _ => Samples::U8(buffer),
         };
-        let raster =
-            Self { width: info.width as usize, height: info.height as usize, colour, samples, warnings: Vec::new() };
-        raster.checked()
+        let dimensions = reader.info().pixel_dims.filter(|dimensions| dimensions.unit == png::Unit::Meter);
+        let pixel = dimensions.and_then(|size| per_metre([size.xppu, size.yppu].map(f64::from)));
+        let [width, height] = [info.width, info.height].map(|count| count as usize);
+        Self { width, height, colour, samples, pixel, warnings: Vec::new() }.checked()
     }
 
     /// Decodes the first image of a TIFF file.
@@ -129,7 +150,7 @@ impl Raster {
             other => return Err(ImageError::Pixels { found: format!("{other:?} pixels"), expected: EXPECTED }),
         };
         if let Some(found) = decoder.find_tag_unsigned(Tag::Orientation)?.filter(|orientation| *orientation != 1) {
-            return Err(ImageError::Orientation { found });
+            return Err(ImageError::Orientation { kind: "TIFF", found });
         }
         let (width, height) = (u64::from(width), u64::from(height));
         let needed = width.saturating_mul(height).saturating_mul(sample_bytes);
@@ -151,7 +172,8 @@ impl Raster {
         if decoder.more_images() {
             warnings.push("the file has several images: the first is read".to_owned());
         }
-        Self { width: width as usize, height: height as usize, colour, samples, warnings }.checked()
+        let pixel = resolution(&mut decoder);
+        Self { width: width as usize, height: height as usize, colour, samples, pixel, warnings }.checked()
     }
 
     /// Refuses pixels that do not fill the image, whatever a decoder did.
@@ -167,6 +189,26 @@ impl Raster {
             Err(ImageError::Pixels { found: format!("{found} samples"), expected: "as many as its size says" })
         }
     }
+}
+
+/// Distance of the pixels along x and y, m, that the tags of a TIFF file state.
+fn resolution(decoder: &mut Decoder<Cursor<&[u8]>>) -> Option<[f64; 2]> {
+    let unit = match decoder.find_tag_unsigned::<u16>(Tag::ResolutionUnit).ok()? {
+        Some(3) => 0.01,
+        Some(2) | None => 0.0254,
+        _ => return None,
+    };
+    let mut pixels = |tag| match decoder.get_tag(tag).ok()? {
+        Value::Rational(pixels, units) => Some(f64::from(pixels) / f64::from(units) / unit),
+        _ => None,
+    };
+    per_metre([pixels(Tag::XResolution)?, pixels(Tag::YResolution)?])
+}
+
+/// The distances of pixels of which there are so many in a metre.
+fn per_metre(pixels: [f64; 2]) -> Option<[f64; 2]> {
+    let distances = pixels.map(f64::recip);
+    distances.iter().all(|distance| *distance > 0.0 && distance.is_finite()).then_some(distances)
 }
 
 impl Colour {
@@ -199,7 +241,11 @@ fn refuse_promise(width: u64, height: u64, needed: u64, most: usize, bytes: usiz
 
 /// Decodes an image by its format.
 fn decode(content: &[u8], format: Format) -> Result<Raster, ImageError> {
-    if format == Format::Png { Raster::png(content) } else { Raster::tiff(content) }
+    match format {
+        Format::Png => Raster::png(content),
+        Format::Jpeg => Raster::jpeg(content),
+        _ => Raster::tiff(content),
+    }
 }
 
 /// Reads an image as heights: grey levels lie evenly between the heights of black and white, decimal pixels are heights
@@ -208,7 +254,10 @@ fn decode(content: &[u8], format: Format) -> Result<Raster, ImageError> {
 /// # Errors
 /// [`ImageError`] when the image is damaged, has colours or transparency, or its heights are not told.
 pub(super) fn heights(content: &[u8], format: Format, options: &ReadOptions) -> Result<Measured, ImageError> {
-    let Raster { width, height, colour, samples, warnings } = decode(content, format)?;
+    if format == Format::Jpeg {
+        return Err(ImageError::Lossy);
+    }
+    let Raster { width, height, colour, samples, warnings, .. } = decode(content, format)?;
     let refuse = |found: &str| {
         let expected = "grey pixels without transparency: colours are not heights, save the image as grey levels";
         Err(ImageError::Pixels { found: found.to_owned(), expected })
@@ -264,13 +313,23 @@ fn by_columns<T: Copy>(pixels: &[T], (width, height): (usize, usize), of: impl F
     places.map(|at| of(pixels[at])).collect()
 }
 
+/// An image as grey levels.
+pub(super) struct Grey {
+    /// Levels from black 0 to white 1.
+    pub(super) picture: Picture<f32>,
+    /// Distance of the pixels along x and y, m, that the file states.
+    pub(super) pixel: Option<[f64; 2]>,
+    /// What the image is, in words.
+    pub(super) told: String,
+}
+
 /// Reads an image as grey levels from black 0 to white 1. Colours become their luma of ITU-R BT.709,
-/// 0.2126 R + 0.7152 G + 0.0722 B. Gives besides what the image is, in words.
+/// 0.2126 R + 0.7152 G + 0.0722 B.
 ///
 /// # Errors
 /// [`ImageError`] when the image is damaged, transparent somewhere, or has decimal pixels beyond 0 and 1.
-pub(super) fn grey(content: &[u8], format: Format) -> Result<(Picture<f32>, String), ImageError> {
-    let Raster { width, height, colour, samples, warnings } = decode(content, format)?;
+pub(super) fn grey(content: &[u8], format: Format) -> Result<Grey, ImageError> {
+    let Raster { width, height, colour, samples, pixel, warnings } = decode(content, format)?;
     let (pixels, bits) = match &samples {
         Samples::U8(samples) => (levels(samples, colour, u8::MAX.into())?, "8 bits"),
         Samples::U16(samples) => (levels(samples, colour, u16::MAX.into())?, "16 bits"),
@@ -285,7 +344,8 @@ pub(super) fn grey(content: &[u8], format: Format) -> Result<(Picture<f32>, Stri
         Colour::Rgb | Colour::RgbAlpha => "colours, taken as their luma",
     };
     let warnings: String = warnings.iter().map(|warning| format!(", {warning}")).collect();
-    Ok((Picture { width, height, pixels }, format!("{width} x {height} pixels, {kind}, {bits}{warnings}")))
+    let told = format!("{width} x {height} pixels, {kind}, {bits}{warnings}");
+    Ok(Grey { picture: Picture { width, height, pixels }, pixel, told })
 }
 
 /// Grey levels of pixels whose samples go up to `white`.

@@ -13,6 +13,7 @@ use plateau_core::surface::{
 use super::error::{FileError, SurfaceError};
 use super::files::{detect, read};
 use super::format::Format;
+use super::image::Grey;
 use super::measured::{Lay, ProfileError, ReadOptions};
 use super::{hdf5, image};
 use crate::input::{self, digested};
@@ -166,13 +167,29 @@ pub fn micrograph(scene: &Scene) -> Result<Option<(FibreMap, f64)>, SurfaceError
 
 /// Makes the fibre map of an image file; says what the image is besides.
 fn fibre_map(path: &Path, micrograph: &Micrograph, mesh: &Mesh) -> Result<(FibreMap, String), FileError> {
+    let Grey { picture, told, .. } = grey(path)?;
+    Ok((micrograph.fibre_map(picture, mesh)?, told))
+}
+
+fn grey(path: &Path) -> Result<Grey, FileError> {
     let format = detect(path)?;
-    if !matches!(format, Format::Png | Format::Tiff) {
+    if !matches!(format, Format::Png | Format::Tiff | Format::Jpeg) {
         return Err(FileError::NotAnImage(format));
     }
-    let (grey, picture) = image::grey(&input::read(path, limits::SURFACE)?, format)?;
-    Ok((micrograph.fibre_map(grey, mesh)?, picture))
+    Ok(image::grey(&input::read(path, limits::SURFACE)?, format)?)
 }
+
+/// Distance of the pixels, m, that an image file states, the same along and across; none where it does not.
+///
+/// # Errors
+/// [`FileError`] when the file is no image that is read.
+pub fn stated_pixel(path: &Path) -> Result<Option<f64>, FileError> {
+    let same = |[x, y]: [f64; 2]| ((x / y - 1.0).abs() < SAME_PITCH).then_some(x);
+    Ok(grey(path)?.pixel.and_then(same))
+}
+
+/// Distances along and across that differ by less than this part are the same: files have few digits.
+const SAME_PITCH: f64 = 0.01;
 
 /// Points of the model's heights whose pitch is that of the cells but for rounding are the cells.
 const SAME_CELL: f64 = 1e-9;

@@ -104,8 +104,7 @@ const SAME: f64 = 0.01;
 /// File and scene disagree.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[error(
-    "the file states a {key} of {}, the scene {}: leave out {key} (pixel and scale in the prepare table read a file \
-     differently than it says)",
+    "the file states a {key} of {}, the scene {}: leave out {key}",
     Length(*file), Length(*scene)
 )]
 pub struct Disagreement {

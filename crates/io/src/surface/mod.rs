@@ -17,6 +17,6 @@ pub use error::{FileError, Hdf5Error, SurfaceError, TextError};
 pub use files::{WriteError, read, write};
 pub use format::{Format, Instrument};
 pub use image::ImageError;
-pub use load::{Loaded, Patches, load, load_with_patches, micrograph};
+pub use load::{Loaded, Patches, load, load_with_patches, micrograph, stated_pixel};
 pub use measured::{Disagreement, Lay, Measured, ProfileError, ReadOptions, StylusProfile};
 pub use npy::NpyError;

@@ -8,6 +8,7 @@
 mod bytes;
 mod harness;
 mod lines;
+mod pictures;
 mod results;
 mod scenes;
 mod states;

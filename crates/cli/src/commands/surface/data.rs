@@ -5,9 +5,10 @@ use std::path::{Path, PathBuf};
 
 use plateau_core::model::mesh::Mesh;
 use plateau_core::model::state::{Base, InitialSurfaces};
-use plateau_core::surface::micrograph::{FibreMap, PinPlane};
-use plateau_core::surface::{Body, HeightParameters, Length, Level, Patch, implausible, level};
+use plateau_core::surface::micrograph::{Enlargement, FibreMap, PinPlane};
+use plateau_core::surface::{Body, HeightParameters, Length, Level, Patch, Preparation, implausible, level};
 use plateau_io::memory::refuse_beyond;
+use plateau_io::scene::{BaseSource, Scene};
 use plateau_io::surface::npy::write_array;
 use plateau_io::surface::{Measured, Patches};
 use serde::Serialize;
@@ -148,14 +149,19 @@ impl Data {
         Ok(&self.folder)
     }
 
-    /// Writes the picture of the pin's base, with the micrograph that it comes from and the width of its pixels, m: x along the
-    /// sliding direction, y outward from the mean radius, lines from the top.
-    pub fn fibre_map(&self, mesh: &Mesh, base: &[Base], micrograph: Option<(&FibreMap, f64)>) -> Result<(), Failure> {
+    /// Writes the picture of the pin's base on its ring, with the micrograph that it comes from and the width of its pixels, m: x
+    /// along the sliding direction, y outward from the mean radius, lines from the top.
+    pub fn fibre_map(
+        &self,
+        scene: &Scene,
+        base: &[Base],
+        patch: Option<&Patch>,
+        micrograph: Option<(&FibreMap, f64)>,
+    ) -> Result<(), Failure> {
+        let mesh = &scene.parameters.mesh;
         let plane = PinPlane::new(mesh);
         let (half_x, half_y) = plane.half_extent();
-        let extent = micrograph.map_or([2.0 * half_x, 2.0 * half_y], |(map, pixel)| {
-            [map.grey.width, map.grey.height].map(|pixels| pixels as f64 * pixel)
-        });
+        let extent = [2.0 * half_x, 2.0 * half_y];
         let scale = LONGEST / extent[0].max(extent[1]);
         let [columns, lines] = extent.map(|length| (length * scale).round().max(1.0) as usize);
         let cell = |line: usize, column: usize| {
@@ -170,14 +176,27 @@ impl Data {
         };
         let points = (0..lines).flat_map(|line| (0..columns).map(move |column| cell(line, column)));
         self.array("base.npy", "|u1", [lines, columns], points)?;
-        let mut document = json!({ "extent": extent, "base": "base.npy", "micrograph": null, "fibre": null });
-        if let Some((map, _)) = micrograph {
+        let is_tiled = match &scene.pin_base {
+            BaseSource::Image { micrograph, .. } => micrograph.enlargement == Some(Enlargement::Tiles),
+            _ => false,
+        };
+        let Preparation { repeat, extend, .. } = scene.disc_surface.preparation;
+        let laid = patch.filter(|_| extend.is_none());
+        let [angles, radii] = laid.map_or_else(Default::default, |patch| patch.seams(repeat, mesh));
+        let mut document = json!({
+            "extent": extent, "base": "base.npy", "micrograph": null, "fibre": null, "picture": null, "is_tiled": false,
+            "mean_radius": mesh.mean_radius(), "row_height": mesh.row_height(), "pin_columns": mesh.pin_columns(),
+            "leading_edge": leading_edge(mesh), "seams": { "angles": angles, "radii": radii },
+        });
+        if let Some((map, pixel)) = micrograph {
             let shape = [map.grey.height, map.grey.width];
             let grey = map.grey.pixels.iter().map(|level| (255.0 * f64::from(*level)).round() as u8);
             self.array("micrograph.npy", "|u1", shape, grey)?;
             self.array("fibre.npy", "|b1", shape, map.fibre.pixels.iter().map(|is_fibre| u8::from(*is_fibre)))?;
             document["micrograph"] = "micrograph.npy".into();
             document["fibre"] = "fibre.npy".into();
+            document["picture"] = json!(map.grey.size(pixel));
+            document["is_tiled"] = (is_tiled && !plane.is_covered_by(map.grey.size(pixel))).into();
         }
         self.document("fibre_map.json", &document)
     }
@@ -198,6 +217,19 @@ impl Data {
         let text = serde_json::to_string(document).map_err(Failure::run)?;
         fs::write(&path, text).map_err(|error| unwritten(&path, &error))
     }
+}
+
+/// Points of the edge of the pin under which the disc enters, in its plane, m, from the inside outward.
+fn leading_edge(mesh: &Mesh) -> Vec<[f64; 2]> {
+    let inner = mesh.mean_radius() - 0.5 * mesh.rows() as f64 * mesh.row_height();
+    let ends = |row: usize| {
+        let angle = (mesh.chord(row).start as f64 - 0.5 * mesh.pin_columns() as f64) * mesh.column_angle();
+        [row, row + 1].map(|edge| {
+            let radius = inner + edge as f64 * mesh.row_height();
+            [radius * angle.sin(), radius * angle.cos() - mesh.mean_radius()]
+        })
+    };
+    (0..mesh.rows()).filter(|row| !mesh.chord(*row).is_empty()).flat_map(ends).collect()
 }
 
 fn unwritten(path: &Path, error: &std::io::Error) -> Failure {

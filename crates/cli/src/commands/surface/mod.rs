@@ -153,7 +153,8 @@ fn prepared(path: &Path, arguments: &SurfaceArguments, data: &mut Data) -> Resul
     let (mesh, level) = (&scene.parameters.mesh, arguments.level.unwrap_or(Level::None));
     if arguments.preview.is_some() || arguments.figure_data.is_some() {
         let micrograph = surface::micrograph(&scene).map_err(Failure::input)?;
-        data.fibre_map(mesh, &surfaces.pin_base, micrograph.as_ref().map(|(map, pixel)| (map, *pixel)))?;
+        let micrograph = micrograph.as_ref().map(|(map, pixel)| (map, *pixel));
+        data.fibre_map(&scene, &surfaces.pin_base, patches.disc.as_ref(), micrograph)?;
     }
     data.add_scene(path, mesh, surfaces, patches, &report, level)?;
     Ok(scene.files.iter().chain(&inputs).map(|(path, _)| path.clone()).collect())

@@ -9,6 +9,7 @@
 mod statistics;
 
 use rayon::prelude::*;
+pub(super) use statistics::crossing;
 use statistics::{Line, Quantiles, Reach, Spectrum};
 
 use super::error::PreparationError;
@@ -92,8 +93,10 @@ pub(super) fn extend(
         return Ok(vec![mean(&patch.heights); body.columns(mesh) * mesh.rows()]);
     };
     let mut plane = Plane::of(&grid);
-    let power =
-        gaussian_power(correlation, &Translation::of(|x| quantiles.normal(x), QUADRATURE_STEP, 0.0), &mut plane);
+    let translation = Translation::of(|x| quantiles.normal(x), QUADRATURE_STEP, 0.0);
+    let mut power = gaussian_power(correlation, |value| translation.inverse(value), &mut plane);
+    // Where no field has it, the nearest.
+    power.iter_mut().for_each(|power| *power = power.max(0.0));
     let stream = if body == Body::Disc { Stream::DiscExtension } else { Stream::PinExtension };
     let field = planar::field(&grid, power, None, &mut Random::new(seed, stream));
     Ok(quantiles.by_rank(&field))
@@ -219,8 +222,13 @@ fn autocorrelation(power: Vec<f64>, plane: &mut Plane) -> Vec<f64> {
 /// Autocorrelation that is no more than rounding.
 const ROUNDING: f64 = 1e-13;
 
-/// The power of the Gaussian field that has this autocorrelation after the translation; where no field has it, the nearest.
-fn gaussian_power(correlation: Vec<f64>, translation: &Translation, plane: &mut Plane) -> Vec<f64> {
+/// The power of the Gaussian field that has this autocorrelation after a map of its values, of which this is the inverse; negative
+/// where no field has it.
+pub(super) fn gaussian_power(
+    correlation: Vec<f64>,
+    inverse: impl Fn(f64) -> f64 + Sync,
+    plane: &mut Plane,
+) -> Vec<f64> {
     let [columns, rows] = plane.size();
     let opposite = |here: usize| (columns - here / rows) % columns * rows + (rows - here % rows) % rows;
     let mut values: Vec<Complex> = vec![Complex::default(); correlation.len()];
@@ -228,12 +236,12 @@ fn gaussian_power(correlation: Vec<f64>, translation: &Translation, plane: &mut 
     values.par_iter_mut().enumerate().filter(|(here, _)| *here <= opposite(*here)).for_each(|(here, value)| {
         value.re = match correlation[here] {
             small if small.abs() < ROUNDING => 0.0,
-            correlation => translation.inverse(correlation.min(1.0)),
+            correlation => inverse(correlation.min(1.0)),
         };
     });
     for here in 0..values.len() {
         values[here].re = values[here.min(opposite(here))].re;
     }
     plane.forward(&mut values);
-    values.into_iter().map(|value| value.re.max(0.0)).collect()
+    values.into_iter().map(|value| value.re).collect()
 }

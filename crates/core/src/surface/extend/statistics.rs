@@ -228,7 +228,7 @@ impl Reach {
 }
 
 /// The place at which values first fall to the threshold, linear between them.
-fn crossing(values: impl Iterator<Item = f64>) -> Option<f64> {
+pub(in crate::surface) fn crossing(values: impl Iterator<Item = f64>) -> Option<f64> {
     let mut before = f64::INFINITY;
     for (place, value) in values.enumerate() {
         if value <= THRESHOLD {

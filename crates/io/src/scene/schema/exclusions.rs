@@ -56,14 +56,15 @@ pub(crate) const CYCLE_COLUMNS: &[&str] = &[
     "cycle.columns.sliding_speed",
     "cycle.columns.road_speed",
 ];
-const IMAGE: &[&str] = &["threshold", "pixel", "smooth", "despeckle", "rotate", "fibres"];
+const IMAGE: &[&str] =
+    &["threshold", "pixel", "smooth", "despeckle", "rotate", "fibres", "repeat", "extend", "extend_seed"];
 
 const TEXTURES: &[(&str, &[&str])] = &[
     ("synthetic.correlation_length", &["synthetic.correlation_length_across"]),
     ("synthetic.roll_off", &["synthetic.hurst", "synthetic.short_cutoff"]),
 ];
 
-/// Alternatives where a patch is smaller than ring or pin.
+/// Alternatives where a patch or a picture is smaller than ring or pin.
 const BEYOND_THE_PATCH: &[(&str, &[&str])] = &[("repeat", &[]), ("extend", &["extend_seed"])];
 
 /// Keys that exclude each other.
@@ -96,6 +97,7 @@ pub const GROUPS: &[Group] = &[
         required: true,
         unless: None,
     },
+    Group { section: "pin.base", members: BEYOND_THE_PATCH, required: false, unless: None },
     Group { section: "pin.surface", members: HEIGHT_SOURCES, required: true, unless: None },
     Group { section: "pin.surface", members: TEXTURES, required: true, unless: None },
     Group { section: "pin.prepare", members: BEYOND_THE_PATCH, required: false, unless: None },

@@ -175,7 +175,7 @@ pub(super) fn all() -> Vec<Key> {
     table.key("synthetic.fibre_fraction", Number(Range::FRACTION), Required, "area fraction that is fibre");
     table.key("synthetic.fibre_length", length("um", Range::POSITIVE), Required, "length of a fibre from end to end");
     table.key("synthetic.fibre_width", length("um", Range::POSITIVE), Required, "width of a fibre");
-    table.key("image", InputFile, OneOf, "micrograph of the pin: .png .tif");
+    table.key("image", InputFile, OneOf, "micrograph of the pin: PNG, TIFF, JPEG");
     table.key("pixel", length("um", Range::POSITIVE), Optional, "distance of the image's pixels; required beside it");
     let rotations = Choice(&const { words(&choices::ROTATE) });
     table.key("rotate", rotations, Computed("`\"0 deg\"`"), "how far the image is turned, counterclockwise");
@@ -191,6 +191,15 @@ pub(super) fn all() -> Vec<Key> {
     table.key("fibres", fibres, Computed("`\"bright\"`"), "which side of the threshold is fibre");
     let area = Kind::Quantity { dimension: Area, unit: "um^2", range: Range::NOT_NEGATIVE };
     table.key("despeckle", area, Optional, "area below which specks of fibre, then holes in it, are removed");
+    table.key(
+        "repeat",
+        Bool,
+        Computed("`false`"),
+        "whether the image is tiled over the pin, mirrored from tile to tile",
+    );
+    let extend = "random fibres with fraction and correlation of the image in place of the image itself";
+    table.key("extend", Choice(&const { words(&choices::EXTEND) }), Optional, extend);
+    table.key("extend_seed", Integer(0), Computed("`0`"), "seed of the random fibres of `extend`");
     table.key("file", InputFile, OneOf, "HDF5 file with the fibre map");
     table.key("dataset", Text, Optional, "dataset in the file: integers, 0 none, 1 primary, shape (pin_columns, rows)");
     let uniform = Choice(&const { words(&choices::UNIFORM) });
