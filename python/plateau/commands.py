@@ -11,7 +11,7 @@ from plateau.errors import InputError, InputTypeError, PlateauWarning, shown
 from plateau.program import call, file_name, listen
 from plateau.scenes import Scene, scene_of
 from plateau.study.data import Study
-from plateau.study.results import open_study
+from plateau.study.results import at, open_study
 from plateau.toml_text import change_of
 
 # A path, as usual in Python.
@@ -60,13 +60,15 @@ def _file_of(scene: Path | Scene) -> Iterator[str]:
         yield os.path.relpath(file.name)
 
 
-def collect(study: Path, *, force: bool = False) -> Study:
+def collect(study: Path, *, directory: Path | None = None, force: bool = False) -> Study:
     """Collects the existing results of a study, complete or not, and opens them.
 
     Parameters
     ----------
     study : path
         The study, TOML.
+    directory : path, optional
+        Folder of the results; by default the one that the study names.
     force : bool
         Replace tables even by ones with fewer finished runs.
 
@@ -75,8 +77,8 @@ def collect(study: Path, *, force: bool = False) -> Study:
     Study
         Table and data; runs without result have the state ``missing`` or ``failed``.
     """
-    call(["sweep", "collect", file_name(study, "a study"), *(["--force"] if force else [])])
-    return open_study(study)
+    call(["sweep", "collect", file_name(study, "a study"), *at(directory), *(["--force"] if force else [])])
+    return open_study(study, directory=directory)
 
 
 def command(*arguments: Any, json: bool = False, **options: Any) -> Any:

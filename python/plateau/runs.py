@@ -119,6 +119,8 @@ def sweep(
     workers: int | None = None,
     max_failures: int | None = None,
     retry: bool = False,
+    keep_files: bool = False,
+    directory: Path | None = None,
     force: bool = False,
     progress: bool | None = None,
 ) -> Study:
@@ -136,6 +138,10 @@ def sweep(
         Stop after this number of failed runs; by default the other runs continue.
     retry : bool
         Make failed runs again.
+    keep_files : bool
+        Keep the run file of every run, in ``runs`` of the folder of the results; runs that have none are made again.
+    directory : path, optional
+        Folder of the results; by default the one that the study names.
     force : bool
         Replace tables even by ones with fewer finished runs.
     progress : bool, optional
@@ -157,5 +163,6 @@ def sweep(
     >>> results.table["load [N]"].tolist()
     [5.0, 10.0]
     """
-    make_missing(file_name(study, "a study"), progress, retry, jobs=jobs, workers=workers, max_failures=max_failures)
-    return collect(study, force=force)
+    options: dict[str, Any] = {"jobs": jobs, "workers": workers, "max_failures": max_failures}
+    make_missing(file_name(study, "a study"), progress, retry, directory=directory, keep_files=keep_files, **options)
+    return collect(study, directory=directory, force=force)

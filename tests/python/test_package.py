@@ -22,6 +22,7 @@ import warnings
 import h5py
 import numpy as np
 import pandas
+import xarray
 from package_scenes import QUICK, ROOT, SHORT, STUDY, InFolder
 
 import plateau
@@ -327,6 +328,35 @@ class Studies(InFolder):
         # Messages are in the words of Python.
         with self.assertRaisesRegex(plateau.InputError, "give extrapolate=True"):
             plateau.study.predict("study.toml", {"load": "50 N"})
+
+    def test_factors_and_seeds_are_coordinates_of_results_anywhere(self):
+        seeds = '[replicates]\nkeys = ["disc.surface.synthetic.seed"]\nseeds = [11, 12]\n'
+        pathlib.Path("seeds.toml").write_text(STUDY.replace("[[factor]]", seeds + "[[factor]]", 1))
+        made = plateau.sweep("seeds.toml", jobs=2, progress=False, directory="there", keep_files=True)
+        names = ["point", "replicate", "seed", "load", "wear"]
+        with h5py.File("there/results.h5") as file:
+            for name in ("contact_area", "worn", "state"):
+                self.assertEqual(file[name].attrs["coordinates"].split(), names, name)
+            self.assertEqual((file["load"].attrs["units"], file["wear"].attrs["units"]), ("N", "1/Pa"))
+            self.assertEqual(file["seed"][:].tolist(), [11, 12] * 4)
+            self.assertNotIn("coordinates", file["load"].attrs)
+        worn = made.table.groupby("load [N]")["worn [m3]"].mean()
+        with xarray.open_dataset("there/results.h5", engine="h5netcdf") as opened:
+            for data in (opened, made.data, plateau.open_study("seeds.toml", directory="there").data):
+                self.assertEqual(set(data.coords), {"run", "time", *names})
+                by_load = data["worn"].groupby("load").mean()
+                np.testing.assert_allclose(by_load.sel(load=[5.0, 10.0]), worn[[5.0, 10.0]], rtol=1e-12)
+                self.assertEqual(data["contact_area"].set_xindex("seed").sel(seed=12)["run"].values.tolist(), [2, 4, 6, 8])
+                self.assertEqual(set(data["contact_area"].groupby("wear").mean().dims), {"time", "wear"})
+        # Answers, and the files of the runs, are there, too.
+        plateau.command("sweep", "effects", "seeds.toml", directory="there")
+        files = sorted(pathlib.Path("there/runs").iterdir())
+        self.assertEqual([file.name[:9] for file in files], [f"run-{number:04}-" for number in range(1, 9)])
+        third = plateau.open_run(files[2])
+        np.testing.assert_array_equal(third["series/contact_area"], made.data["contact_area"].sel(run=3))
+        self.assertIn("height", third["pin"])
+        self.assertTrue(pathlib.Path("there/effects/effects.html").is_file())
+        self.assertFalse(pathlib.Path("seeds").exists())
 
     def test_what_answers_is_imported_when_it_is_called(self):
         text = "import plateau, sys; print([name for name in ('scipy', 'matplotlib') if name in sys.modules]); plateau.study.effects"

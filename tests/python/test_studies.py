@@ -78,7 +78,7 @@ class Studies(unittest.TestCase):
         names = {"load": "load", "mean": "mean", "Time": "time_factor", "contact area": "contact_area_factor", "µ (1)": "µ__1"}
         for name, variable in names.items():
             self.collect(name)
-            text = self.block().replace('"load [N]"', f'"{name} [N]"').replace('data["load"]', f'data["{variable}"]')
+            text = self.block().replace('"load [N]"', f'"{name} [N]"').replace('groupby("load")', f'groupby("{variable}")')
             out = self.run_python(text + "\nprint(areas.shape, *areas[areas.dims[0]].values)\n")
             self.assertIn("(2, 4) 5.0 10.0", out, name)
 

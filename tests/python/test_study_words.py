@@ -220,6 +220,17 @@ class Words(unittest.TestCase):
         self.assertFalse(pathlib.Path("study/effects/leak-interactions.svg").exists())
         self.refused("sweep", "sensitivity", "study.toml", "-o", "study/fit", said="has the files of an earlier call")
 
+    def test_results_in_another_folder(self):
+        self.import_all()
+        pathlib.Path("study").rename("there")
+        settings = {"optimize": ["--minimize", "leak"], "predict": ["--at", "load=2 N", "--at", "dose=0.5"], "import": ["measured.csv"]}
+        for word in ("effects", "sensitivity", "optimize", "predict", "import"):
+            self.call("sweep", word, "study.toml", *settings.get(word, []), "--directory", "there", "-q")
+        self.call("fit", "study.toml", "--directory", "there", "-q")
+        self.document("fit", "study.toml", "--directory", "there", "--plan")
+        self.assertFalse(pathlib.Path("study").exists())
+        self.assertLessEqual({"effects", "sensitivity", "optimum", "fit", "imported.csv"}, {path.name for path in pathlib.Path("there").iterdir()})
+
     def test_predictions_and_optima(self):
         self.import_all()
         self.call("sweep", "predict", "study.toml", "--grid", 3, "-o", "grid.csv", "-q")

@@ -1,6 +1,7 @@
 //! Studies: planned, run, stopped, gone on with and collected, as their users do it.
 
 mod identity;
+mod kept_files;
 mod shared;
 mod stopped;
 

@@ -23,7 +23,9 @@ use crate::failure::Failure;
 use crate::program;
 
 pub use surface::{ReadArguments, SurfaceArguments, SurfaceWord, as_options};
-pub use sweep::{CollectArguments, PlanArguments, SlurmArguments, SweepCommand, SweepRunArguments};
+pub use sweep::{
+    CollectArguments, PlanArguments, SlurmArguments, SweepCommand, SweepRunArguments, SweepSceneArguments,
+};
 
 /// How a pin of friction material and a rough, coated brake disc wear into each other.
 #[derive(Debug, Parser)]

@@ -89,6 +89,7 @@ fn perform_sweep(command: SweepCommand) -> Result<(), Failure> {
     match command {
         SweepCommand::Plan(arguments) => sweep::plan::plan(&arguments),
         SweepCommand::Run(arguments) => sweep::run::run(&arguments),
+        SweepCommand::Scene(arguments) => sweep::run::scene(&arguments),
         SweepCommand::Slurm(arguments) => sweep::run::slurm(&arguments),
         SweepCommand::Collect(arguments) => sweep::collect::collect(&arguments),
         SweepCommand::Effects(handed) => answered("effects", handed),

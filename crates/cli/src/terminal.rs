@@ -10,6 +10,7 @@ use std::{fs, io, thread};
 use indicatif::{ProgressBar, ProgressStyle};
 use plateau_core::simulation::Simulation;
 use plateau_io::number;
+use plateau_io::study::Study;
 use plateau_run::sweep::SweepObserver;
 use plateau_run::{Observer, signal_in_words};
 use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM, SIGUSR1, SIGXCPU};
@@ -110,10 +111,13 @@ impl SweepObserver for Messages {
         message::note(message);
     }
 
-    fn retry_advice(&self, study: &Path) -> String {
-        let again =
-            format!("{} sweep run {} --retry", invocation::program(), invocation::argument(&study.to_string_lossy()));
-        format!("`{again}` makes them again")
+    fn retry_advice(&self, study: &Study) -> String {
+        let argument = |path: &Path| invocation::argument(&path.to_string_lossy());
+        let elsewhere = match study.is_elsewhere {
+            true => format!(" --directory {}", argument(&study.directory)),
+            false => String::new(),
+        };
+        format!("`{} sweep run {}{elsewhere} --retry` makes them again", invocation::program(), argument(&study.path))
     }
 }
 

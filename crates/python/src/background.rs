@@ -3,7 +3,6 @@
 
 use std::fmt::Display;
 use std::mem;
-use std::path::Path;
 use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 use std::thread;
@@ -11,6 +10,7 @@ use std::time::Duration;
 
 use plateau_core::simulation::Simulation;
 use plateau_io::run_file::close_abandoned;
+use plateau_io::study::Study;
 use plateau_run::Observer;
 use plateau_run::sweep::SweepObserver;
 use pyo3::prelude::*;
@@ -104,8 +104,12 @@ impl SweepObserver for Messages {
         self.signal()
     }
 
-    fn retry_advice(&self, study: &Path) -> String {
-        format!("`plateau sweep run {} --retry` makes them again", study.display())
+    fn retry_advice(&self, study: &Study) -> String {
+        let elsewhere = match study.is_elsewhere {
+            true => format!(" --directory {}", study.directory.display()),
+            false => String::new(),
+        };
+        format!("`plateau sweep run {}{elsewhere} --retry` makes them again", study.path.display())
     }
 }
 

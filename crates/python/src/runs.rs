@@ -48,21 +48,24 @@ pub fn run(
 
 /// Makes the runs of a study that are not there yet.
 #[pyfunction]
+#[expect(clippy::too_many_arguments, reason = "each is an argument in Python")]
 pub fn make_runs(
     py: Python<'_>,
     study: PathBuf,
+    directory: Option<PathBuf>,
     jobs: Option<usize>,
     workers: Option<usize>,
     most_failures: Option<usize>,
     retry: bool,
+    keep_files: bool,
     tell: &Bound<'_, PyAny>,
 ) -> PyResult<()> {
     let about = study.to_string_lossy().into_owned();
     let work = |messages: &Messages| {
-        let plan = sweep::load(&study)?;
+        let plan = sweep::load(&study, directory.as_deref())?;
         let workers = workers.unwrap_or(1);
         let jobs = jobs.unwrap_or_else(|| (execution::cores() / workers).max(1));
-        let options = SweepOptions { retry, part: None, jobs, workers, most_failures, program: program() };
+        let options = SweepOptions { retry, keep_files, part: None, jobs, workers, most_failures, program: program() };
         let mut job = Job::start().map_err(Failure::failed)?;
         let sweep = Sweep::prepare(&plan, options, &job, messages)?;
         messages.set_end(sweep.steps() as f64);

@@ -44,7 +44,7 @@ fn study(folder: &Path, levels: &str) -> PathBuf {
 }
 
 fn make(path: &Path, observer: &dyn SweepObserver) -> Result<SweepSummary, SweepError> {
-    let plan = sweep::load(path)?;
+    let plan = sweep::load(path, None)?;
     let mut job = Job::start().unwrap();
     Sweep::prepare(&plan, SweepOptions::default(), &job, observer)?.run(&mut job, observer)
 }
@@ -59,9 +59,9 @@ fn a_sweep_that_was_stopped_makes_what_is_left() {
     let second = make(&path, &counter).unwrap();
     assert_eq!((second.finished_before, second.finished, second.failed, second.left), (2, 2, 0, 0));
     assert_eq!((second.signal, counter.ended.into_inner()), (None, 2));
-    let journal = sweep::journal(sweep::load(&path).unwrap().study()).unwrap();
+    let journal = sweep::journal(sweep::load(&path, None).unwrap().study()).unwrap();
     assert_eq!((journal.len(), journal.damaged), (4, 0));
-    let plan = sweep::load(&path).unwrap();
+    let plan = sweep::load(&path, None).unwrap();
     assert!(Sweep::prepare(&plan, SweepOptions::default(), &Job::start().unwrap(), &()).unwrap().pending().is_empty());
 }
 

@@ -56,7 +56,7 @@ def fit(
     target, most, confidence = _task(opened)
     can_run = [bool(opened.path) and "base" in opened.document and not one.response.asked.get("imported") for one in target.measured]
     if any(can_run) and opened.path is not None:
-        opened = finished(opened.path, progress, retry, jobs=jobs, workers=workers)
+        opened = finished(opened.path, progress, retry, opened.directory, jobs=jobs, workers=workers)
         target, most, confidence = _task(opened)
     tables = [_table(opened)]
 

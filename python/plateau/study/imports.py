@@ -10,6 +10,7 @@ from typing import Any
 
 from plateau.errors import InputError, RunFailed
 from plateau.output_folder import put
+from plateau.study.data import Study
 from plateau.study.kept_values import KeptValues, file_of, imported_columns
 from plateau.study.results import analysed
 from plateau.study.text_tables import read_text_table
@@ -60,13 +61,13 @@ class Imported:
         return "\n".join([*lines, *(["Kept, but of nothing that the study has now"] if kept else []), *kept])
 
 
-def import_values(study: str | os.PathLike[str], table: str | os.PathLike[str], force: bool = False) -> Imported:
+def import_values(study: Study | str | os.PathLike[str], table: str | os.PathLike[str], force: bool = False) -> Imported:
     """Takes values of responses with ``imported = true`` into a study.
 
     Parameters
     ----------
-    study : path
-        The study file.
+    study : path or Study
+        The study file, or a study that was opened by it.
     table : path
         Table in CSV: a column for each factor and for each response in it, and ``replicate`` where needed. Empty cells change nothing.
     force : bool
@@ -85,7 +86,8 @@ def import_values(study: str | os.PathLike[str], table: str | os.PathLike[str], 
     file, given = file_of(opened), read_text_table(Path(table))
     names = [response.name for response in opened.responses if response.asked.get("imported")]
     imported_columns(given, opened, strict=True)
-    inputs = [Path(study), Path(table), *([Path(study).parent / opened.document["file"]] if "file" in opened.document else [])]
+    here = opened.path or opened.directory
+    inputs = [here, Path(table), *([here.parent / opened.document["file"]] if "file" in opened.document else [])]
     if file.exists() and any(one.exists() and file.samefile(one) for one in inputs):
         raise InputError(f"{file}: it is an input, and imported values would be kept in its place; give the study another directory")
     # A table with a mistake in it leaves no folder.

@@ -19,13 +19,15 @@ from plateau.study.kept_values import KeptValues
 from plateau.units import with_unit
 
 
-def open_study(path: str | os.PathLike[str]) -> Study:
+def open_study(path: str | os.PathLike[str], *, directory: str | os.PathLike[str] | None = None) -> Study:
     """Opens the results that ``plateau sweep collect`` has written.
 
     Parameters
     ----------
     path : path
         The folder with ``results.csv`` and ``results.h5``, or the study file (TOML) that names it.
+    directory : path, optional
+        With a study file, the folder if it is another one than it names.
 
     Returns
     -------
@@ -51,11 +53,11 @@ def open_study(path: str | os.PathLike[str]) -> Study:
         raise InputTypeError(f"{path!r}: expected the folder of the results, or the study file") from error
     study = folder if folder.suffix == ".toml" else None
     if study is not None:
-        folder = study.parent / _directory(study)
+        folder = _directory(study, directory)
     return _opened(folder, study, folder)
 
 
-def analysed(study: "Study | str | os.PathLike[str]") -> Study:
+def analysed(study: "Study | str | os.PathLike[str]", directory: str | os.PathLike[str] | None = None) -> Study:
     """Collects what there is of a study now, without writing into its folder, and opens it; one that was opened stays as it is."""
     if isinstance(study, Study):
         return study
@@ -63,8 +65,13 @@ def analysed(study: "Study | str | os.PathLike[str]") -> Study:
     if path.is_dir():
         return open_study(path)
     with tempfile.TemporaryDirectory() as folder:
-        call(["sweep", "collect", path, "--output", folder])
-        return _opened(Path(folder), path, path.parent / _directory(path))
+        call(["sweep", "collect", path, *at(directory), "--output", folder])
+        return _opened(Path(folder), path, _directory(path, directory))
+
+
+def at(directory: str | os.PathLike[str] | None) -> list[str]:
+    """Arguments of the program that say where the results of a study are."""
+    return [] if directory is None else [f"--directory={os.fspath(directory)}"]
 
 
 def _opened(folder: Path, study: Path | None, directory: Path) -> Study:
@@ -75,11 +82,11 @@ def _opened(folder: Path, study: Path | None, directory: Path) -> Study:
     try:
         table, data = read_table(csv), xarray.load_dataset(hdf5, engine="h5netcdf", driver_kwds=locking(hdf5))
         # In CSV, words such as nan and 007 look like numbers, and =1+1 has an apostrophe before it.
-        for name in set(table).intersection(data.data_vars) - {"state", "error"}:
+        for name in set(table).intersection(data.variables) - {"state", "error"}:
             if data[name].dtype.kind in "OSU":
                 table[name] = data[name].values
         document = tomllib.loads(str(data.attrs["study"]))
-        with_role = {role: [data[name] for name in data.data_vars if data[name].attrs.get("role") == role] for role in ROLES}
+        with_role = {role: [data[name] for name in data.variables if data[name].attrs.get("role") == role] for role in ROLES}
         own = {name: data[name].values for name in ("point", "replicate", "order", "same_as", "state")}
         index = pandas.Index(data["run"].values.astype(int), name="run")
 
@@ -184,10 +191,12 @@ def _response(values: xarray.DataArray, asked: dict[str, Any], name: str) -> Res
     )
 
 
-def _directory(study: Path) -> str:
-    """The folder of results that a study file names, relative to it."""
+def _directory(study: Path, given: str | os.PathLike[str] | None) -> Path:
+    """The folder of the results of a study: the one that is given, else the one that it names."""
+    if given is not None:
+        return Path(given)
     try:
-        return str(tomllib.loads(study.read_text(encoding="utf-8")).get("directory", study.stem))
+        return study.parent / str(tomllib.loads(study.read_text(encoding="utf-8")).get("directory", study.stem))
     except FileNotFoundError:
         raise MissingFileError(f"{study}: there is no such study") from None
     except (OSError, ValueError) as error:

@@ -24,7 +24,7 @@ OF_DESIGNS = {"resolution", "generators", "points", "trajectories", "levels", "a
 
 
 def made_study(
-    study: Study, points: pandas.DataFrame, *, progress: bool | None = None, retry: bool = False, **options: int | None
+    study: Study, points: pandas.DataFrame, *, progress: bool | None = None, retry: bool = False, **options: Any
 ) -> Study:
     """Makes runs at points of a study that was opened by its file, each with all its seeds, and opens them as a study of their own.
 
@@ -54,17 +54,17 @@ def made_study(
     return replace(made, title=study.title, runs=runs[study.runs.columns], path=study.path)
 
 
-def finished(path: Path, progress: bool | None, retry: bool = False, **options: int | None) -> Study:
+def finished(path: Path, progress: bool | None, retry: bool = False, directory: Path | None = None, **options: Any) -> Study:
     """Makes the missing runs of a study file and opens it; warns of runs that fail, unless all of them do."""
     failure = ""
     try:
         with warnings.catch_warnings():
             # That a run does not give a response is said of all runs below.
             warnings.filterwarnings("ignore", ".*has no value", PlateauWarning)
-            make_missing(path, progress, retry, stacklevel=5, **options)
+            make_missing(path, progress, retry, directory=directory, stacklevel=5, **options)
     except RunFailed as error:
         failure = str(error)
-    made = analysed(path)
+    made = analysed(path, directory)
     lacking = made.runs["state"] != "finished"
     if lacking.any():
         first = made.data["error"].values[lacking.to_numpy()][0] or failure
@@ -80,6 +80,8 @@ def make_missing(
     progress: bool | None,
     retry: bool = False,
     *,
+    directory: str | os.PathLike[str] | None = None,
+    keep_files: bool = False,
     stacklevel: int = 4,
     jobs: int | None = None,
     workers: int | None = None,
@@ -89,7 +91,7 @@ def make_missing(
     given = [(jobs, "jobs", 1), (workers, "workers", 1), (max_failures, "failures", 0)]
     counts = [None if number is None else whole(number, what, least) for number, what, least in given]
     with Progress(progress, stacklevel) as shown:
-        native().make_runs(path, *counts, retry, shown.tell)
+        native().make_runs(path, directory, *counts, retry, keep_files, shown.tell)
 
 
 def _document(study: Study) -> dict[str, Any]:

@@ -24,8 +24,10 @@ def add(words: Words) -> None:
 
     def word(group: Words, name: str, about: str, answer: Callable[[argparse.Namespace], str], example: str) -> Any:
         made = group.word(name, about, answer, example)
-        if group is study:
-            made.add_argument("study", type=Path, metavar="STUDY", help="Study file (TOML)")
+        if name != "compare":
+            what = " with measured values in its responses" if name == "fit" else ""
+            made.add_argument("study", type=Path, metavar="STUDY", help=f"Study file (TOML){what}")
+            made.add_argument("--directory", type=Path, metavar="DIR", help="Folder of the results; overrides `directory` of the study")
         return made
 
     def common(
@@ -93,7 +95,6 @@ def add(words: Words) -> None:
     common(made, force="Replace values that were imported before")
 
     made = word(words, "fit", "Find the values of keys with which runs give what was measured", _fit, "  plateau fit data/studies/fit-captured-fraction.toml --plan")
-    made.add_argument("study", type=Path, metavar="STUDY", help="Study file (TOML) with measured values in its responses")
     made.add_argument("--plan", action="store_true", help="Say what is fitted to what and what it will cost, without running any")
     made.add_argument("--retry", action="store_true", help="Make runs again that failed before")
     cores(made)
@@ -142,7 +143,7 @@ def _opened(given: argparse.Namespace, name: str, of: str | None = None) -> tupl
     """The study, the folder of the answer, and what its files are of; refuses a folder that is taken before any work is done."""
     from plateau.study.results import analysed
 
-    study = analysed(given.study)
+    study = analysed(given.study, given.directory)
     folder = study.directory / name if given.output is None else given.output
     said = None if of is None else f"{of} {relative(given.study, folder)}"
     refuse_earlier(folder, said, given.force)
@@ -176,7 +177,7 @@ def _predict(given: argparse.Namespace) -> str:
     from plateau.study.prediction import predict
     from plateau.study.results import analysed
 
-    study = analysed(given.study)
+    study = analysed(given.study, given.directory)
     inputs = _inputs(study, given.points)
     if given.output is not None:
         refuse_file(given.output, given.force, inputs)
@@ -219,17 +220,19 @@ def _sensitivity(given: argparse.Namespace) -> str:
 
 def _import(given: argparse.Namespace) -> str:
     from plateau.study.imports import import_values
+    from plateau.study.results import analysed
 
-    found = import_values(given.study, given.table, force=given.force)
+    found = import_values(analysed(given.study, given.directory), given.table, force=given.force)
     return json_of(found.document()) if given.json else found.text()
 
 
 def _fit(given: argparse.Namespace) -> str:
     from plateau.study.fit_of_study import fit, plan
+    from plateau.study.results import analysed
     from plateau.style import saved
 
     if given.plan:
-        planned = plan(given.study)
+        planned = plan(analysed(given.study, given.directory))
         return json_of(planned.document()) if given.json else planned.text()
     study, folder, of = _opened(given, "fit", "fit")
     found = fit(study, **options(given, "jobs", "workers", "retry"), progress=progress(given))

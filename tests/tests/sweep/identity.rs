@@ -6,6 +6,7 @@ use std::process::Stdio;
 use plateau_io::generation;
 use plateau_io::input::sha256_of;
 use plateau_tests::program::{Outcome, WorkingDirectory, quick_scene_with, wait_until};
+use plateau_tests::run_file::{RunFile, differences};
 use serde_json::Value;
 
 use super::{directory, json, records, study, sweep};
@@ -97,7 +98,7 @@ fn runs_that_did_not_keep_a_series_are_named_and_made_again_when_asked() {
     let cells: Vec<Vec<String>> =
         table(&directory).iter().map(|line| line.split(',').map(str::to_owned).collect()).collect();
     assert!(cells.iter().all(|cells| cells[6..9].iter().all(|cell| cell.parse::<f64>().is_ok())), "{cells:?}");
-    let file = plateau_tests::run_file::RunFile::open(directory.path("results/results.h5"));
+    let file = RunFile::open(directory.path("results/results.h5"));
     assert!(file.floats("/worn_pin").iter().all(|value| value.is_finite()));
     let idle = sweep(&directory, &["--retry"]);
     assert_eq!((idle["finished"].as_u64(), idle["finished_before"].as_u64()), (Some(0), Some(9)));
@@ -134,12 +135,12 @@ fn runs_count_as_what_they_read_when_a_surface_is_replaced_meanwhile() {
     };
     let clean = [1.0, 2.0].map(|scale| {
         let directory = with(scale);
-        sweep(&directory, &["--jobs", "2"]);
+        sweep(&directory, &["--jobs", "2", "--keep-files"]);
         collect(&directory, &[]);
-        table(&directory)
+        directory
     });
     let directory = with(1.0);
-    let mut command = directory.command(["sweep", "run", "study.toml", "--jobs", "1"]);
+    let mut command = directory.command(["sweep", "run", "study.toml", "--jobs", "1", "--keep-files"]);
     let child = command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap();
     assert!(wait_until(|| records(&directory).len() > 1));
     directory.write("new.npy", disc(2.0));
@@ -155,13 +156,21 @@ fn runs_count_as_what_they_read_when_a_surface_is_replaced_meanwhile() {
         let collected = collect(&directory, &["--force"]);
         there[place] = json(&collected)["finished"].as_u64().unwrap();
         assert!(collected.stderr.contains("left out: the file of disc.surface had another content"), "{collected:?}");
-        for (found, expected) in table(&directory).iter().zip(&clean[place]) {
+        for (found, expected) in table(&directory).iter().zip(&table(&clean[place])) {
             assert!(found == expected || found.contains(",missing,"), "{found}, expected {expected}");
         }
     }
     assert!(there[0] > 1 && there[1] > 0 && there[0] + there[1] == 6, "{there:?}");
     directory.write("disc.npy", disc(2.0));
-    sweep(&directory, &[]);
+    sweep(&directory, &["--keep-files"]);
     collect(&directory, &[]);
-    assert_eq!(table(&directory), clean[1]);
+    assert_eq!(table(&directory), table(&clean[1]));
+    // Names of run files tell what is in them.
+    for file in fs::read_dir(directory.path("results/runs")).unwrap().flatten() {
+        let name = format!("results/runs/{}", file.file_name().display());
+        let same = clean.iter().map(|clean| clean.path(&name)).find(|same| same.exists()).expect(&name);
+        let [found, expected] = [file.path(), same].map(|path| RunFile::open(path).content());
+        assert_eq!(differences(&found, &expected), [""; 0], "{name}");
+    }
+    assert!(fs::read_dir(directory.path("results/runs")).unwrap().count() > 6);
 }

@@ -3,8 +3,11 @@
 use std::path::PathBuf;
 
 use clap::{Args, Subcommand};
+use plateau_io::study::plan::Plan;
+use plateau_run::sweep;
 
 use crate::arguments::{CoresArguments, HandedArguments};
+use crate::failure::Failure;
 
 /// What to do with a study.
 #[derive(Debug, Subcommand)]
@@ -14,10 +17,15 @@ pub enum SweepCommand {
     Plan(PlanArguments),
     /// Make the runs that are not there yet, several at a time
     #[command(after_help = "Examples:\n  plateau sweep run data/studies/published/factors.toml\n  \
-                      plateau sweep run data/studies/published/factors.toml --task 3/10\n\n\
+                      plateau sweep run data/studies/published/factors.toml --task 3/10\n  \
+                      plateau sweep run data/studies/published/factors.toml --run 54 -o r54.h5\n\n\
                       It can be stopped and started again at any time, and several times at once, on several machines that share a folder: \
                       no run is made twice.")]
     Run(SweepRunArguments),
+    /// Print the scene of a run, whole, as `plateau run` takes it
+    #[command(after_help = "Example:\n  plateau sweep scene data/studies/published/factors.toml 54\n\n\
+                      To change it: plateau sweep scene STUDY 54 > r54.toml, then plateau run r54.toml -o r54.h5")]
+    Scene(SweepSceneArguments),
     /// Write a batch script that makes the runs as a Slurm job array
     #[command(
         after_help = "Example:\n  plateau sweep slurm data/studies/published/factors.toml --tasks 4 -o factors.sbatch\n  \
@@ -44,11 +52,28 @@ pub enum SweepCommand {
     Import(HandedArguments),
 }
 
+/// A study, and where its results are.
+#[derive(Debug, Args)]
+pub struct StudyArguments {
+    /// Study file (TOML)
+    pub study: PathBuf,
+    /// Folder of the results, relative to the working directory; overrides `directory` of the study
+    #[arg(long, value_name = "DIR")]
+    pub directory: Option<PathBuf>,
+}
+
+impl StudyArguments {
+    /// Reads the study and makes its design.
+    pub fn load(&self) -> Result<Plan, Failure> {
+        sweep::load(&self.study, self.directory.as_deref()).map_err(Failure::of_sweep)
+    }
+}
+
 /// Arguments of `plateau sweep plan`.
 #[derive(Debug, Args)]
 pub struct PlanArguments {
-    /// Study file (TOML)
-    pub study: PathBuf,
+    #[command(flatten)]
+    pub study: StudyArguments,
     /// Runs at a time, for the estimates; one on each core unless given
     #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = clap::value_parser!(u32).range(1..))]
     pub jobs: Option<u32>,
@@ -66,8 +91,8 @@ pub struct PlanArguments {
 /// Arguments of `plateau sweep run`.
 #[derive(Debug, Args)]
 pub struct SweepRunArguments {
-    /// Study file (TOML)
-    pub study: PathBuf,
+    #[command(flatten)]
+    pub study: StudyArguments,
     #[command(flatten)]
     pub cores: CoresArguments,
     /// Make only every N-th run, beginning with the I-th: one task of N that share the study
@@ -79,9 +104,32 @@ pub struct SweepRunArguments {
     /// Make runs again that failed before, or that did not keep a series which a response asks for
     #[arg(long)]
     pub retry: bool,
+    /// Keep the run file of every run in `runs` of the study's folder; runs that have none are made again
+    #[arg(long)]
+    pub keep_files: bool,
+    /// Make this run alone, whether or not it is there, and write its run file; nothing of the study changes
+    #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = clap::value_parser!(u32).range(1..),
+          conflicts_with_all = ["jobs", "task", "max_failures", "retry", "keep_files"])]
+    pub run: Option<u32>,
+    /// Run file of --run; unless given such as run-0054.h5 in the working directory
+    #[arg(short, long, value_name = "FILE", requires = "run")]
+    pub output: Option<PathBuf>,
+    /// Replace that file if it exists
+    #[arg(long, requires = "run")]
+    pub force: bool,
     /// Print one JSON document instead of text
     #[arg(long)]
     pub json: bool,
+}
+
+/// Arguments of `plateau sweep scene`.
+#[derive(Debug, Args)]
+pub struct SweepSceneArguments {
+    /// Study file (TOML)
+    pub study: PathBuf,
+    /// Number of the run
+    #[arg(allow_hyphen_values = true, value_parser = clap::value_parser!(u32).range(1..))]
+    pub run: u32,
 }
 
 /// One task of several that share a study.
@@ -105,14 +153,17 @@ fn task(text: &str) -> Result<Task, &'static str> {
 /// Arguments of `plateau sweep slurm`.
 #[derive(Debug, Args)]
 pub struct SlurmArguments {
-    /// Study file (TOML)
-    pub study: PathBuf,
+    #[command(flatten)]
+    pub study: StudyArguments,
     /// Tasks of the array; as many as take about an hour each unless given
     #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = clap::value_parser!(u32).range(1..))]
     pub tasks: Option<u32>,
     /// Cores of each task, on which it makes as many runs at a time
     #[arg(long, value_name = "N", allow_hyphen_values = true, default_value = "1", value_parser = clap::value_parser!(u32).range(1..))]
     pub cores: u32,
+    /// Keep the run file of every run, as `sweep run --keep-files`
+    #[arg(long)]
+    pub keep_files: bool,
     /// Script to write; the study's name with .sbatch in the working directory unless given
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<PathBuf>,
@@ -124,8 +175,8 @@ pub struct SlurmArguments {
 /// Arguments of `plateau sweep collect`.
 #[derive(Debug, Args)]
 pub struct CollectArguments {
-    /// Study file (TOML)
-    pub study: PathBuf,
+    #[command(flatten)]
+    pub study: StudyArguments,
     /// Folder for results.h5 and results.csv; the study's own unless given
     #[arg(short, long, value_name = "DIR")]
     pub output: Option<PathBuf>,

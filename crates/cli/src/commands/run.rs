@@ -20,10 +20,7 @@ pub fn run(arguments: &RunArguments) -> Result<(), Failure> {
 
 /// All processes of the job do the same, but only the leading one writes and prints.
 fn run_scene(arguments: &RunArguments, job: &mut Job) -> Result<(), Failure> {
-    // From now on: preparing a large scene takes long enough to be told to stop meanwhile.
-    let mut terminal = Terminal::listen_for_save(job.leads()).map_err(Failure::run)?;
-    // Of several processes, too, each ends by itself: nothing is written yet.
-    terminal.end_while_preparing();
+    let terminal = preparing(job)?;
     arguments.output.as_deref().map_or(Ok(()), |output| refuse_other_format("-o", output))?;
     let scene = load_scene(&lengthened(arguments))?;
     if arguments.output.is_none() {
@@ -41,10 +38,29 @@ fn run_scene(arguments: &RunArguments, job: &mut Job) -> Result<(), Failure> {
         execution: arguments.execution.options(),
         program: program::this(),
     };
-    let finished = plateau_run::run(scene, &options, job, &mut terminal).map_err(Failure::of)?;
+    make(scene, &options, arguments.scene.json, job, terminal)
+}
+
+/// A terminal that listens from now on: preparing a large scene takes long enough to be told to stop meanwhile.
+pub fn preparing(job: &Job) -> Result<Terminal, Failure> {
+    let mut terminal = Terminal::listen_for_save(job.leads()).map_err(Failure::run)?;
+    // Of several processes, too, each ends by itself: nothing is written yet.
+    terminal.end_while_preparing();
+    Ok(terminal)
+}
+
+/// Makes a run and prints what came of it.
+pub fn make(
+    scene: Scene,
+    options: &RunOptions,
+    as_json: bool,
+    job: &mut Job,
+    mut terminal: Terminal,
+) -> Result<(), Failure> {
+    let finished = plateau_run::run(scene, options, job, &mut terminal).map_err(Failure::of)?;
     let Some(summary) = finished else { return Ok(()) };
-    let text = if arguments.scene.json { json(&summary)? } else { runs::text(&summary) };
-    if message::is_quiet() && !arguments.scene.json {
+    let text = if as_json { json(&summary)? } else { runs::text(&summary) };
+    if message::is_quiet() && !as_json {
         return Ok(());
     }
     let file = summary.file.display();
@@ -86,10 +102,14 @@ fn refuse_other_format(given: &str, file: &Path) -> Result<(), Failure> {
 
 /// Reads the scene with the changes of the command line; what it can hardly mean goes to standard error.
 pub fn load_scene(arguments: &SceneArguments) -> Result<Scene, Failure> {
-    let mut scene = scene::load(&arguments.scene, &sets(arguments)).map_err(Failure::of_scene)?;
+    Ok(warned(scene::load(&arguments.scene, &sets(arguments)).map_err(Failure::of_scene)?))
+}
+
+/// A scene of which it is said what it can hardly mean.
+pub fn warned(mut scene: Scene) -> Scene {
     scene.warnings.extend(plausibility::of_scene(&scene));
     scene.warnings.iter().for_each(message::warning);
-    Ok(scene)
+    scene
 }
 
 /// All changes of a scene on the command line, as after `--set`.

@@ -126,6 +126,7 @@ fn build(document: Document, path: &Path, locator: &Locator<'_>) -> Result<Study
         base_place: document.base.as_ref().map_or_else(file, |base| locator.origin(base.span())),
         base: document.base.map(|base| folder.join(base.get_ref())),
         directory: folder.join(directory),
+        is_elsewhere: false,
         design: document.design.into_inner(),
         sets: document.set.into_iter().map(Spanned::into_inner).collect(),
         seed: document.seed.map_or(0, Spanned::into_inner),

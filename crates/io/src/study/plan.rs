@@ -30,6 +30,8 @@ pub struct Study {
     pub base_place: Origin,
     /// Folder of the results.
     pub directory: PathBuf,
+    /// Tells whether that is another one than the study names.
+    pub is_elsewhere: bool,
     /// Name of the design.
     pub design: String,
     /// Arguments of `--set` for every run.

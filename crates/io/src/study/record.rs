@@ -73,7 +73,7 @@ impl Identity {
 
     fn with<E>(scene: &Scene, digest: impl Fn(&Path) -> Result<String, E>) -> Result<Self, (PathBuf, E)> {
         let mut hasher = Sha256::new();
-        for line in relevant(&scene.resolved) {
+        for line in lines(&scene.resolved, shows) {
             hasher.update(line);
             hasher.update("\n");
         }
@@ -94,6 +94,16 @@ impl Identity {
         self.files.iter().for_each(|(key, digest)| hasher.update(format!("{key} {digest}\n")));
         format!("{:x}", hasher.finalize())
     }
+
+    /// Name of the run file of this result, such as `run-0054-3fa9c2d1.h5`: the number of its run in the study, for people, and letters
+    /// that no other scene, generation or choice of maps has.
+    pub fn run_file(&self, number: usize, scene: &Scene) -> String {
+        let mut hasher = Sha256::new_with_prefix(self.name());
+        let of_maps = |key: &str| matches!(schema::role(key), Role::Maps | Role::MapTimes);
+        lines(&scene.resolved, of_maps).for_each(|line| hasher.update(line));
+        let digest = format!("{:x}", hasher.finalize());
+        format!("run-{number:04}-{}.h5", &digest[..8])
+    }
 }
 
 /// Of each run the place of the first one with the same identity, which is its own unless it repeats another run.
@@ -102,14 +112,14 @@ pub fn firsts(identities: &[String]) -> Vec<usize> {
     identities.iter().enumerate().map(|(place, identity)| *known.entry(identity).or_insert(place)).collect()
 }
 
-/// The lines of a resolved scene, one key each, that show in its results.
-fn relevant(resolved: &str) -> impl Iterator<Item = &str> {
+/// The lines of a resolved scene, one key each, of some keys, and the heads of its tables.
+fn lines(resolved: &str, is_of: impl Fn(&str) -> bool) -> impl Iterator<Item = &str> {
     let mut table = "";
     resolved.lines().filter(move |line| {
         if let Some(name) = line.strip_prefix('[') {
             table = name.trim_end_matches(']');
         }
-        line.split_once(" = ").is_none_or(|(name, _)| shows(&schema::join(table, name)))
+        line.split_once(" = ").is_none_or(|(name, _)| is_of(&schema::join(table, name)))
     })
 }
 

@@ -3,6 +3,7 @@
 //! ```text
 //! run                          number of the run, from 1
 //! point, replicate, state      (run)
+//! seed                         (run), of the replicate, in a study with several
 //! order                        (run), which one it is in the order in which the runs are made
 //! same_as                      (run), the first run with the same scene: its own number unless it repeats another one
 //! one for each factor          (run), in SI units, or a word; attributes: role = "factor", name, keys, levels (their list in JSON, empty
@@ -12,6 +13,8 @@
 //!                              "response" or "standard error", name, series, transform, valid_min, valid_max
 //! one for each series          (run, time); or (run, sample), where the times of the samples differ from run to run
 //! ```
+//!
+//! Responses, series and all else along `run` have factors, point, replicate and seed as auxiliary coordinates (CF `coordinates`).
 
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -107,7 +110,13 @@ impl Collected {
                 ),
             ],
         };
+        if let Some(replicates) = &study.replicates {
+            let seeds = self.runs.iter().map(|run| replicates.seeds[run.run.replicate]).collect();
+            content.variables.push(variable("seed", "1", "seed of the replicate", Values::Integer(seeds)));
+        }
         let mut names = Names::new(&content, &along);
+        let mut coordinates = vec!["point".to_owned(), "replicate".to_owned()];
+        coordinates.extend(study.replicates.is_some().then(|| "seed".to_owned()));
         for (at, factor) in study.factors.iter().enumerate() {
             let levels = || self.runs.iter().map(|run| &run.run.levels[at]);
             let values = match levels().map(|level| level.number).collect() {
@@ -117,6 +126,7 @@ impl Collected {
             let unit = if matches!(values, Values::Float(_)) { factor.unit() } else { "" };
             let meaning = format!("{}: {}", factor.name, factor.keys_in_words());
             let name = names.free(&factor.name, "factor");
+            coordinates.push(name.clone());
             let attributes = factor_attributes(factor, levels().collect());
             content.variables.push(Variable { attributes, ..variable(name, unit, meaning, values) });
         }
@@ -148,6 +158,10 @@ impl Collected {
         let along_samples = if common.is_some() { "time" } else { "sample" };
         for quantity in quantities(EXTRAS).filter(|quantity| along.contains(quantity.name)) {
             content.variables.push(rows(quantity.name, quantity.unit, quantity.long_name, along_samples));
+        }
+        let is_coordinate = |variable: &Variable| coordinates.iter().any(|name| *name == variable.name);
+        for variable in content.variables.iter_mut().filter(|variable| !is_coordinate(variable)) {
+            variable.attributes.push(("coordinates", Attribute::Text(coordinates.join(" "))));
         }
         content
     }

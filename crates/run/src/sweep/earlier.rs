@@ -130,7 +130,7 @@ pub fn say_unkept(
         if are_made_again {
             observer.note(&format_args!("{file}: {count} that did not keep {lacks} are made again: {list}"));
         } else {
-            let again = observer.retry_advice(&study.path);
+            let again = observer.retry_advice(study);
             observer.warning(&format_args!(
                 "{file}: {lacks} was not kept by {count}, so that responses to it have no value there, or one of samples only: {list}; \
                  {again}"

@@ -8,17 +8,21 @@ use std::time::Duration;
 
 use plateau_core::observe::event::event_quantities;
 use plateau_core::observe::running_in::pulse_time;
-use plateau_core::observe::{Quantity, Sample, quantities};
+use plateau_core::observe::{Quantity, Sample, Snapshot, quantities};
 use plateau_core::simulation::{Execution, Simulation, SimulationError};
+use plateau_io::run_file::RunFileError;
 use plateau_io::scene::Scene;
 use plateau_io::study::Study;
 use plateau_io::study::record::{CONTACT_TIME, Identity, Outcome, REVOLUTIONS, Series};
 use plateau_io::study::response::Response;
 use plateau_io::surface::{self, Loaded, SurfaceError};
 
-use super::under_way::UnderWay;
+use super::kept_file::{self, KeptFile};
+use super::under_way::{State, UnderWay};
 use crate::assembly::{Assembly, Sink};
 use crate::error::RunError;
+use crate::options::Program;
+use crate::recorder::header;
 
 /// Observer of one run of a study.
 pub trait Watcher: Sync {
@@ -32,21 +36,25 @@ pub trait Watcher: Sync {
     fn goes_on(&self, steps: u64);
 }
 
-/// A signal ended the run.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Stopped;
-
 /// Reason why a run did not finish.
 pub enum Ended {
     /// A signal came.
     Stopped,
     /// The problem.
     Failed(String),
+    /// Problem with its run file, which is not one of the run.
+    Unkept(String),
 }
 
 impl From<SimulationError> for Ended {
     fn from(error: SimulationError) -> Self {
         Self::Failed(error.to_string())
+    }
+}
+
+impl From<RunFileError> for Ended {
+    fn from(error: RunFileError) -> Self {
+        Self::Unkept(error.to_string())
     }
 }
 
@@ -64,15 +72,15 @@ pub struct MadeRun {
     pub of: Option<Identity>,
 }
 
-/// Makes a run.
-pub fn make(request: &Request<'_>, watcher: &dyn Watcher, under_way: &mut UnderWay<'_>) -> Result<MadeRun, Stopped> {
+/// Makes a run, unless a signal comes or its run file cannot be kept.
+pub fn make(request: &Request<'_>, watcher: &dyn Watcher, under_way: &mut UnderWay<'_>) -> Result<MadeRun, Ended> {
     let mut of = None;
     // A panic is a mistake of this program; it ends the run, not the study.
     let made = catch_unwind(AssertUnwindSafe(|| request.finish(watcher, under_way, &mut of)));
     let outcome = match made {
         Ok(Ok(outcome)) => outcome,
-        Ok(Err(Ended::Stopped)) => return Err(Stopped),
         Ok(Err(Ended::Failed(error))) => Outcome::Failed { error },
+        Ok(Err(ended)) => return Err(ended),
         Err(_) => Outcome::Failed { error: "the program panicked: this is a mistake of the program".into() },
     };
     Ok(MadeRun { outcome, of })
@@ -90,8 +98,12 @@ pub struct Request<'a> {
     pub besides: &'a BTreeSet<String>,
     /// Threads.
     pub workers: usize,
-    /// Name, version and revision of the program.
-    pub program: String,
+    /// The program.
+    pub program: &'a Program,
+    /// Its number in the study.
+    pub number: usize,
+    /// Tells whether its run file is kept.
+    pub keeps_file: bool,
 }
 
 impl Request<'_> {
@@ -107,22 +119,32 @@ impl Request<'_> {
         if read != self.expected {
             under_way.is_another();
         }
-        let surfaces = loaded.surfaces;
-        // A study keeps no maps.
+        // Of what was read, which may not be what was expected.
+        let file = self.keeps_file.then(|| kept_file::path(self.study, read, self.number, self.scene));
+        let Loaded { surfaces, inputs, report, .. } = loaded;
         let mut scene = self.scene.clone();
-        scene.output.maps.clear();
+        if file.is_none() {
+            // A journal keeps no maps.
+            scene.output.maps.clear();
+        }
         let execution = Execution { workers: self.workers, ..Execution::default() };
         let pulse_time = pulse_time(&scene.parameters, &surfaces.pin_base);
         let mut assembly = Assembly::new(&scene, surfaces, execution)?;
         let mut recorder = Recorder::new(self, &scene, watcher, under_way);
-        let state = recorder.under_way.find(&scene.parameters.mesh, &recorder.program, &recorder.names());
+        let mut state = recorder.under_way.find(&scene.parameters.mesh, &recorder.program, &recorder.names());
+        if let Some(path) = file {
+            let header = header(&scene, &assembly, self.program, &inputs, report);
+            recorder.file = Some(KeptFile::open(&path, &header, &mut state, recorder.under_way)?);
+        }
         if let Some(state) = state {
             assembly.restore(&state.simulation)?;
             let steps = state.simulation.run.steps();
             watcher.goes_on(steps);
             (recorder.columns, recorder.told) = (state.columns, steps);
         }
-        assembly.run_to_end(&mut recorder)?;
+        let result = assembly.run_to_end(&mut recorder);
+        recorder.file.take().map_or(Ok(()), |file| file.close(&result, &assembly))?;
+        result?;
         let steps = assembly.simulation.steps_done();
         recorder.watcher.steps(steps - recorder.told);
         let events = (!assembly.events().is_empty()).then(|| {
@@ -146,6 +168,7 @@ struct Recorder<'a, 'o> {
     told: u64,
     under_way: &'a mut UnderWay<'o>,
     program: String,
+    file: Option<KeptFile>,
     /// Tells whether a signal came.
     is_stopped: bool,
 }
@@ -171,7 +194,8 @@ impl<'a, 'o> Recorder<'a, 'o> {
             watcher,
             told: 0,
             under_way,
-            program: request.program.clone(),
+            program: request.program.build(),
+            file: None,
             is_stopped: false,
         }
     }
@@ -194,7 +218,11 @@ impl Sink for Recorder<'_, '_> {
         let values =
             [sample.time, revolutions].into_iter().chain(self.kept.iter().map(|quantity| quantity.value(&sample)));
         self.columns.iter_mut().zip(values).for_each(|(column, value)| column.push(value));
-        Ok(())
+        Ok(self.file.as_mut().map_or(Ok(()), |file| file.writer.sample(sample))?)
+    }
+
+    fn snapshot(&mut self, snapshot: Snapshot) -> Result<(), Ended> {
+        Ok(self.file.as_mut().map_or(Ok(()), |file| file.snapshot(snapshot))?)
     }
 
     fn look(&mut self, simulation: &Simulation, steps: u64) -> Result<u64, Ended> {
@@ -202,12 +230,15 @@ impl Sink for Recorder<'_, '_> {
         let done = simulation.steps_done();
         self.is_stopped = self.watcher.steps(done - self.told);
         self.told = done;
+        self.file.as_mut().map_or(Ok(()), |file| file.writer.check())?;
         Ok(steps)
     }
 
     fn rest(&mut self, assembly: &mut Assembly) -> Result<(), Ended> {
         if self.is_stopped || self.under_way.is_due() {
-            self.under_way.keep(assembly, self.program.clone(), &self.columns, self.names())?;
+            let (program, names, columns) = (self.program.clone(), self.names(), self.columns.clone());
+            let file = self.file.as_mut().map(KeptFile::state).transpose()?;
+            self.under_way.keep(&State { program, simulation: assembly.checkpoint()?, columns, names, file });
         }
         if self.is_stopped { Err(Ended::Stopped) } else { Ok(()) }
     }

@@ -5,7 +5,7 @@
 //! use plateau_run::Job;
 //! use plateau_run::sweep::{self, Sweep, SweepOptions};
 //!
-//! let plan = sweep::load("study.toml".as_ref())?;
+//! let plan = sweep::load("study.toml".as_ref(), None)?;
 //! let mut job = Job::start()?;
 //! // `()` observes nothing.
 //! let summary = Sweep::prepare(&plan, SweepOptions::default(), &job, &())?.run(&mut job, &())?;
@@ -20,9 +20,11 @@
 //! | `earlier.rs` | the journal: results of before, those that are left out, series that were not kept |
 //! | `under_way.rs` | runs that are under way: one process makes each, and keeps the state from which it continues |
 //! | `make.rs` | one run, from its scene to its record |
+//! | `kept_file.rs` | the run file of a run, where the study keeps those |
 //! | `runner.rs` | which runs are to be made, and several at a time |
 
 mod earlier;
+mod kept_file;
 mod make;
 mod resolved;
 mod runner;
@@ -31,6 +33,6 @@ mod warnings;
 
 pub use crate::error::SweepError;
 pub use earlier::{journal, journal_folder, say_left_out, say_unkept};
-pub use resolved::{Estimate, Resolved, ResolvedRun, RunLength, note_short_tenths};
+pub use resolved::{Estimate, Resolved, ResolvedRun, RunLength, note_short_tenths, run_in_words, scene_of_run};
 pub use runner::{Part, Sweep, SweepOptions, SweepSummary, load};
 pub use warnings::{SceneWarnings, SweepObserver, of_questions};

@@ -17,6 +17,7 @@ use rayon::prelude::*;
 
 use crate::error::SweepError;
 use crate::execution::time_per_step;
+use crate::sweep::kept_file;
 use crate::sweep::warnings::{Found, SceneWarnings, SweepObserver, of_scene, of_surfaces};
 
 /// Problems that are shown.
@@ -29,6 +30,8 @@ pub struct ResolvedRun {
     pub identity: String,
     /// Identity of the run.
     pub of: Identity,
+    /// Its run file, where the study keeps those.
+    pub file: PathBuf,
     /// Its steps.
     pub steps: u64,
     /// Its length.
@@ -140,6 +143,7 @@ impl Resolved {
             })?;
             let run = ResolvedRun {
                 identity: of.name(),
+                file: kept_file::path(study, &of, number, &scene),
                 of,
                 steps: scene.steps,
                 length: RunLength::of(&scene),
@@ -287,6 +291,8 @@ const TRIAL: Duration = Duration::from_millis(150);
 pub struct Estimate {
     /// Memory of the largest run, bytes.
     pub memory: u64,
+    /// Size of the run file of a run, mean of what it can be at most, bytes.
+    pub file_size: u64,
     /// Wall time of a run, mean, s.
     pub mean_time: f64,
     /// Wall time of the longest, s.
@@ -315,15 +321,30 @@ impl Estimate {
             let steps = scene.steps.max(1) as f64;
             per_cell = per_cell.max((step + making / steps) / scene.parameters.mesh.pin_cells() as f64);
         }
-        let (mut memory, mut times) = (0, Vec::new());
+        let (mut memory, mut file_sizes, mut times) = (0, 0, Vec::new());
         for number in spread(plan.runs(), COUNTED) {
             let scene = scene(plan, number)?;
             memory = memory.max(memory_estimate(&scene));
+            file_sizes += kept_file::size(&scene);
             times.push(scene.steps as f64 * scene.parameters.mesh.pin_cells() as f64 * per_cell);
         }
         let mean_time = times.iter().sum::<f64>() / times.len().max(1) as f64;
-        Ok(Self { memory, mean_time, longest_time: times.iter().copied().fold(0.0, f64::max), warnings })
+        let file_size = file_sizes / times.len().max(1) as u64;
+        Ok(Self { memory, file_size, mean_time, longest_time: times.iter().copied().fold(0.0, f64::max), warnings })
     }
+}
+
+/// The scene of a run that somebody asks for by its number.
+///
+/// # Errors
+/// [`SweepError::Input`] when the study has no such run, or no scene, or that cannot be built.
+pub fn scene_of_run(plan: &Plan, number: usize) -> Result<Scene, SweepError> {
+    refuse_without_scene(plan)?;
+    if !(1..=plan.runs()).contains(&number) {
+        let (study, runs) = (plan.study().path.display(), plan.runs());
+        return Err(SweepError::Input(format!("{study}: there is no run {number}; its runs are 1 to {runs}")));
+    }
+    scene(plan, number)
 }
 
 /// The scene of a run.

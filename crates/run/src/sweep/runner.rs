@@ -12,7 +12,7 @@ use plateau_io::memory::AtWork;
 use plateau_io::number;
 use plateau_io::scene::Scene;
 use plateau_io::study::Study;
-use plateau_io::study::journal::{Entry, Journal, Shard};
+use plateau_io::study::journal::{Journal, Shard};
 use plateau_io::study::plan::Plan;
 use plateau_io::study::record::{Digests, Identity, Outcome, Record};
 use plateau_io::study::response::NoAnswer;
@@ -25,7 +25,8 @@ use crate::execution;
 use crate::job::{Agreement, Job, PieceEnd};
 use crate::options::Program;
 use crate::sweep::earlier::{is_whole, journal, journal_folder, refuse_unwritable, say_left_out, say_unkept};
-use crate::sweep::make::{MadeRun, Request, Watcher, make};
+use crate::sweep::kept_file;
+use crate::sweep::make::{Ended, MadeRun, Request, Watcher, make};
 use crate::sweep::resolved::{Resolved, needed, note_short_tenths};
 use crate::sweep::under_way::{self, Others, UnderWay};
 use crate::sweep::warnings::{SceneWarnings, SweepObserver, of_questions, of_surfaces};
@@ -38,6 +39,8 @@ const STRANGE: usize = 10;
 pub struct SweepOptions {
     /// Tells whether runs that failed before, or did not keep a series that is needed now, are made again.
     pub retry: bool,
+    /// Tells whether the run file of every run is kept, and runs are made again that have none.
+    pub keep_files: bool,
     /// The part of the runs that this process makes; all of them if none.
     pub part: Option<Part>,
     /// Runs at a time, at most.
@@ -53,7 +56,15 @@ pub struct SweepOptions {
 impl Default for SweepOptions {
     /// All runs that are not there yet, one at a time on one thread.
     fn default() -> Self {
-        Self { retry: false, part: None, jobs: 1, workers: 1, most_failures: None, program: Program::default() }
+        Self {
+            retry: false,
+            keep_files: false,
+            part: None,
+            jobs: 1,
+            workers: 1,
+            most_failures: None,
+            program: Program::default(),
+        }
     }
 }
 
@@ -122,9 +133,13 @@ pub struct SweepSummary {
     pub signal: Option<u8>,
 }
 
-/// Reads a study and makes its design.
-pub fn load(path: &Path) -> Result<Plan, SweepError> {
-    Ok(Study::load(path).and_then(Plan::new)?)
+/// Reads a study and makes its design. Its results are in that `directory`, if one is given, in place of the one that it names.
+pub fn load(path: &Path, directory: Option<&Path>) -> Result<Plan, SweepError> {
+    let mut study = Study::load(path)?;
+    if let Some(directory) = directory {
+        (study.directory, study.is_elsewhere) = (directory.to_owned(), true);
+    }
+    Ok(Plan::new(study)?)
 }
 
 impl<'a> Sweep<'a> {
@@ -165,6 +180,9 @@ impl<'a> Sweep<'a> {
         }
         warn_of_strange(&journal, observer);
         say_unkept(study, &resolved, &journal, sweep.options.retry, observer);
+        if sweep.options.keep_files {
+            kept_file::renumber(study, &resolved);
+        }
         let mut pending = Vec::new();
         for number in sweep.numbers() {
             // It has the result of the run that it repeats.
@@ -173,15 +191,21 @@ impl<'a> Sweep<'a> {
                 continue;
             }
             let run = &resolved.runs[&number];
+            let retry = sweep.options.retry;
             match journal.get(&run.identity) {
-                Some(entry) if is_whole(entry, &run.needed) => sweep.before.finished += 1,
-                Some(Entry { failure: None, .. }) if !sweep.options.retry => sweep.before.finished += 1,
-                Some(_) if !sweep.options.retry => sweep.before.failed += 1,
+                Some(entry) if entry.failure.is_some() && !retry => sweep.before.failed += 1,
+                Some(entry)
+                    if (is_whole(entry, &run.needed) || !retry)
+                        && (!sweep.options.keep_files || kept_file::is_finished(&run.file)) =>
+                {
+                    sweep.before.finished += 1;
+                }
                 _ => pending.push(number),
             }
         }
         if sweep.options.part.is_none() {
             say_left_out(study, &resolved, &journal, observer);
+            kept_file::say_strange(study, &resolved, observer);
             tidy(plan, &resolved, &journal, observer);
         }
         if !pending.is_empty() {
@@ -216,7 +240,7 @@ impl<'a> Sweep<'a> {
         let study = plan.study();
         let jobs = options.jobs.min(pending.len().max(1));
         let start = Instant::now();
-        let runner = Runner::new(plan, resolved.as_ref(), journal, options.workers, options.program.build(), observer);
+        let runner = Runner::new(plan, resolved.as_ref(), journal, &options, observer);
         let shared = job.share(&pending, jobs, options.most_failures, &|number| runner.make(number));
         let made = runner.end(shared.map_err(SweepError::failed))?;
         runner.say_warnings();
@@ -281,8 +305,7 @@ const LOOK: Duration = Duration::from_millis(200);
 /// State that the runs that are made at the same time share.
 pub struct Runner<'a> {
     plan: &'a Plan,
-    workers: usize,
-    program: String,
+    options: &'a SweepOptions,
     observer: &'a dyn SweepObserver,
     /// The runs, when it was decided which of them are to be made; none in a process that decides nothing.
     decided: Option<&'a Resolved>,
@@ -344,21 +367,19 @@ impl Watcher for Runner<'_> {
 }
 
 impl<'a> Runner<'a> {
-    /// For runs of a plan, each with so many workers; `journal` has the results that are there.
+    /// For runs of a plan; `journal` has the results that are there.
     pub fn new(
         plan: &'a Plan,
         decided: Option<&'a Resolved>,
         journal: Journal,
-        workers: usize,
-        program: String,
+        options: &'a SweepOptions,
         observer: &'a dyn SweepObserver,
     ) -> Self {
         let failed = journal.entries().filter(|(_, entry)| entry.failure.is_some());
         let failed_before = failed.map(|(identity, entry)| (identity.to_owned(), entry.last.clone())).collect();
         Self {
             plan,
-            workers,
-            program,
+            options,
             observer,
             decided,
             failed_before,
@@ -434,11 +455,13 @@ impl<'a> Runner<'a> {
             }
         };
         let (identity, needed) = (expected.name(), needed(study, &scene));
+        let file = self.options.keep_files.then(|| kept_file::path(study, &expected, number, &scene));
+        let ended_elsewhere = || self.ended_elsewhere(&identity, &needed, file.as_deref());
         if lock(&self.waiting).contains(&number) {
             thread::sleep(LOOK);
         }
         // Another process may have made it since the journal was read; what it is making now comes later.
-        if let Some(end) = self.ended_elsewhere(&identity, &needed) {
+        if let Some(end) = ended_elsewhere() {
             return end;
         }
         let Ok(mut under_way) = UnderWay::take(&study.directory, &identity, &self.others, self.observer) else {
@@ -451,7 +474,7 @@ impl<'a> Runner<'a> {
         if let Err(error) = lock(&self.journal).read_on(&journal_folder(study)) {
             return self.break_off(format_args!("cannot read {}: {error}", journal_folder(study).display()));
         }
-        if let Some(end) = self.ended_elsewhere(&identity, &needed) {
+        if let Some(end) = ended_elsewhere() {
             under_way.forget();
             return end;
         }
@@ -463,10 +486,18 @@ impl<'a> Runner<'a> {
             scene: &scene,
             expected: &expected,
             besides: &before,
-            workers: self.workers,
-            program: self.program.clone(),
+            workers: self.options.workers,
+            program: &self.options.program,
+            number,
+            keeps_file: self.options.keep_files,
         };
-        let Ok(MadeRun { outcome, of }) = make(&request, self, &mut under_way) else { return PieceEnd::Stopped };
+        let MadeRun { outcome, of } = match make(&request, self, &mut under_way) {
+            Ok(made) => made,
+            Err(Ended::Unkept(error)) => {
+                return self.break_off(format_args!("{error}; what was finished before is safe"));
+            }
+            Err(_) => return PieceEnd::Stopped,
+        };
         let of = of.unwrap_or(expected);
         if let Some(series) = outcome.series() {
             let answers = study.responses.iter().map(|response| response.of(&series));
@@ -515,12 +546,13 @@ impl<'a> Runner<'a> {
     }
 
     /// End of a run that another process has made since it was decided to make it.
-    fn ended_elsewhere(&self, identity: &str, needed: &BTreeSet<String>) -> Option<PieceEnd> {
+    fn ended_elsewhere(&self, identity: &str, needed: &BTreeSet<String>, file: Option<&Path>) -> Option<PieceEnd> {
         let journal = lock(&self.journal);
         let entry = journal.get(identity)?;
         let is_new = || self.decided.is_some() && self.failed_before.get(identity) != Some(&entry.last);
         let has_failed = entry.failure.is_some() && is_new();
-        if !is_whole(entry, needed) && !has_failed {
+        let has_finished = is_whole(entry, needed) && file.is_none_or(kept_file::is_finished);
+        if !has_finished && !has_failed {
             return None;
         }
         let mut made = lock(&self.made);

@@ -8,13 +8,12 @@ use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 use plateau_core::model::mesh::Mesh;
-use plateau_core::simulation::SimulationError;
 use plateau_io::claim::{Claim, ClaimError, Seen};
 use plateau_io::run_file::checkpoint::{self, SimulationState};
 use plateau_io::temporary::Temporary;
 use serde::{Deserialize, Serialize};
 
-use crate::assembly::Assembly;
+use crate::sweep::kept_file::FileState;
 use crate::sweep::warnings::SweepObserver;
 
 /// Folder of locks and states, in that of the results.
@@ -38,6 +37,8 @@ pub struct State {
     pub columns: Vec<Vec<f64>>,
     /// Their names.
     pub names: Vec<String>,
+    /// Content of the run file, if the study keeps those.
+    pub file: Option<FileState>,
 }
 
 /// A run that this process makes: nobody else makes it meanwhile, and its state is kept when it is due. Lock and state are named by the
@@ -130,23 +131,15 @@ impl<'a> UnderWay<'a> {
         self.last.elapsed() >= self.every
     }
 
-    /// Keeps the state; what cannot be kept is done again if need be.
-    pub fn keep(
-        &mut self,
-        assembly: &mut Assembly,
-        program: String,
-        columns: &[Vec<f64>],
-        names: Vec<String>,
-    ) -> Result<(), SimulationError> {
+    /// Keeps the state between two steps; what cannot be kept is done again if need be.
+    pub fn keep(&mut self, state: &State) {
         self.last = Instant::now();
         if self.claim.is_none() {
-            return Ok(());
+            return;
         }
-        let state = State { program, simulation: assembly.checkpoint()?, columns: columns.to_vec(), names };
-        if let Err(error) = checkpoint::keep(&self.path, &state) {
+        if let Err(error) = checkpoint::keep(&self.path, state) {
             not_kept(&error, self.observer);
         }
-        Ok(())
     }
 
     /// Forgets the state of a run whose result is kept.

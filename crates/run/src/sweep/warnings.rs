@@ -2,7 +2,6 @@
 //! once, with how many runs it concerns; and who follows the runs of a study.
 
 use std::fmt::{self, Display};
-use std::path::Path;
 
 use plateau_io::plausibility;
 use plateau_io::scene::{Scene, Warning};
@@ -34,7 +33,7 @@ pub trait SweepObserver: Sync {
     }
 
     /// Advice, in messages, on how runs of a study are made again.
-    fn retry_advice(&self, _study: &Path) -> String {
+    fn retry_advice(&self, _study: &Study) -> String {
         "`retry` makes them again".to_owned()
     }
 }

@@ -8,9 +8,7 @@ use plateau_io::study::plan::Plan;
 use plateau_io::study::results::{self, CollectError, Collected, State, is_results_table, table as table_of};
 use plateau_io::study::results_file::{finished, is_collected};
 use plateau_io::{input, limits, number, scene};
-use plateau_run::sweep::{
-    self, Resolved, SceneWarnings, journal, note_short_tenths, of_questions, say_left_out, say_unkept,
-};
+use plateau_run::sweep::{Resolved, SceneWarnings, journal, note_short_tenths, of_questions, say_left_out, say_unkept};
 use serde::Serialize;
 
 use crate::arguments::CollectArguments;
@@ -24,7 +22,7 @@ const LISTED: usize = 10;
 
 /// Collects what there is.
 pub fn collect(arguments: &CollectArguments) -> Result<(), Failure> {
-    let plan = sweep::load(&arguments.study).map_err(Failure::of_sweep)?;
+    let plan = arguments.study.load()?;
     let Found { collected, inputs, left_out, .. } = collected(&plan)?;
     let folder = arguments.output.clone().unwrap_or_else(|| plan.study().directory.clone());
     output::make_directory(&folder)?;

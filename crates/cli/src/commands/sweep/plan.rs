@@ -7,7 +7,7 @@ use plateau_io::study::factor::Level;
 use plateau_io::study::journal::Entry;
 use plateau_io::study::plan::Plan;
 use plateau_run::execution::cores;
-use plateau_run::sweep::{self, Estimate, Resolved, journal, note_short_tenths, say_left_out};
+use plateau_run::sweep::{Estimate, Resolved, journal, note_short_tenths, say_left_out};
 use serde::Serialize;
 
 use crate::arguments::PlanArguments;
@@ -21,7 +21,7 @@ const LISTED: usize = 16;
 
 /// Plans a study.
 pub fn plan(arguments: &PlanArguments) -> Result<(), Failure> {
-    let plan = sweep::load(&arguments.study).map_err(Failure::of_sweep)?;
+    let plan = arguments.study.load()?;
     let check =
         |inputs: &[PathBuf]| arguments.csv.as_ref().map_or(Ok(()), |csv| output::check(csv, arguments.force, inputs));
     check(&plan.study().inputs())?;
@@ -82,6 +82,8 @@ struct Report {
     jobs: usize,
     /// Bytes, of all runs at a time.
     memory: u64,
+    /// Bytes, of all run files together, at most, if they are kept.
+    run_files: u64,
     /// s, of one run: mean and longest.
     run_time: [f64; 2],
     /// s, of what is left.
@@ -135,6 +137,7 @@ impl Report {
             responses: study.responses.iter().map(|response| response.name.clone()).collect(),
             jobs,
             memory: estimate.memory * jobs as u64,
+            run_files: estimate.file_size.saturating_mul((plan.runs() - repeats.unwrap_or(0)) as u64),
             run_time: [estimate.mean_time, estimate.longest_time],
             estimated_time: (estimate.mean_time * left as f64 / jobs as f64)
                 .max(estimate.longest_time.min(left as f64)),
@@ -172,6 +175,9 @@ impl Report {
             ));
         }
         rows.push(("results", self.directory.clone()));
+        if self.base.is_some() {
+            rows.push(("run files", format!("at most {} in all with --keep-files", number::bytes(self.run_files))));
+        }
         let mut text = table(&self.title, &rows);
         let factors: Vec<(String, String)> = self
             .factors

@@ -1,4 +1,5 @@
-//! `plateau sweep run` and `plateau sweep slurm`: make the runs of a study that are not there yet, here or by an array of jobs.
+//! `plateau sweep run` and `plateau sweep slurm`: make the runs of a study that are not there yet, here or by an array of jobs, or one of
+//! them by itself; `plateau sweep scene`: its scene.
 
 use std::fmt::Display;
 use std::path::{Path, PathBuf};
@@ -7,24 +8,57 @@ use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressStyle};
 use plateau_io::number;
-use plateau_run::sweep::{self, Estimate, Part, Resolved, Sweep, SweepObserver, SweepOptions, SweepSummary};
-use plateau_run::{Job, signal_in_words};
+use plateau_io::scene::Workers;
+use plateau_io::study::Study;
+use plateau_io::text::shown_on_one_line;
+use plateau_run::sweep::{
+    self, Estimate, Part, Resolved, Sweep, SweepObserver, SweepOptions, SweepSummary, run_in_words, scene_of_run,
+};
+use plateau_run::{Job, RunOptions, signal_in_words};
 
-use crate::arguments::{SlurmArguments, SweepRunArguments};
+use crate::arguments::{SlurmArguments, SweepRunArguments, SweepSceneArguments};
 use crate::failure::{Failure, in_job};
 use crate::output::{print, print_json, table};
 use crate::terminal::{Interrupt, Messages};
-use crate::{invocation, message, output, program};
+use crate::{commands, invocation, message, output, program};
 
 /// Makes the runs, together with the other processes of the job if there are any.
 pub fn run(arguments: &SweepRunArguments) -> Result<(), Failure> {
-    in_job(|job| run_study(arguments, job))
+    in_job(|job| match arguments.run {
+        Some(number) => run_alone(arguments, number as usize, job),
+        None => run_study(arguments, job),
+    })
+}
+
+/// Makes one run, as `plateau run` makes that of a scene.
+fn run_alone(arguments: &SweepRunArguments, number: usize, job: &mut Job) -> Result<(), Failure> {
+    let mut scene = scene_of_run(&arguments.study.load()?, number).map_err(Failure::of_sweep)?;
+    scene.workers = Workers::Count(arguments.cores.workers());
+    let output = arguments.output.clone().unwrap_or_else(|| PathBuf::from(format!("run-{number:04}.h5")));
+    let options = RunOptions {
+        output: Some(output),
+        replace: arguments.force,
+        program: program::this(),
+        ..RunOptions::default()
+    };
+    let terminal = commands::run::preparing(job)?;
+    commands::run::make(commands::run::warned(scene), &options, arguments.json, job, terminal)
+}
+
+/// Prints the scene of one run.
+pub fn scene(arguments: &SweepSceneArguments) -> Result<(), Failure> {
+    let plan = sweep::load(&arguments.study, None).map_err(Failure::of_sweep)?;
+    let number = arguments.run as usize;
+    let scene = scene_of_run(&plan, number).map_err(Failure::of_sweep)?;
+    let (run, study) = (run_in_words(&plan, number), arguments.study.display().to_string());
+    print(&format!("# {} of {}\n\n{}", shown_on_one_line(&run), shown_on_one_line(&study), scene.resolved.trim_start()))
 }
 
 fn run_study(arguments: &SweepRunArguments, job: &mut Job) -> Result<(), Failure> {
-    let plan = sweep::load(&arguments.study).map_err(Failure::of_sweep)?;
+    let plan = arguments.study.load()?;
     let options = SweepOptions {
         retry: arguments.retry,
+        keep_files: arguments.keep_files,
         part: arguments.task.map(|task| Part { number: task.number, count: task.count }),
         jobs: arguments.cores.runs_at_a_time(),
         workers: arguments.cores.workers(),
@@ -122,7 +156,7 @@ impl SweepObserver for Terminal {
         self.interrupt.signal()
     }
 
-    fn retry_advice(&self, study: &Path) -> String {
+    fn retry_advice(&self, study: &Study) -> String {
         Messages.retry_advice(study)
     }
 }
@@ -195,8 +229,9 @@ const MOST_TASKS: usize = 1000;
 
 /// Writes the script.
 pub fn slurm(arguments: &SlurmArguments) -> Result<(), Failure> {
-    let plan = sweep::load(&arguments.study).map_err(Failure::of_sweep)?;
-    let stem = arguments.study.file_stem().map_or_else(|| "study".into(), |stem| stem.to_string_lossy().into_owned());
+    let plan = arguments.study.load()?;
+    let stem =
+        arguments.study.study.file_stem().map_or_else(|| "study".into(), |stem| stem.to_string_lossy().into_owned());
     let script = arguments.output.clone().unwrap_or_else(|| PathBuf::from(format!("{stem}.sbatch")));
     output::check(&script, arguments.force, &plan.study().inputs())?;
     let estimate = Estimate::of(&plan).map_err(Failure::of_sweep)?;
@@ -214,7 +249,9 @@ pub fn slurm(arguments: &SlurmArguments) -> Result<(), Failure> {
     let time = TIME_RESERVE * (estimate.mean_time * rounds).max(estimate.longest_time) + LEAST_TIME;
     let memory = MEMORY_RESERVE * estimate.memory as f64 * cores as f64 + PROGRAM_MEMORY;
     let program = std::env::current_exe().map_err(Failure::run)?;
-    let study = arguments.study.canonicalize().map_err(Failure::input)?;
+    let study = arguments.study.study.canonicalize().map_err(Failure::input)?;
+    let directory =
+        arguments.study.directory.as_deref().map(std::path::absolute).transpose().map_err(Failure::input)?;
     let minutes = (time / 60.0).ceil() as u64;
     let megabytes = (memory / (1 << 20) as f64).ceil() as u64;
     let head = format!(
@@ -234,13 +271,14 @@ pub fn slurm(arguments: &SlurmArguments) -> Result<(), Failure> {
         rest = minutes % 60,
     );
     // Paths need not be UTF-8.
-    let command = [
-        &b"exec "[..],
-        &invocation::quoted(program.as_os_str().as_encoded_bytes()),
-        b" sweep run ",
-        &invocation::quoted(study.as_os_str().as_encoded_bytes()),
-    ]
-    .concat();
+    let quoted = |path: &Path| invocation::quoted(path.as_os_str().as_encoded_bytes());
+    let mut command = [&b"exec "[..], &quoted(&program), b" sweep run ", &quoted(&study)].concat();
+    if let Some(directory) = &directory {
+        command.extend([&b" --directory "[..], &quoted(directory)].concat());
+    }
+    if arguments.keep_files {
+        command.extend(b" --keep-files");
+    }
     let rest = format!(" --task \"$SLURM_ARRAY_TASK_ID/{tasks}\" --jobs {cores}\n");
     output::write(&script, &[head.as_bytes(), &command, rest.as_bytes()].concat(), arguments.force)?;
     print(&table(
