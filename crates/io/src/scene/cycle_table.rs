@@ -140,7 +140,6 @@ fn header(line: &Line<'_>) -> Result<Vec<Column>, Wrong> {
     Ok(columns)
 }
 
-/// Takes in a row, or tells what is wrong with it, in which column.
 fn take(row: &Line<'_>, columns: &mut [Column]) -> Result<(), Wrong> {
     if row.cells.len() > columns.len() {
         let message = format!("{} fields, expected {}, one for each column", row.cells.len(), columns.len());

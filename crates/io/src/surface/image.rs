@@ -197,16 +197,12 @@ fn refuse_promise(width: u64, height: u64, needed: u64, most: usize, bytes: usiz
     })
 }
 
-/// Decodes an image by its format.
 fn decode(content: &[u8], format: Format) -> Result<Raster, ImageError> {
     if format == Format::Png { Raster::png(content) } else { Raster::tiff(content) }
 }
 
 /// Reads an image as heights: grey levels lie evenly between the heights of black and white, decimal pixels are heights
 /// themselves.
-///
-/// # Errors
-/// [`ImageError`] when the image is damaged, has colours or transparency, or its heights are not told.
 pub(super) fn heights(content: &[u8], format: Format, options: &ReadOptions) -> Result<Measured, ImageError> {
     let Raster { width, height, colour, samples, warnings } = decode(content, format)?;
     let refuse = |found: &str| {
@@ -266,9 +262,6 @@ fn by_columns<T: Copy>(pixels: &[T], (width, height): (usize, usize), of: impl F
 
 /// Reads an image as grey levels from black 0 to white 1. Colours become their luma of ITU-R BT.709,
 /// 0.2126 R + 0.7152 G + 0.0722 B. Gives besides what the image is, in words.
-///
-/// # Errors
-/// [`ImageError`] when the image is damaged, transparent somewhere, or has decimal pixels beyond 0 and 1.
 pub(super) fn grey(content: &[u8], format: Format) -> Result<(Picture<f32>, String), ImageError> {
     let Raster { width, height, colour, samples, warnings } = decode(content, format)?;
     let (pixels, bits) = match &samples {

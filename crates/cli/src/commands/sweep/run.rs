@@ -7,7 +7,7 @@ use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressStyle};
 use plateau_io::number;
-use plateau_run::sweep::{self, Estimate, Part, Resolved, Sweep, SweepObserver, SweepOptions, SweepSummary};
+use plateau_run::sweep::{self, Estimate, Resolved, Sweep, SweepObserver, SweepOptions, SweepSummary};
 use plateau_run::{Job, signal_in_words};
 
 use crate::arguments::{SlurmArguments, SweepRunArguments};
@@ -25,7 +25,7 @@ fn run_study(arguments: &SweepRunArguments, job: &mut Job) -> Result<(), Failure
     let plan = sweep::load(&arguments.study).map_err(Failure::of_sweep)?;
     let options = SweepOptions {
         retry: arguments.retry,
-        part: arguments.task.map(|task| Part { number: task.number, count: task.count }),
+        part: arguments.task,
         jobs: arguments.cores.runs_at_a_time(),
         workers: arguments.cores.workers(),
         most_failures: arguments.max_failures.map(|limit| limit as usize),
