@@ -122,6 +122,17 @@ impl Outcome {
         assert_eq!((self.status, self.said().as_str()), (Some(0), ""), "standard output: {}", self.stdout);
         self.stdout
     }
+
+    /// The outcome, which has this exit status, and all of these texts on standard error.
+    ///
+    /// # Panics
+    /// When it has not.
+    #[track_caller]
+    pub fn ends(self, status: i32, texts: &[&str]) -> Self {
+        let missing: Vec<_> = texts.iter().filter(|text| !self.stderr.contains(**text)).collect();
+        assert!(self.status == Some(status) && missing.is_empty(), "expected {status} and {missing:?}: {self:?}");
+        self
+    }
 }
 
 /// A working directory of its own for the program; it is removed in the end.

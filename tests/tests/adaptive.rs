@@ -83,8 +83,7 @@ fn run_on(workers: u32, duration: u32, sets: &[String]) -> RunFile {
         [format!("operation.duration={duration} s"), "output.maps=[]".into(), "output.sample_every=0.5 s".into()];
     arguments.extend(usual.iter().chain(sets).flat_map(|set| ["--set".to_owned(), set.clone()]));
     arguments.extend(["--workers".to_owned(), workers.to_string()]);
-    let done = directory.plateau(arguments);
-    assert_eq!(done.status, Some(0), "{}", done.stderr);
+    let done = directory.plateau(arguments).ends(0, &[]);
     assert!(workers > 1 || !done.stderr.contains("warning"), "{}", done.stderr);
     RunFile::open(directory.path("run.h5"))
 }
@@ -199,8 +198,7 @@ fn a_run_goes_on_with_a_larger_acceleration_after_the_error_was_estimated_too_la
     let sets = ["operation.normal_force=20 N", "operation.duration=300 s", "output.maps=[]", CHOSEN];
     let mut arguments = vec!["run".to_owned(), scene("quick.toml"), "-o".into(), "run.h5".into()];
     arguments.extend(sets.iter().flat_map(|set| ["--set".to_owned(), (*set).to_owned()]));
-    let told = directory.plateau([&arguments[..], &["--json".to_owned()]].concat());
-    assert_eq!(told.status, Some(0), "{}", told.stderr);
+    let told = directory.plateau([&arguments[..], &["--json".to_owned()]].concat()).ends(0, &[]);
     let run = RunFile::open(directory.path("run.h5"));
     let (time, accelerations) = (run.floats("/time"), run.floats("/series/time_acceleration"));
     let late: Vec<f64> = time.iter().zip(&accelerations).filter(|(time, _)| **time > 200.0).map(|(_, m)| *m).collect();
@@ -248,8 +246,7 @@ fn a_disc_too_smooth_is_not_accelerated_where_debris_is_pooled() {
         let mut arguments = vec!["run".to_owned(), scene("quick.toml"), "--force".into(), "-o".into(), "run.h5".into()];
         let usual = [CHOSEN, "operation.duration=5 s", "output.sample_every=1 s"];
         arguments.extend(usual.iter().chain(sets).flat_map(|set| ["--set".to_owned(), (*set).to_owned()]));
-        let done = directory.plateau(arguments);
-        assert_eq!(done.status, Some(0), "{}", done.stderr);
+        let done = directory.plateau(arguments).ends(0, &[]);
         let chosen = RunFile::open(directory.path("run.h5")).has("/series/time_acceleration");
         assert_eq!(done.stderr.contains("as smooth as this"), !chosen, "{}", done.stderr);
         chosen
@@ -275,10 +272,7 @@ fn what_leaves_nothing_to_choose_is_said() {
         arguments.extend(sets.iter().flat_map(|set| ["--set".to_owned(), (*set).to_owned()]));
         directory.plateau(arguments)
     };
-    let refused = run(&[CHOSEN, "operation.steps=10"]);
-    assert_eq!(refused.status, Some(2));
-    assert!(refused.stderr.contains("give operation.duration"), "{}", refused.stderr);
-    let idle = run(&["numerics.time_acceleration={ tolerance = 0.01, max = 1 }", "operation.duration=0.1 s"]);
-    assert_eq!(idle.status, Some(0));
-    assert!(idle.stderr.contains("nothing to choose"), "{}", idle.stderr);
+    run(&[CHOSEN, "operation.steps=10"]).ends(2, &["give operation.duration"]);
+    run(&["numerics.time_acceleration={ tolerance = 0.01, max = 1 }", "operation.duration=0.1 s"])
+        .ends(0, &["nothing to choose"]);
 }

@@ -140,8 +140,7 @@ fn a_lock_goes_with_its_run_however_that_ends() {
         assert!(wait_until(|| is_running() && state() != before && directory.path("run.h5.lock").exists()));
         // Also who only wants to close the file, or to begin anew, is refused, and changes nothing.
         let lock = fs::read(directory.path("run.h5.lock")).unwrap();
-        let repair = directory.plateau(["repair", "run.h5"]);
-        assert!(repair.status == Some(2) && repair.stderr.contains("is being written by process"), "{repair:?}");
+        directory.plateau(["repair", "run.h5"]).ends(2, &["is being written by process"]);
         assert_eq!(fs::read(directory.path("run.h5.lock")).unwrap(), lock);
         assert!(Command::new("kill").args(["-s", signal, &child.id().to_string()]).status().unwrap().success());
         assert_eq!(child.wait().unwrap().code(), Some(status));
@@ -204,8 +203,7 @@ fn what_another_user_may_be_writing_is_not_repaired() {
     // Without the lock nobody knows whether a process of the file's owner still has it open.
     fs::remove_file(directory.path("run.h5.lock")).unwrap();
     let before = directory.content();
-    let refused = as_nobody(&["repair", "run.h5"]);
-    assert!(refused.status == Some(2) && refused.stderr.contains("belongs to another user"), "{refused:?}");
+    as_nobody(&["repair", "run.h5"]).ends(2, &["belongs to another user"]);
     assert!(directory.content() == before);
     // With it everybody knows that its process has ended.
     directory.write("run.h5.lock", lock);

@@ -158,8 +158,7 @@ fn force_replaces_a_run() {
     directory.plateau(["run", "scene.toml", "-o", "run.h5"]).quiet_success();
     let first = RunFile::open(directory.path("run.h5")).content();
     let again = ["run", "scene.toml", "-o", "run.h5", "--set", "operation.steps=30"];
-    let refused = directory.plateau(again);
-    assert_eq!(refused.status, Some(2), "{}", refused.stderr);
+    directory.plateau(again).ends(2, &[]);
     assert!(RunFile::open(directory.path("run.h5")).content() == first);
     directory.plateau(again.iter().chain(&["--force"])).quiet_success();
     assert_eq!(RunFile::open(directory.path("run.h5")).shape("/time"), [30]);
@@ -277,8 +276,7 @@ fn a_check_lists_every_part_that_a_scene_can_do_without() {
     let parts = |arguments: &[&str], list: &str| -> Vec<String> {
         let directory = WorkingDirectory::new();
         let quick = scene("quick.toml");
-        let outcome = directory.plateau(["check", &quick, "--json"].iter().chain(arguments));
-        assert_eq!(outcome.status, Some(0), "{}", outcome.stderr);
+        let outcome = directory.plateau(["check", &quick, "--json"].iter().chain(arguments)).ends(0, &[]);
         let report: Value = serde_json::from_str(&outcome.stdout).unwrap();
         let parts = report[list].as_array().unwrap().iter();
         parts.map(|part| part["part"].as_str().unwrap().to_owned()).collect()
@@ -381,13 +379,10 @@ fn a_check_warns_of_large_stiffness_numbers_of_the_explicit_rule() {
 #[test]
 fn warnings_do_not_stop_a_run() {
     let directory = short();
-    let outcome = directory.plateau(["run", "scene.toml", "--set", "output.maps_at=[\"0 s\", \"70 s\"]"]);
-    assert_eq!(outcome.status, Some(0));
+    let outcome = directory.plateau(["run", "scene.toml", "--set", "output.maps_at=[\"0 s\", \"70 s\"]"]).ends(0, &[]);
     assert!(outcome.stderr.starts_with("plateau: warning: "), "{}", outcome.stderr);
     assert!(outcome.stderr.contains("70 s"), "{}", outcome.stderr);
     assert_eq!(RunFile::open(directory.path("quick.h5")).shape("/map_time"), [2]);
     // A check tells beforehand that the output is there.
-    let outcome = directory.plateau(["check", "scene.toml"]);
-    assert_eq!(outcome.status, Some(0));
-    assert!(outcome.stderr.contains("quick.h5 exists"), "{}", outcome.stderr);
+    directory.plateau(["check", "scene.toml"]).ends(0, &["quick.h5 exists"]);
 }

@@ -52,8 +52,7 @@ fn a_cycle_that_never_changes_takes_no_step_beyond_its_end() {
     for m in [1, 20, 45] {
         let set = format!("numerics.time_acceleration={m}");
         let sets = ["--set", &set, "--set", "output.sample_every_steps=1"];
-        let outcome = directory.plateau([&["run", "scene.toml", "-o", "run.h5", "--force"][..], &sets].concat());
-        assert_eq!(outcome.status, Some(0), "{outcome:?}");
+        directory.plateau([&["run", "scene.toml", "-o", "run.h5", "--force"][..], &sets].concat()).ends(0, &[]);
         let time = RunFile::open(directory.path("run.h5")).floats("/time");
         let steps = 9.99 * 850.0 / 60.0 * 690.0 / f64::from(m);
         assert_eq!(time.len() as f64, (steps + 1e-9).floor(), "m = {m}");
@@ -254,9 +253,7 @@ fn the_table_of_a_run_is_neither_exchanged_nor_replaced() {
     assert_eq!(directory.plateau(run).status, Some(0));
     directory.write("stops.csv", table.replace("8,5,0", "8,9,0"));
     for options in [&["--resume"][..], &["--extend-to", "6 s"]] {
-        let outcome = directory.plateau([&run[..], options].concat());
-        assert_eq!(outcome.status, Some(2), "{outcome:?}");
-        assert!(outcome.stderr.contains("files that it reads have changed: ") && outcome.stderr.contains("stops.csv"));
+        directory.plateau([&run[..], options].concat()).ends(2, &["files that it reads have changed: ", "stops.csv"]);
     }
     directory.write("stops.csv", table);
     assert_eq!(fs::read_to_string(directory.path("stops.csv")).unwrap(), table);
@@ -272,8 +269,7 @@ fn a_run_that_is_extended_again_and_again_accounts_for_every_event() {
     directory.write("scene.toml", quick_with_operation(rows));
     let sets = ["--set", "output.sample_every=0.01 s", "--set", "numerics.time_acceleration=2"];
     let run = |name: &str, options: &[&str]| {
-        let outcome = directory.plateau([&["run", "scene.toml", "-o", name][..], &sets, options].concat());
-        assert_eq!(outcome.status, Some(0), "{outcome:?}");
+        directory.plateau([&["run", "scene.toml", "-o", name][..], &sets, options].concat()).ends(0, &[]);
     };
     run("whole.h5", &[]);
     run("run.h5", &["--set", "operation.duration=0.731 s"]);
@@ -294,8 +290,7 @@ fn what_is_wrong_with_a_cycle_is_said_with_its_place() {
     let refused = |lines: &str, table: &str| {
         directory.write("stops.csv", table);
         directory.write("scene.toml", quick_with_operation(lines));
-        let outcome = directory.plateau(["check", "scene.toml"]);
-        assert_eq!(outcome.status, Some(2), "{outcome:?}");
+        let outcome = directory.plateau(["check", "scene.toml"]).ends(2, &[]);
         directory.without_path(&outcome.stderr).replace("[directory]/", "")
     };
     let file = "[operation.cycle]\nfile = \"stops.csv\"\n";
@@ -351,14 +346,9 @@ fn what_is_wrong_with_a_cycle_is_said_with_its_place() {
     assert!(refused(long, "").contains("operation.duration: the cycle ends after 3 s and"));
     // Not together with an acceleration that the run chooses.
     let set = "numerics.time_acceleration={ tolerance = 0.01, max = 100 }";
-    let outcome = directory.plateau(["check", &scene("stops.toml"), "--set", set]);
-    assert_eq!(outcome.status, Some(2));
-    assert!(
-        outcome
-            .stderr
-            .contains("write time_acceleration = 2 (with it every event has ten simulated revolutions) or less"),
-        "{outcome:?}"
-    );
+    directory
+        .plateau(["check", &scene("stops.toml"), "--set", set])
+        .ends(2, &["write time_acceleration = 2 (with it every event has ten simulated revolutions) or less"]);
 }
 
 #[test]
@@ -401,11 +391,9 @@ event = "mean"
     // Twice the load wears twice as much, but for films that are worn through.
     assert!((results.floats("/third")[1] / worn[2] / 2.0 - 1.0).abs() < 0.02);
     directory.write("study.toml", study.replace("event = 3", "event = \"third\""));
-    let outcome = directory.plateau(["sweep", "plan", "study.toml"]);
-    assert!(
-        outcome.status == Some(2) && outcome.stderr.contains("expected the number of an event, \"last\" or \"mean\""),
-        "{outcome:?}"
-    );
+    directory
+        .plateau(["sweep", "plan", "study.toml"])
+        .ends(2, &["expected the number of an event, \"last\" or \"mean\""]);
 }
 
 #[test]
@@ -449,8 +437,8 @@ fn a_pin_that_stands_before_the_first_step_counts_for_nothing_in_the_mean() {
         // A sample every 0.5 s; 7.08 revolutions, so the window is the whole run.
         let arguments = ["--json", "--set", "numerics.time_acceleration=20", "--set", "output.sample_every=0.5 s"];
         let outcome = directory
-            .plateau([&["run", &format!("{name}.toml"), "-o", &format!("{name}.h5")][..], &arguments].concat());
-        assert_eq!(outcome.status, Some(0), "{outcome:?}");
+            .plateau([&["run", &format!("{name}.toml"), "-o", &format!("{name}.h5")][..], &arguments].concat())
+            .ends(0, &[]);
         let found: serde_json::Value = serde_json::from_str(&outcome.stdout).unwrap();
         found["contact_area_last_tenth"].clone()
     };

@@ -45,8 +45,7 @@ fn strikes(calls: usize, step: usize) -> Vec<(Fault, usize)> {
 /// The content of an undisturbed run.
 fn whole() -> BTreeMap<String, Content> {
     let directory = WorkingDirectory::new();
-    let outcome = run(short_run(&directory, &[]));
-    assert_eq!(outcome.status, Some(0), "{outcome:?}");
+    run(short_run(&directory, &[])).ends(0, &[]);
     RunFile::open(directory.path("run.h5")).content()
 }
 

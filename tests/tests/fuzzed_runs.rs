@@ -44,8 +44,7 @@ fn changed_run_files_are_read_or_refused() {
     let surfaces = ["disc.surface.synthetic.correlation_length=2 mm", "pin.surface.synthetic.correlation_length=2 mm"];
     let sets: Vec<&str> = sets.into_iter().chain(surfaces).flat_map(|set| ["--set", set]).collect();
     let quick = scene("quick.toml");
-    let made = directory.plateau(["run", &quick, "-o", "run.h5"].iter().chain(&sets));
-    assert_eq!(made.status, Some(0), "{made:?}");
+    directory.plateau(["run", &quick, "-o", "run.h5"].iter().chain(&sets)).ends(0, &[]);
     let good = fs::read(directory.path("run.h5")).unwrap();
     let resume: Vec<&str> = ["run", &quick, "-o", "changed.h5", "--resume"].into_iter().chain(sets.clone()).collect();
     let commands: [&[&str]; 6] = [

@@ -55,8 +55,7 @@ fn who_asks_back_is_told_and_help_is_the_programs_own() {
         command.env("PATH", format!("{}:/usr/bin:/bin", directory.path("bin").display()));
         run(command)
     };
-    let outcome = call("fit");
-    assert!(outcome.status == Some(1) && outcome.stderr.contains("but asks this program again"), "{outcome:?}");
+    call("fit").ends(1, &["but asks this program again"]);
     assert!(call("help").quiet_success().contains("Usage: plateau"));
 }
 
@@ -68,16 +67,13 @@ fn without_who_answers_it_is_said_what_to_install() {
         &["sweep", "effects", "s.toml"],
         &["surface", "convert", "a.al3d"],
     ] {
-        let outcome = call(&[], arguments);
-        assert_eq!(outcome.status, Some(1), "{outcome:?}");
+        let outcome = call(&[], arguments).ends(1, &[]);
         assert!(
             outcome.stderr.contains("pip install 'plateau-brake[all]'") && outcome.stderr.lines().count() == 1,
             "{outcome:?}"
         );
     }
     // A word that nobody has is told as ever, and no word of the program is taken over.
-    let outcome = call(&["run"], &["rn", "scene.toml"]);
-    assert!(outcome.status == Some(2) && outcome.stderr.contains("did you mean"), "{outcome:?}");
-    let outcome = call(&["run", "check"], &["check", "no.toml"]);
-    assert!(outcome.status == Some(2) && outcome.stderr.contains("no.toml"), "{outcome:?}");
+    call(&["run"], &["rn", "scene.toml"]).ends(2, &["did you mean"]);
+    call(&["run", "check"], &["check", "no.toml"]).ends(2, &["no.toml"]);
 }

@@ -280,18 +280,9 @@ fn events_add_up_to_the_run() {
     for m in [1, 3, 7, 20, 49] {
         for (end, rests) in [("20 s", true), ("15 s", true), ("16.31 s", false), ("12 s", false), ("6.5 s", true)] {
             let sets = [format!("operation.duration={end}"), format!("numerics.time_acceleration={m}")];
-            let outcome = directory.plateau([
-                "run",
-                "scene.toml",
-                "-o",
-                "run.h5",
-                "--force",
-                "--set",
-                &sets[0],
-                "--set",
-                &sets[1],
-            ]);
-            assert_eq!(outcome.status, Some(0), "{outcome:?}");
+            directory
+                .plateau(["run", "scene.toml", "-o", "run.h5", "--force", "--set", &sets[0], "--set", &sets[1]])
+                .ends(0, &[]);
             let (run, what) = (RunFile::open(directory.path("run.h5")), format!("m = {m} until {end}"));
             let last = |names: &[&str]| -> f64 {
                 names.iter().map(|name| *run.floats(&format!("/series/{name}")).last().unwrap()).sum()
@@ -359,9 +350,7 @@ fn a_run_whose_heat_is_no_number_any_more_has_failed() {
     let directory = WorkingDirectory::new();
     directory.write("hot.toml", hot("stops.toml", "sample_every = \"1 s\""));
     let set = "thermal.friction_factor=[[\"24 degC\", 1.0], [\"25 degC\", 1e308]]";
-    let outcome = directory.plateau(["run", "hot.toml", "-o", "run.h5", "--set", set]);
-    assert_eq!(outcome.status, Some(1), "{outcome:?}");
-    assert!(outcome.stderr.contains("the work of friction"), "{outcome:?}");
+    directory.plateau(["run", "hot.toml", "-o", "run.h5", "--set", set]).ends(1, &["the work of friction"]);
     assert_eq!(RunFile::open(directory.path("run.h5")).text("state"), "failed");
 }
 
@@ -376,8 +365,7 @@ fn a_stiffness_number_that_grows_with_temperature_is_warned_of() {
         let factors = format!("thermal.wear_rate_factor={factors}");
         let arguments =
             ["run", "hot.toml", "-o", "run.h5", "--force", "--set", &factors, "--set", "operation.duration=20 s"];
-        let outcome = directory.plateau(arguments);
-        assert_eq!(outcome.status, Some(0), "{}", outcome.stderr);
+        let outcome = directory.plateau(arguments).ends(0, &[]);
         outcome.stderr
     };
     assert!(cold < 0.1 && !run("[['23 degC', 1.0], ['400 degC', 2.0]]").contains("stiffness number"), "{cold}");

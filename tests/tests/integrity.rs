@@ -101,8 +101,7 @@ fn what_is_damaged_is_named() {
     file.close().unwrap();
     let (status, document) = verdict(&directory, "link.h5");
     assert_eq!((status, &document["damage"][0]["place"]), (Some(1), &"attributes".into()), "{document}");
-    let both = directory.plateau(["verify", "run.h5", "value.h5"]);
-    assert_eq!(both.status, Some(1));
+    let both = directory.plateau(["verify", "run.h5", "value.h5"]).ends(1, &[]);
     assert!(both.stdout.contains("intact") && both.stdout.contains("/series/pool: it is not what was written"));
     assert_eq!(directory.plateau(["verify", &scene("quick.toml")]).status, Some(2));
 }
@@ -204,9 +203,7 @@ fn a_killed_run_is_repaired_and_a_healthy_file_is_left_alone() {
     let file = directory.path("run.h5");
     assert!(wait_until(|| RunFile::follow(&file).is_ok_and(|run| run.shape("/time")[0] > 1)));
     let live = fs::read(&file).unwrap().len();
-    let refused = directory.plateau(["repair", "run.h5"]);
-    assert_eq!(refused.status, Some(2));
-    assert!(refused.stderr.contains(&format!("being written by process {}", child.id())), "{}", refused.stderr);
+    directory.plateau(["repair", "run.h5"]).ends(2, &[&format!("being written by process {}", child.id())]);
     for more in ["--force", "--resume"] {
         let refused = directory.plateau(arguments.iter().chain(&[more]));
         assert_eq!(refused.status, Some(2), "{more}: {refused:?}");
@@ -217,8 +214,7 @@ fn a_killed_run_is_repaired_and_a_healthy_file_is_left_alone() {
     assert!(before.len() >= live);
     let samples = RunFile::follow(&file).unwrap().floats("/time");
 
-    let repaired = directory.plateau(["repair", "run.h5"]);
-    assert_eq!(repaired.status, Some(0), "{repaired:?}");
+    directory.plateau(["repair", "run.h5"]).ends(0, &[]);
     let run = RunFile::open(&file);
     assert_eq!((run.text("state").as_str(), run.floats("/time")), ("interrupted", samples));
     let document = verdict(&directory, "run.h5").1;

@@ -29,9 +29,7 @@ fn a_killed_run_is_still_running_to_its_readers() {
     let left = directory.content();
     assert_eq!(directory.names(), ["run.h5", "run.h5.lock"]);
     let short = ["run", &scene, "-o", "run.h5", "--set", "operation.duration=0.5 s", "--set", "output.maps_at=[]"];
-    let refused = directory.plateau(short);
-    assert_eq!(refused.status, Some(2));
-    assert!(refused.stderr.contains("--force"), "{}", refused.stderr);
+    directory.plateau(short).ends(2, &["--force"]);
     assert!(directory.content() == left, "the refused run changed the file");
     directory.plateau(short.iter().chain(&["--force"])).quiet_success();
     assert_eq!(RunFile::open(&file).text("state"), "finished");
@@ -119,8 +117,7 @@ fn samples_of_before_the_first_checkpoint_stay_when_a_run_begins_anew() {
     begin_and_kill(&[]);
     let there = samples("run.h5");
     // Where there is no room to begin anew all is as it was.
-    let failed = run(directory.command_after("ulimit -f 8", arguments.iter().chain(&["--resume"])));
-    assert_eq!(failed.status, Some(1), "{failed:?}");
+    let failed = run(directory.command_after("ulimit -f 8", arguments.iter().chain(&["--resume"]))).ends(1, &[]);
     assert_eq!(directory.names(), ["run.h5", "scene.toml"], "{failed:?}");
     assert_eq!(samples("run.h5"), there);
     for _ in 0..3 {
@@ -131,8 +128,7 @@ fn samples_of_before_the_first_checkpoint_stay_when_a_run_begins_anew() {
     // With room for some samples and no more the message promises no checkpoint.
     fs::remove_file(directory.path("run.h5")).unwrap();
     let limit = format!("ulimit -f {}", 1024 * 1024 / block());
-    let full = run(directory.command_after(&limit, arguments));
-    assert_eq!(full.status, Some(1), "{full:?}");
+    let full = run(directory.command_after(&limit, arguments)).ends(1, &[]);
     assert!(full.stderr.contains("there is no checkpoint yet") && !full.stderr.contains("so is the last"), "{full:?}");
 }
 
@@ -185,9 +181,7 @@ fn what_is_made_of_a_run_says_when_a_file_may_not_grow() {
     directory.plateau(["run", &scene("quick.toml"), "-o", "run.h5"]).quiet_success();
     for made in ["r.npy", "r.sdf"] {
         let heights = ["surface", "run.h5", "--dataset", "disc/height", "--at", "0 s", "--to", made];
-        let outcome = run(directory.command_after("ulimit -f 8", heights));
-        assert_eq!(outcome.status, Some(1), "{outcome:?}");
-        assert!(outcome.stderr.contains("File too large"), "{outcome:?}");
+        let outcome = run(directory.command_after("ulimit -f 8", heights)).ends(1, &["File too large"]);
         assert!(!directory.names().iter().any(|name| name.contains(made)), "{outcome:?}");
     }
 }

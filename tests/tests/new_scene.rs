@@ -13,16 +13,14 @@ fn a_measured_patch_and_the_numbers_of_a_rig_become_a_run() {
     // The same heights at 2 um a point: 0.512 mm wide.
     let numbers = ["--pin-width=6 mm", "--pin-length=6 mm", "--radius=30 mm", "--load=30 N", "--speed=600 rpm"];
     let new = [&["new", "mine.toml", "--disc", "patch.sdf", "--duration=2 s"][..], &numbers].concat();
-    let outcome = directory.plateau(&new);
-    assert_eq!(outcome.status, Some(0), "{}", outcome.stderr);
+    let outcome = directory.plateau(&new).ends(0, &[]);
     assert!(outcome.stdout.contains("plateau run mine.toml"), "{}", outcome.stdout);
     let text = fs::read_to_string(directory.path("mine.toml")).unwrap();
     let own = text.lines().filter(|line| line.contains("# <-")).count();
     assert!((8..15).contains(&own), "{own} keys are the user's:\n{text}");
     // The scan is smaller than a cell, and nothing offers to read it as larger.
     assert!(text.contains("less than 4 cells") && !text.contains("pixel = "), "{text}");
-    let refused = directory.plateau(["check", "mine.toml"]);
-    assert!(refused.status == Some(2) && refused.stderr.contains("take smaller cells"), "{}", refused.stderr);
+    directory.plateau(["check", "mine.toml"]).ends(2, &["take smaller cells"]);
     // Sq of the scan is 10.08 nm, as other programs have it (crates/io/tests/sdf.rs).
     assert!(text.contains("\n# cutoff = \"10 nm\" "), "{text}");
     assert!(outcome.stdout.contains("no peaks are cut. With cutoff = \"10 nm\", one rms height"), "{}", outcome.stdout);
@@ -48,8 +46,7 @@ fn the_path_of_the_surface_is_relative_to_the_scene() {
     let text = fs::read_to_string(directory.path("scenes/mine.toml")).unwrap();
     assert!(text.contains("file = \"patch.sdf\"") && text.contains("shape = \"disc\""), "{text}");
     // It is found from elsewhere; as it stands the scan is too small.
-    let checked = directory.plateau(["check", "scenes/mine.toml", "--set", "disc.prepare.pixel=50 um"]);
-    assert_eq!(checked.status, Some(0), "{}", checked.stderr);
+    directory.plateau(["check", "scenes/mine.toml", "--set", "disc.prepare.pixel=50 um"]).ends(0, &[]);
 }
 
 #[test]
@@ -72,9 +69,9 @@ fn what_is_there_or_makes_no_sense_is_refused() {
     assert_eq!(fs::read(directory.path("mine.toml")).unwrap(), before);
     assert_eq!(directory.names(), ["mine.toml"]);
     // A pin that does not fit its ring is told before the scene is written, by the option that was given.
-    let outcome = directory.plateau(["new", "wide.toml", "--diameter", "50 mm"]);
-    assert_eq!(outcome.status, Some(2));
-    assert!(outcome.stderr.contains("--diameter \"50 mm\": a pin of 50 mm does not fit"), "{}", outcome.stderr);
+    directory
+        .plateau(["new", "wide.toml", "--diameter", "50 mm"])
+        .ends(2, &["--diameter \"50 mm\": a pin of 50 mm does not fit"]);
     assert_eq!(directory.names(), ["mine.toml"]);
 }
 
@@ -86,9 +83,7 @@ fn a_profile_becomes_a_disc_when_its_lay_is_said() {
     let text: String = (0..3000).map(point).map(|(x, z)| format!("{x:.3} {z:.6}\n")).collect();
     directory.write("profile.txt", text);
     let new = ["new", "mine.toml", "--disc", "profile.txt", "--pitch", "1 um", "--unit", "um"];
-    let outcome = directory.plateau(new);
-    assert_eq!(outcome.status, Some(2), "{}", outcome.stdout);
-    assert!(outcome.stderr.contains("give --profile-lay along for grooves along sliding"), "{}", outcome.stderr);
+    directory.plateau(new).ends(2, &["give --profile-lay along for grooves along sliding"]);
     for lay in ["along", "across", "isotropic"] {
         directory.plateau([&new[..], &["--force", "--profile-lay", lay]].concat()).quiet_success();
         let text = fs::read_to_string(directory.path("mine.toml")).unwrap();
@@ -122,8 +117,7 @@ fn spikes_and_a_sliding_speed_are_taken_as_they_are_meant() {
     {
         assert!(text.contains(line), "{line} in\n{text}");
     }
-    let outcome = directory.plateau(["run", "mine.toml"]);
-    assert_eq!(outcome.status, Some(0), "{}", outcome.stderr);
+    let outcome = directory.plateau(["run", "mine.toml"]).ends(0, &[]);
     assert!(outcome.stdout.contains("outliers: 4 of 3600 points"), "{}", outcome.stdout);
     // 3 m/s at 22 mm.
     assert!(RunFile::open(directory.path("mine.h5")).text("scene").contains("sliding_speed"), "{}", outcome.stdout);
@@ -164,8 +158,7 @@ fn a_lay_is_told_and_rotate_offered() {
         assert!(said.contains(angle), "{degrees}: {said}");
         // Turned so, the patch, read with x for y, has it the other way.
         fs::write(directory.path("turned.toml"), text.replace("\n# rotate", "\nrotate")).unwrap();
-        let turned = directory.plateau(["surface", "--prepare", "turned.toml", "--figure-data", "data"]);
-        assert_eq!(turned.status, Some(0), "{}", turned.stderr);
+        directory.plateau(["surface", "--prepare", "turned.toml", "--figure-data", "data"]).ends(0, &[]);
         let again = ["new", "again.toml", "--disc", "data/heights-0.npy", "--pitch", "20 um", "--force"];
         let said = directory.plateau(again).quiet_success();
         let other = if then == along { across } else { along };
@@ -180,9 +173,7 @@ fn a_distance_of_points_that_nobody_states_is_asked_for() {
         |j: u32| (0..200).map(|i| format!("{:.4}", f64::from((i * i + 3 * j * j) % 23))).collect::<Vec<_>>().join(",");
     directory.write("matrix.csv", (0..200).map(|j| row(j) + "\n").collect::<String>());
     let new = ["new", "mine.toml", "--disc", "matrix.csv", "--unit", "um"];
-    let refused = directory.plateau(new);
-    assert_eq!(refused.status, Some(2), "{}", refused.stdout);
-    assert!(refused.stderr.contains("how far its points are apart: give --pitch"), "{}", refused.stderr);
+    directory.plateau(new).ends(2, &["how far its points are apart: give --pitch"]);
     assert_eq!(directory.names(), ["matrix.csv"]);
     directory.plateau([&new[..], &["--pitch", "5 um"]].concat()).quiet_success();
     assert!(fs::read_to_string(directory.path("mine.toml")).unwrap().contains("pitch = \"5 um\""));
@@ -204,8 +195,7 @@ fn a_unit_that_can_hardly_be_meant_is_told_at_once() {
         format!("{:.3};{:.3};{:.4}\n", 0.025 * x, 0.025 * y, ((x + 2.0 * y) / 5.0).sin())
     };
     directory.write("probe.xyz", (0..3600).map(line).collect::<String>());
-    let refused = directory.plateau(["new", "mine.toml", "--disc", "probe.xyz", "--unit", "um"]);
-    assert_eq!(refused.status, Some(2), "{}", refused.stdout);
+    let refused = directory.plateau(["new", "mine.toml", "--disc", "probe.xyz", "--unit", "um"]).ends(2, &[]);
     let advice =
         r#"points 25 nm by 25 nm apart, 1.5 um by 1.5 um in all; if they are in mm, say pitch = ["25 um", "25 um"]"#;
     assert!(
@@ -213,8 +203,7 @@ fn a_unit_that_can_hardly_be_meant_is_told_at_once() {
         "{}",
         refused.stderr
     );
-    let described = directory.plateau(["surface", "probe.xyz", "--unit", "um"]);
-    assert!(described.status == Some(0) && described.stderr.contains(advice), "{}", described.stderr);
+    directory.plateau(["surface", "probe.xyz", "--unit", "um"]).ends(0, &[advice]);
     // In a scene that tiles it: the first warning names the cause.
     directory.write(
         "tiled.toml",

@@ -95,13 +95,11 @@ fn ranks_warm_up_alike() {
     let directory = WorkingDirectory::new();
     directory.write("hot.toml", hot("stops.toml", ""));
     let arguments: Vec<String> = ["run", "hot.toml", "-o", "run.h5"].map(str::to_owned).to_vec();
-    let outcome = directory.plateau(&arguments);
-    assert_eq!(outcome.status, Some(0), "{}", outcome.stderr);
+    directory.plateau(&arguments).ends(0, &[]);
     let one = RunFile::open(directory.path("run.h5")).content();
     assert!(one.contains_key("/series/contact_temperature"), "{:?}", one.keys());
     for ranks in [2, 3] {
-        let outcome = on_ranks(&directory, ranks, &[&arguments[..], &["--force".to_owned()]].concat());
-        assert_eq!(outcome.status, Some(0), "{}", outcome.stderr);
+        on_ranks(&directory, ranks, &[&arguments[..], &["--force".to_owned()]].concat()).ends(0, &[]);
         let run = RunFile::open(directory.path("run.h5"));
         assert_eq!(run.number("workers"), ranks as f64);
         assert_eq!(differences(&one, &run.content()), [""; 0], "{ranks} ranks");
@@ -159,8 +157,7 @@ fn a_rank_without_its_scene_ends_all() {
     let mut command = mpirun(&directory);
     command.args(["-n", "2"]).arg(program()).args(short_run(&[]));
     command.args([":", "-n", "1"]).arg(program()).args(["run", "missing.toml"]);
-    let outcome = run(command);
-    assert_eq!(outcome.status, Some(2), "{}", outcome.stderr);
+    let outcome = run(command).ends(2, &[]);
     assert_eq!(outcome.stderr.matches("plateau: missing.toml: ").count(), 1, "{}", outcome.stderr);
 }
 
@@ -168,8 +165,7 @@ fn a_rank_without_its_scene_ends_all() {
 #[ignore = "needs MPI"]
 fn what_all_ranks_find_wrong_is_said_once() {
     let directory = WorkingDirectory::new();
-    let outcome = on_ranks(&directory, 3, &["run", "missing.toml"].map(String::from));
-    assert_eq!(outcome.status, Some(2), "{}", outcome.stderr);
+    let outcome = on_ranks(&directory, 3, &["run", "missing.toml"].map(String::from)).ends(2, &[]);
     assert_eq!(outcome.stderr.matches("plateau: ").count(), 1, "{}", outcome.stderr);
     assert_eq!(directory.names(), [""; 0]);
 }
@@ -181,9 +177,7 @@ fn ranks_with_different_scenes_do_not_start() {
     let mut command = mpirun(&directory);
     command.args(["-n", "2"]).arg(program()).args(short_run(&[]));
     command.args([":", "-n", "1"]).arg(program()).args(short_run(&["--set", "operation.normal_force=\"6 N\""]));
-    let outcome = run(command);
-    assert_eq!(outcome.status, Some(2), "{}", outcome.stderr);
-    assert!(outcome.stderr.contains("plateau: rank 2 was given another scene"), "{}", outcome.stderr);
+    run(command).ends(2, &["plateau: rank 2 was given another scene"]);
     assert_eq!(directory.names(), [""; 0]);
 }
 
@@ -240,8 +234,7 @@ fn what_ranks_did_is_gone_on_with() {
         let words = ["run", &scene("quick.toml"), "-o", file].map(str::to_owned);
         words.into_iter().chain(enough.map(str::to_owned)).collect::<Vec<_>>()
     };
-    let resumed = on_ranks(directory, 2, &arguments("run.h5"));
-    assert_eq!(resumed.status, Some(0), "{}", resumed.stderr);
+    let resumed = on_ranks(directory, 2, &arguments("run.h5")).ends(0, &[]);
     assert_eq!(resumed.stderr.matches("goes on from step").count(), 1, "{}", resumed.stderr);
     assert_eq!(directory.plateau(arguments("whole.h5")).status, Some(0));
     let content = |file| RunFile::open(directory.path(file)).content();

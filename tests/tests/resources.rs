@@ -36,10 +36,8 @@ fn disturbed(directory: &WorkingDirectory, file: &str, disturb: impl FnOnce()) -
 #[test]
 fn a_file_or_a_directory_that_vanishes_ends_the_run() {
     let directory = WorkingDirectory::new();
-    let outcome =
-        disturbed(&directory, "run.h5", || fs::rename(directory.path("run.h5"), directory.path("moved.h5")).unwrap());
-    assert_eq!(outcome.status, Some(1), "{outcome:?}");
-    assert!(outcome.stderr.contains("run.h5 was moved, removed or replaced"), "{outcome:?}");
+    disturbed(&directory, "run.h5", || fs::rename(directory.path("run.h5"), directory.path("moved.h5")).unwrap())
+        .ends(1, &["run.h5 was moved, removed or replaced"]);
     // It is all that there is of the run.
     directory.plateau(["repair", "moved.h5"]).quiet_success();
     assert!(RunFile::open(directory.path("moved.h5")).shape("/time")[0] > 1);
@@ -47,9 +45,8 @@ fn a_file_or_a_directory_that_vanishes_ends_the_run() {
     directory.write("folder/a file", "");
     // A checkpoint that comes just then makes the folder one that is not empty.
     let removed = || wait_until(|| fs::remove_dir_all(directory.path("folder")).is_ok());
-    let outcome = disturbed(&directory, "folder/run.h5", || assert!(removed()));
-    assert_eq!(outcome.status, Some(1), "{outcome:?}");
-    assert!(outcome.stderr.contains("folder/run.h5 was moved, removed or replaced"), "{outcome:?}");
+    disturbed(&directory, "folder/run.h5", || assert!(removed()))
+        .ends(1, &["folder/run.h5 was moved, removed or replaced"]);
 }
 
 #[test]
@@ -197,8 +194,8 @@ fn with_few_handles_a_run_still_ends_well() {
 fn too_few_handles_are_not_taken_for_damage() {
     let directory = WorkingDirectory::new();
     directory.plateau(["run", &scene("quick.toml"), "-o", "run.h5"]).quiet_success();
-    let outcome = run(directory.command_after("ulimit -n 4", ["run", &scene("quick.toml"), "-o", "few.h5"]));
-    assert_eq!(outcome.status, Some(1), "{outcome:?}");
+    let outcome =
+        run(directory.command_after("ulimit -n 4", ["run", &scene("quick.toml"), "-o", "few.h5"])).ends(1, &[]);
     assert!(outcome.stderr.contains("no file handle is left") && !outcome.stderr.contains("damaged"), "{outcome:?}");
     // Either there is no file yet, or it is whole.
     if directory.path("few.h5").exists() {

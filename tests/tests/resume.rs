@@ -77,8 +77,7 @@ fn a_run_killed_again_and_again_ends_bit_for_bit_like_an_undisturbed_one() {
         assert!(own.len() <= kept.len() && own.iter().zip(kept).all(|(own, kept)| **own == kept), "{names:?}");
         before.iter().for_each(|name| check_that_it_holds_a_start(&directory, name, &whole));
         // Once more changes nothing.
-        let again = run(&directory, "run.h5", &["--resume"]);
-        assert!(again.status == Some(0) && again.stderr.contains("is finished"), "{again:?}");
+        run(&directory, "run.h5", &["--resume"]).ends(0, &["is finished"]);
         ended += 1;
         names.iter().for_each(|name| fs::remove_file(directory.path(name)).unwrap());
     }
@@ -167,9 +166,8 @@ fn what_cannot_be_gone_on_with_is_refused_and_stays() {
         content
     };
     let before = kept();
-    let other = run(&directory, "run.h5", &["--resume", "--set", "operation.normal_force=7 N"]);
-    assert_eq!(other.status, Some(2));
-    assert!(other.stderr.contains("operation.normal_force was \"5 N\", is \"7 N\""), "{}", other.stderr);
+    run(&directory, "run.h5", &["--resume", "--set", "operation.normal_force=7 N"])
+        .ends(2, &["operation.normal_force was \"5 N\", is \"7 N\""]);
     assert!(kept() == before);
 
     // A flipped bit in the newest: the one before holds.
@@ -179,17 +177,13 @@ fn what_cannot_be_gone_on_with_is_refused_and_stays() {
     let middle = bytes.len() / 2;
     bytes[middle] ^= 1;
     fs::write(&newest, &bytes).unwrap();
-    let resumed = run(&directory, "run.h5", &["--resume"]);
-    assert_eq!(resumed.status, Some(0), "{resumed:?}");
-    assert!(resumed.stderr.contains("its digest does not hold") && resumed.stderr.contains("goes on from step"));
+    run(&directory, "run.h5", &["--resume"]).ends(0, &["its digest does not hold", "goes on from step"]);
 
     // Neither holds.
     for path in [&newest, &older] {
         fs::write(path, &bytes[..middle]).unwrap();
     }
-    let refused = run(&directory, "run.h5", &["--resume"]);
-    assert_eq!(refused.status, Some(2));
-    assert!(refused.stderr.contains("--force begins again"), "{}", refused.stderr);
+    run(&directory, "run.h5", &["--resume"]).ends(2, &["--force begins again"]);
     assert_eq!(run(&directory, "run.h5", &["--force"]).status, Some(0));
 }
 
@@ -222,8 +216,7 @@ fn a_checkpoint_of_the_end_is_believed_only_beside_the_file_of_the_end() {
     let middle = bytes.len() / 2;
     bytes[middle..middle + 64].fill(0x5a);
     fs::write(&file, &bytes).unwrap();
-    let outcome = run(&directory, "run.h5", &["--resume"]);
-    assert!(outcome.status == Some(2) && outcome.stderr.contains("damaged"), "{outcome:?}");
+    run(&directory, "run.h5", &["--resume"]).ends(2, &["damaged"]);
     assert!(fs::read(&file).unwrap() == bytes);
 }
 
@@ -231,8 +224,7 @@ fn a_checkpoint_of_the_end_is_believed_only_beside_the_file_of_the_end() {
 fn a_finished_run_goes_on_beyond_its_end() {
     let directory = WorkingDirectory::new();
     assert_eq!(run(&directory, "run.h5", &["--set", "operation.duration=20 s"]).status, Some(0));
-    let longer = run(&directory, "run.h5", &["--set", "operation.duration=20 s", "--extend-to", "60 s"]);
-    assert_eq!(longer.status, Some(0), "{longer:?}");
+    run(&directory, "run.h5", &["--set", "operation.duration=20 s", "--extend-to", "60 s"]).ends(0, &[]);
     assert_eq!(run(&directory, "whole.h5", &[]).status, Some(0));
     let [longer, whole] = ["run.h5", "whole.h5"].map(|name| RunFile::open(directory.path(name)));
     // 20 s is a multiple of the samples' time, so there is none more.
@@ -251,19 +243,15 @@ fn only_the_same_run_is_gone_on_with() {
     assert_eq!(with(&[]).status, Some(0));
     // There is nothing to do, and that is said.
     for more in [["--resume", "--json"], ["--extend-to", "20 s"]] {
-        let done = with(&more);
-        assert!(done.status == Some(0) && done.stderr.contains("is finished"), "{done:?}");
+        with(&more).ends(0, &["is finished"]);
     }
-    let earlier = with(&["--extend-to", "10 s"]);
-    assert!(earlier.status == Some(2) && earlier.stderr.contains("has come to 20.00 s already"), "{earlier:?}");
+    with(&["--extend-to", "10 s"]).ends(2, &["has come to 20.00 s already"]);
     for name in ["run.h5.checkpoint", "run.h5.checkpoint-before"] {
         fs::remove_file(directory.path(name)).unwrap();
     }
     let before = directory.content();
-    let extended = with(&["--extend-to", "30 s"]);
-    assert!(extended.status == Some(2) && extended.stderr.contains("has no checkpoint"), "{extended:?}");
-    let other = with(&["--resume", "--set", "operation.normal_force=7 N"]);
-    assert!(other.status == Some(2) && other.stderr.contains("operation.normal_force"), "{other:?}");
+    with(&["--extend-to", "30 s"]).ends(2, &["has no checkpoint"]);
+    with(&["--resume", "--set", "operation.normal_force=7 N"]).ends(2, &["operation.normal_force"]);
     assert_eq!(with(&["--resume"]).status, Some(0));
     assert!(directory.content() == before);
     fs::write(directory.path("run.h5"), "notes").unwrap();
@@ -287,9 +275,9 @@ fn a_run_goes_on_with_the_engine_that_began_it() {
     directory.plateau(arguments(&whole)).quiet_success();
     directory.plateau(arguments(&["-o", "run.h5"])).quiet_success();
     let extended = ["-o", "run.h5", "--extend-to", "0.2 s"];
-    let fast = directory.plateau(arguments(&extended).into_iter().map(|word| word.replace("plain", "fast")));
-    assert_eq!(fast.status, Some(2));
-    assert!(fast.stderr.contains("it was begun with --engine plain, this is fast"), "{}", fast.stderr);
+    directory
+        .plateau(arguments(&extended).into_iter().map(|word| word.replace("plain", "fast")))
+        .ends(2, &["it was begun with --engine plain, this is fast"]);
     assert_eq!(directory.plateau(arguments(&extended)).status, Some(0));
     let [whole, run] = ["whole.h5", "run.h5"].map(|name| RunFile::open(directory.path(name)));
     let [whole, run] =

@@ -34,8 +34,7 @@ fn arguments(file: &str, sets: &[&str], more: &[&str]) -> Vec<String> {
 
 /// Runs `quick.toml` with changes.
 fn run(directory: &WorkingDirectory, file: &str, sets: &[&str], more: &[&str]) -> RunFile {
-    let outcome = directory.plateau(arguments(file, sets, more));
-    assert_eq!(outcome.status, Some(0), "{}", outcome.stderr);
+    directory.plateau(arguments(file, sets, more)).ends(0, &[]);
     RunFile::open(directory.path(file))
 }
 

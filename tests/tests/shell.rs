@@ -97,20 +97,15 @@ fn every_command_has_a_manual_page_with_its_options() {
 fn manual_pages_are_replaced_only_with_force() {
     let directory = WorkingDirectory::new();
     let mine = directory.write("plateau-run.1", "mine");
-    let outcome = directory.plateau(["man", "-o", "."]);
-    assert_eq!(outcome.status, Some(2));
-    assert!(outcome.stderr.contains("plateau-run.1 exists; give --force to replace it"), "{}", outcome.stderr);
+    directory.plateau(["man", "-o", "."]).ends(2, &["plateau-run.1 exists; give --force to replace it"]);
     assert_eq!(directory.names(), ["plateau-run.1"]);
     directory.plateau(["man", "-o", ".", "--force"]).quiet_success();
     assert!(std::fs::read_to_string(mine).unwrap().starts_with(".ie"));
 
     let said = directory.plateau(["man", "-o", "not/there"]).quiet_success();
     assert!(said.contains("wrote not/there/plateau-run.1\n"), "{said}");
-    let outcome = directory.plateau(["man", "-o", "plateau-run.1"]);
-    assert_eq!(outcome.status, Some(2));
+    let outcome = directory.plateau(["man", "-o", "plateau-run.1"]).ends(2, &[]);
     let message = "cannot make the folder plateau-run.1: there is a file of that name; name another one with -o";
     assert!(outcome.stderr.contains(message), "{}", outcome.stderr);
-    let outcome = directory.plateau(["man", "rum"]);
-    assert_eq!(outcome.status, Some(2));
-    assert!(outcome.stderr.contains("no command is called \"rum\", there are new, cycle, run, "), "{}", outcome.stderr);
+    directory.plateau(["man", "rum"]).ends(2, &["no command is called \"rum\", there are new, cycle, run, "]);
 }

@@ -37,20 +37,17 @@ fn the_last_map_or_one_at_a_time_is_the_surface_of_the_next_run() {
     let directory = WorkingDirectory::new();
     directory.write("first.toml", quick_scene_with(&[]));
     let first = ["run", "first.toml", "-o", "run.h5", "--set", "operation.duration=3 s"];
-    let outcome = directory.plateau([&first[..], &["--set", "output.maps_at=[\"0 s\", \"1 s\"]"]].concat());
-    assert_eq!(outcome.status, Some(0), "{outcome:?}");
+    directory.plateau([&first[..], &["--set", "output.maps_at=[\"0 s\", \"1 s\"]"]].concat()).ends(0, &[]);
 
-    let last = run_with(&directory, "dataset = \"/disc/height\"", "dataset = \"pin/height\"");
-    assert_eq!(last.status, Some(0), "{last:?}");
+    run_with(&directory, "dataset = \"/disc/height\"", "dataset = \"pin/height\"").ends(0, &[]);
     for dataset in ["disc/height", "pin/height"] {
         // Bit for bit and with the same sign: the state before the first step is the last one of the run before.
         assert_eq!(map(&directory, "next.h5", dataset, 0), map(&directory, "run.h5", dataset, 2), "{dataset}");
         assert_ne!(map(&directory, "run.h5", dataset, 1), map(&directory, "run.h5", dataset, 2), "{dataset}");
     }
     let at = "at = \"1 s\"";
-    let earlier =
-        run_with(&directory, &format!("dataset = \"/disc/height\"\n{at}"), &format!("dataset = \"/pin/height\"\n{at}"));
-    assert_eq!(earlier.status, Some(0), "{earlier:?}");
+    run_with(&directory, &format!("dataset = \"/disc/height\"\n{at}"), &format!("dataset = \"/pin/height\"\n{at}"))
+        .ends(0, &[]);
     for dataset in ["disc/height", "pin/height"] {
         assert_eq!(map(&directory, "next.h5", dataset, 0), map(&directory, "run.h5", dataset, 1), "{dataset}");
     }
@@ -64,8 +61,7 @@ fn the_last_map_or_one_at_a_time_is_the_surface_of_the_next_run() {
         (Some("disc.prepare.cutoff=1 um"), [false, true]),
     ] {
         let set = set.into_iter().flat_map(|value| ["--set", value]);
-        let checked = directory.plateau(["check", "next.toml"].into_iter().chain(set));
-        assert_eq!(checked.status, Some(0), "{checked:?}");
+        let checked = directory.plateau(["check", "next.toml"].into_iter().chain(set)).ends(0, &[]);
         assert_eq!([recess, cut].map(|warning| checked.stderr.contains(warning)), warnings, "{checked:?}");
     }
     // Where the map comes from is in the report.
@@ -99,13 +95,11 @@ fn the_last_map_or_one_at_a_time_is_the_surface_of_the_next_run() {
 fn a_mesh_of_other_cells_takes_the_map_as_a_patch_of_its_size() {
     let directory = WorkingDirectory::new();
     directory.write("first.toml", quick_scene_with(&[]));
-    let first = directory.plateau(["run", "first.toml", "-o", "run.h5", "--set", "operation.duration=1 s"]);
-    assert_eq!(first.status, Some(0), "{first:?}");
+    directory.plateau(["run", "first.toml", "-o", "run.h5", "--set", "operation.duration=1 s"]).ends(0, &[]);
     scene_of(&directory, "next.toml", "dataset = \"/disc/height\"", "dataset = \"/pin/height\"");
     let coarser = ["mesh.rows=10", "mesh.disc_columns=345", "mesh.pin_columns=20", "operation.duration=1 s"];
     let set = coarser.iter().flat_map(|value| ["--set", value]);
-    let outcome = directory.plateau(["run", "next.toml", "-o", "next.h5"].into_iter().chain(set));
-    assert_eq!(outcome.status, Some(0), "{outcome:?}");
+    directory.plateau(["run", "next.toml", "-o", "next.h5"].into_iter().chain(set)).ends(0, &[]);
     let heights = |file, moment| -> Vec<f64> {
         map(&directory, file, "disc/height", moment).into_iter().map(f64::from_bits).collect()
     };

@@ -88,8 +88,7 @@ fn says_what_the_mean_is_over(outcome: &Outcome, acceleration: f64) {
 
 /// `plateau sweep run study.toml --json`, and what it says.
 fn sweep(directory: &WorkingDirectory, arguments: &[&str]) -> Value {
-    let outcome = directory.plateau(["sweep", "run", "study.toml", "--json"].iter().chain(arguments));
-    assert_eq!(outcome.status, Some(0), "{outcome:?}");
+    let outcome = directory.plateau(["sweep", "run", "study.toml", "--json"].iter().chain(arguments)).ends(0, &[]);
     json(&outcome)
 }
 
@@ -122,8 +121,7 @@ fn a_folder_that_cannot_be_written_is_named_before_a_run_is_made() {
     let directory = WorkingDirectory::new();
     // No user may make anything there.
     directory.write("study.toml", study().replace("\"results\"", "\"/proc/nowhere\""));
-    let outcome = directory.plateau(["sweep", "run", "study.toml", "-q"]);
-    assert_eq!(outcome.status, Some(2), "{outcome:?}");
+    let outcome = directory.plateau(["sweep", "run", "study.toml", "-q"]).ends(2, &[]);
     assert!(outcome.stderr.starts_with("plateau: cannot write to /proc/nowhere/journal: "), "{outcome:?}");
     assert!(outcome.stderr.contains("name another folder with `directory` in study.toml"), "{outcome:?}");
 }
@@ -272,8 +270,7 @@ fn a_run_that_fails_does_not_stop_the_others() {
     let failing =
         study().replace("levels = [\"5 N\", \"10 N\", \"20 N\"]", "levels = [\"5 N\", \"10 N\", \"1e300 N\"]");
     directory.write("study.toml", failing);
-    let outcome = directory.plateau(["sweep", "run", "study.toml", "--json"]);
-    assert_eq!(outcome.status, Some(1), "{outcome:?}");
+    let outcome = directory.plateau(["sweep", "run", "study.toml", "--json"]).ends(1, &[]);
     let ran = json(&outcome);
     assert_eq!((ran["finished"].as_u64(), ran["failed"].as_u64(), ran["left"].as_u64()), (Some(18), Some(9), Some(0)));
     assert!(outcome.stderr.contains("failed:"), "{}", outcome.stderr);
@@ -370,8 +367,7 @@ fn a_batch_script_asks_for_what_the_estimate_says() {
     ] {
         assert!(script.contains(line), "{line} in\n{script}");
     }
-    let refused = directory.plateau(["sweep", "slurm", "study.toml"]);
-    assert_eq!(refused.status, Some(2));
+    directory.plateau(["sweep", "slurm", "study.toml"]).ends(2, &[]);
     // Without Slurm, a task is what the shell makes of it.
     let shell = std::process::Command::new("sh")
         .arg(directory.path("study.sbatch"))
@@ -392,8 +388,7 @@ fn what_the_scenes_can_hardly_mean_is_said_once_with_its_runs() {
     let study = study.replace("operation.normal_force", "disc.surface.synthetic.correlation_length");
     directory.write("study.toml", study.replace(r#"["5 N", "10 N", "20 N"]"#, r#"["60 um", "80 um", "500 um"]"#));
     for command in ["plan", "run"] {
-        let outcome = directory.plateau(["sweep", command, "study.toml"]);
-        assert_eq!(outcome.status, Some(0), "{outcome:?}");
+        let outcome = directory.plateau(["sweep", command, "study.toml"]).ends(0, &[]);
         let lines = |words: &str| -> Vec<_> { outcome.stderr.lines().filter(|line| line.contains(words)).collect() };
         let length = lines("correlation_length: ");
         assert!(length.len() == 1 && length[0].ends_with("(so in 18 of 27 runs)"), "{}", outcome.stderr);

@@ -104,8 +104,7 @@ fn a_run_is_followed_until_it_is_stopped() {
 fn a_killed_run_is_given_up_after_the_timeout() {
     let directory = WorkingDirectory::new();
     kill(endless_run(&directory, "run.h5"));
-    let outcome = directory.plateau(["watch", "run.h5", "--timeout", "1"]);
-    assert_eq!(outcome.status, Some(1));
+    let outcome = directory.plateau(["watch", "run.h5", "--timeout", "1"]).ends(1, &[]);
     assert!(outcome.stdout.starts_with("running: "), "{}", outcome.stdout);
     let message = "plateau: run.h5 has no new sample for 1.0 s; the run may have been killed\n";
     assert_eq!(outcome.stderr, message);
@@ -135,9 +134,9 @@ fn a_file_that_is_not_there_yet_is_waited_for() {
     assert_eq!(watching.wait().unwrap().code(), Some(0), "{}", text(&directory, "messages"));
     assert!(text(&directory, "lines").lines().last().unwrap().starts_with("finished: 1.000 of 1.000 s"));
 
-    let outcome = directory.plateau(["watch", "never.h5", "--timeout", "1"]);
-    assert_eq!(outcome.status, Some(2));
-    assert!(outcome.stderr.contains("cannot read never.h5: ") && outcome.stderr.contains("none came within 1.0 s"));
+    directory
+        .plateau(["watch", "never.h5", "--timeout", "1"])
+        .ends(2, &["cannot read never.h5: ", "none came within 1.0 s"]);
     assert_eq!(directory.plateau(["watch", "never.h5", "--once"]).status, Some(2));
 }
 

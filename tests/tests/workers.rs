@@ -143,8 +143,8 @@ fn a_ring_of_few_columns_takes_no_more_workers_than_it_has_work_for() {
 fn auto_says_what_it_chose() {
     let directory = WorkingDirectory::new();
     directory.write("auto.toml", quick_scene_with(&[("[numerics]", "[numerics]\nworkers = \"auto\"")]));
-    let from_scene = directory.plateau(["run", "auto.toml", "-o", "run.h5", "--set", "operation.steps=1500"]);
-    assert_eq!(from_scene.status, Some(0), "{}", from_scene.stderr);
+    let from_scene =
+        directory.plateau(["run", "auto.toml", "-o", "run.h5", "--set", "operation.steps=1500"]).ends(0, &[]);
     let from_scene = (from_scene, RunFile::open(directory.path("run.h5")));
     let (outcome, file, _directory) = run(&["--workers", "auto"]);
     for (outcome, file) in [from_scene, (outcome, file)] {
@@ -176,8 +176,7 @@ fn a_check_tells_of_workers_and_instruction_set() {
     let check = |arguments: &[&str]| -> Value {
         let directory = WorkingDirectory::new();
         let quick = scene("quick.toml");
-        let outcome = directory.plateau(["check", &quick, "--json"].iter().chain(arguments));
-        assert_eq!(outcome.status, Some(0), "{}", outcome.stderr);
+        let outcome = directory.plateau(["check", &quick, "--json"].iter().chain(arguments)).ends(0, &[]);
         serde_json::from_str(&outcome.stdout).expect("JSON")
     };
     let reason = |check: &Value, list: &str| -> Option<String> {

@@ -146,7 +146,6 @@ fn perform(arguments: &Arguments) -> Outcome<()> {
     Ok(())
 }
 
-/// Says of which file an error is.
 fn of_file(path: &std::path::Path) -> impl FnOnce(std::io::Error) -> String {
     move |error| format!("{}: {error}", path.display())
 }

@@ -8,7 +8,7 @@ use std::num::NonZeroU64;
 use std::path::PathBuf;
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
-use clap::{Args, Parser, Subcommand, ValueEnum};
+use clap::{Args, Parser, Subcommand};
 use clap_complete::Shell;
 use plateau_core::engine::kernel::InstructionSet;
 use plateau_core::simulation::Engine;
@@ -248,8 +248,8 @@ fn workers(text: &str) -> Result<String, &'static str> {
 #[derive(Debug, Args)]
 pub struct ExecutionArguments {
     /// What takes the steps: the fast engine, or the plain model, cell by cell, which is slow and rounds otherwise
-    #[arg(long, value_name = "NAME", value_enum, default_value_t = EngineArgument::Fast)]
-    pub engine: EngineArgument,
+    #[arg(long, value_name = "NAME", value_parser = engine(), default_value_t)]
+    pub engine: Engine,
     /// Instruction set of the kernels, for tests; the widest that the processor has unless given
     #[arg(long, value_name = "NAME", value_parser = instruction_set)]
     pub isa: Option<InstructionSet>,
@@ -261,21 +261,15 @@ pub struct ExecutionArguments {
 impl ExecutionArguments {
     /// As the library takes them.
     pub fn options(&self) -> ExecutionOptions {
-        let engine = match self.engine {
-            EngineArgument::Fast => Engine::Fast,
-            EngineArgument::Plain => Engine::Plain,
-        };
-        ExecutionOptions { engine, instructions: self.isa, pin: self.pin }
+        ExecutionOptions { engine: self.engine, instructions: self.isa, pin: self.pin }
     }
 }
 
 /// A value of `--engine`.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum EngineArgument {
-    /// On any number of workers.
-    Fast,
-    /// On one worker.
-    Plain,
+fn engine() -> impl TypedValueParser<Value = Engine> {
+    let values = [(Engine::Fast, "On any number of workers"), (Engine::Plain, "On one worker")];
+    let named = |name: String| if name == Engine::Plain.name() { Engine::Plain } else { Engine::Fast };
+    PossibleValuesParser::new(values.map(|(engine, help)| PossibleValue::new(engine.name()).help(help))).map(named)
 }
 
 /// A value of `--isa`.

@@ -58,7 +58,6 @@ pub enum Failure {
     Run(String),
     /// A signal stopped the run: exit status 128 and the signal's number, as shells have it.
     Stopped {
-        /// The signal.
         signal: u8,
         /// State of the run that is left; a process that wrote nothing does not know.
         message: Option<String>,

@@ -37,9 +37,6 @@ pub struct Look {
 
 impl Look {
     /// Looks at a run file.
-    ///
-    /// # Errors
-    /// [`ReadError`]; a file that is closed at this very moment may look damaged.
     pub fn at(path: &Path) -> Result<Self, ReadError> {
         let run = RunFile::open(path)?;
         let values = |name| run.values(name).map(Option::unwrap_or_default);
@@ -116,7 +113,6 @@ impl Pace {
         Self { seen: VecDeque::new(), samples: 0, news: now, alive: false }
     }
 
-    /// Takes note of a look.
     pub fn note(&mut self, look: &Look, now: Instant) {
         if self.seen.back().is_some_and(|(_, time)| look.time() < *time) {
             // Another run has taken the place of the file.

@@ -49,10 +49,6 @@ pub fn ending(path: &Path) -> String {
 }
 
 /// Writes a file that appears under its name when it is complete.
-///
-/// # Errors
-/// [`Failure::Input`] when there is a file that is not to be replaced or none can be made there, [`Failure::Run`] when the
-/// system fails while it is written.
 pub fn write(path: &Path, content: &[u8], force: bool) -> Result<(), Failure> {
     // The target of a link is replaced, not the link: who names a file may name it by one.
     let target = if force { path.canonicalize().unwrap_or_else(|_| path.to_owned()) } else { path.to_owned() };
@@ -105,7 +101,6 @@ pub fn print(text: &str) -> Result<(), Failure> {
     printed(io::stdout().lock().write_all(shown(text).as_bytes()))
 }
 
-/// Prints one JSON document.
 pub fn print_json(document: &impl Serialize) -> Result<(), Failure> {
     print(&json(document)?)
 }

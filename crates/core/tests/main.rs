@@ -18,4 +18,3 @@ mod scenes;
 mod synthesis;
 mod synthesis_bits;
 mod synthesis_moments;
-mod texture_direction;

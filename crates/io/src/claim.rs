@@ -137,7 +137,6 @@ impl Claim {
         read(&self.lock, &self.lock).is_ok_and(|there| there.as_ref() == Some(&self.owner))
     }
 
-    /// Makes a lock.
     fn take(path: &Path, lock: &Path, silent: Option<&Seen>) -> Result<Self, ClaimError> {
         let system = |error| {
             let directory = folder(lock).display();

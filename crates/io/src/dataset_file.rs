@@ -146,7 +146,6 @@ pub fn now() -> String {
     iso_8601(SystemTime::now())
 }
 
-/// The file and its datasets.
 fn create(path: &Path, content: &Content) -> hdf5::Result<(File, Vec<Dataset>)> {
     let file = FileBuilder::new().with_fapl(|list| list.libver_v110().file_locking(false)).open_rw(path)?;
     let mut dimensions = Dimensions::new(&file)?;

@@ -62,9 +62,6 @@ pub fn decode(content: &[u8]) -> Cow<'_, str> {
 }
 
 /// The text of a table: of a regular file of at most so many bytes.
-///
-/// # Errors
-/// What the system says, and [`ErrorKind::InvalidData`] where it is no text: then, what it is, and how to save it.
 pub(crate) fn read(path: &Path, most: u64) -> io::Result<String> {
     let content = input::read(path, most)?;
     let refuse = |what: &str| Err(io::Error::new(ErrorKind::InvalidData, format!("this is {what}")));
@@ -230,7 +227,6 @@ pub(crate) enum Kind {
 pub(crate) struct Start<'a> {
     pub(crate) line: usize,
     pub(crate) text: &'a str,
-    /// Sign that it is one.
     pub(crate) sign: &'static str,
 }
 

@@ -384,7 +384,6 @@ pub(crate) fn texts_of(attribute: &Attribute) -> hdf5::Result<Vec<String>> {
     }
 }
 
-/// An attribute that is one number, if there is one.
 pub(crate) fn number_attribute<T: H5Type>(location: &Location, name: &str) -> hdf5::Result<Option<T>> {
     attribute_of_one(location, name)?.map(|attribute| attribute.read_scalar()).transpose()
 }

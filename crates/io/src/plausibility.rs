@@ -26,11 +26,8 @@ use crate::surface::Loaded;
 /// the overlap is a tenth of the foundation.
 const LARGEST_STRAIN: f64 = 0.1;
 
-/// Look at a subject, and the key that is named when it cannot be meant.
-struct Rule<Subject> {
-    key: &'static str,
-    look: fn(&Subject) -> Option<Finding>,
-}
+/// The key that is named when a subject cannot be meant, and the look at it.
+type Rule<Subject> = (&'static str, fn(&Subject) -> Option<Finding>);
 
 /// Finding of a rule.
 struct Finding {
@@ -47,7 +44,7 @@ struct Finding {
 /// Where a key has its default, the key that this follows from is named.
 fn apply<Subject>(rules: &[Rule<Subject>], subject: &Subject, scene: &Scene) -> Vec<Warning> {
     let mut warnings: Vec<Warning> = Vec::new();
-    for Rule { key, look } in rules {
+    for (key, look) in rules {
         let place = scene.places.get(*key).filter(|place| **place != Origin::Default);
         let named = scene.warnings.iter().chain(&warnings).any(|warning| warning.key == *key);
         let (Some(place), false) = (place, named) else { continue };
@@ -122,46 +119,22 @@ const LEAST_LENGTHS: f64 = 10.0;
 const ROUNDING: f64 = 1e-9;
 
 const RULES: &[Rule<Scene>] = &[
-    Rule { key: "operation.normal_force", look: nominal_pressure },
-    Rule { key: "operation.rotational_speed", look: sliding_speed },
-    Rule { key: "operation.sliding_speed", look: sliding_speed },
-    Rule { key: "operation.duration", look: duration },
-    Rule {
-        key: "materials.disc_primary.youngs_modulus",
-        look: |scene| modulus(&scene.parameters.materials.disc_primary),
-    },
-    Rule {
-        key: "materials.disc_secondary.youngs_modulus",
-        look: |scene| modulus(&scene.parameters.materials.disc_secondary),
-    },
-    Rule {
-        key: "materials.pin_primary.youngs_modulus",
-        look: |scene| modulus(&scene.parameters.materials.pin_primary),
-    },
-    Rule {
-        key: "materials.pin_secondary.youngs_modulus",
-        look: |scene| modulus(&scene.parameters.materials.pin_secondary),
-    },
-    Rule { key: "materials.pin_resin.youngs_modulus", look: |scene| modulus(&scene.parameters.materials.pin_resin) },
-    Rule {
-        key: "disc.surface.synthetic.correlation_length",
-        look: |scene| correlation_length(scene, &scene.disc_surface, "disc"),
-    },
-    Rule {
-        key: "disc.surface.synthetic.correlation_length_across",
-        look: |scene| correlation_length_across(scene, &scene.disc_surface),
-    },
-    Rule { key: "disc.surface.synthetic.patch", look: patch },
-    Rule {
-        key: "pin.surface.synthetic.correlation_length",
-        look: |scene| correlation_length(scene, &scene.pin_surface, "pin"),
-    },
-    Rule {
-        key: "pin.surface.synthetic.correlation_length_across",
-        look: |scene| correlation_length_across(scene, &scene.pin_surface),
-    },
-    Rule { key: "pin.base.synthetic.fibre_length", look: fibre_length },
-    Rule { key: "plateaus.transport_length", look: transport_length },
+    ("operation.normal_force", nominal_pressure),
+    ("operation.rotational_speed", sliding_speed),
+    ("operation.sliding_speed", sliding_speed),
+    ("operation.duration", duration),
+    ("materials.disc_primary.youngs_modulus", |scene| modulus(&scene.parameters.materials.disc_primary)),
+    ("materials.disc_secondary.youngs_modulus", |scene| modulus(&scene.parameters.materials.disc_secondary)),
+    ("materials.pin_primary.youngs_modulus", |scene| modulus(&scene.parameters.materials.pin_primary)),
+    ("materials.pin_secondary.youngs_modulus", |scene| modulus(&scene.parameters.materials.pin_secondary)),
+    ("materials.pin_resin.youngs_modulus", |scene| modulus(&scene.parameters.materials.pin_resin)),
+    ("disc.surface.synthetic.correlation_length", |scene| correlation_length(scene, &scene.disc_surface, "disc")),
+    ("disc.surface.synthetic.correlation_length_across", |scene| correlation_length_across(scene, &scene.disc_surface)),
+    ("disc.surface.synthetic.patch", patch),
+    ("pin.surface.synthetic.correlation_length", |scene| correlation_length(scene, &scene.pin_surface, "pin")),
+    ("pin.surface.synthetic.correlation_length_across", |scene| correlation_length_across(scene, &scene.pin_surface)),
+    ("pin.base.synthetic.fibre_length", fibre_length),
+    ("plateaus.transport_length", transport_length),
 ];
 
 /// Values that cannot be meant, as far as the scene tells without its surfaces.
@@ -305,19 +278,16 @@ const STRONGEST: f64 = 1e9;
 
 /// Rules of friction, heat and emission.
 const DISSIPATION_RULES: &[Rule<Scene>] = &[
-    Rule { key: "friction.shear_strength", look: shear_strength },
-    Rule { key: "thermal.ambient", look: ambient },
-    Rule { key: "thermal.disc.conductivity", look: |scene| substance(&thermal(scene)?.disc.substance) },
-    Rule {
-        key: "thermal.disc.coating.conductivity",
-        look: |scene| substance(&thermal(scene)?.disc.coating?.substance),
-    },
-    Rule { key: "thermal.disc.coating.thickness", look: coating_thickness },
-    Rule { key: "thermal.pin.conductivity", look: |scene| substance(&thermal(scene)?.pin.substance) },
-    Rule { key: "thermal.disc.thickness", look: heat_capacity },
-    Rule { key: "thermal.pin.area", look: pin_area },
-    Rule { key: "emission.pin_density", look: |scene| density(scene.parameters.emission.as_ref()?.pin_density) },
-    Rule { key: "emission.disc_density", look: |scene| density(scene.parameters.emission.as_ref()?.disc_density) },
+    ("friction.shear_strength", shear_strength),
+    ("thermal.ambient", ambient),
+    ("thermal.disc.conductivity", |scene| substance(&thermal(scene)?.disc.substance)),
+    ("thermal.disc.coating.conductivity", |scene| substance(&thermal(scene)?.disc.coating?.substance)),
+    ("thermal.disc.coating.thickness", coating_thickness),
+    ("thermal.pin.conductivity", |scene| substance(&thermal(scene)?.pin.substance)),
+    ("thermal.disc.thickness", heat_capacity),
+    ("thermal.pin.area", pin_area),
+    ("emission.pin_density", |scene| density(scene.parameters.emission.as_ref()?.pin_density)),
+    ("emission.disc_density", |scene| density(scene.parameters.emission.as_ref()?.disc_density)),
 ];
 
 fn thermal(scene: &Scene) -> Option<&Thermal> {
@@ -421,10 +391,10 @@ struct Cutoff {
 }
 
 const SURFACE_RULES: &[Rule<Beginning>] = &[
-    Rule { key: "disc.prepare.cutoff", look: |beginning| useless(beginning.disc_cutoff.as_ref()) },
-    Rule { key: "pin.prepare.cutoff", look: |beginning| useless(beginning.pin_cutoff.as_ref()) },
-    Rule { key: "operation.normal_force", look: pressure_of_the_first_step },
-    Rule { key: "contact.foundation_height", look: overlap_of_the_first_step },
+    ("disc.prepare.cutoff", |beginning| useless(beginning.disc_cutoff.as_ref())),
+    ("pin.prepare.cutoff", |beginning| useless(beginning.pin_cutoff.as_ref())),
+    ("operation.normal_force", pressure_of_the_first_step),
+    ("contact.foundation_height", overlap_of_the_first_step),
 ];
 
 /// Values that cannot be meant, now that the surfaces are known, of keys that `scene.warnings` does not name yet.
@@ -498,9 +468,9 @@ pub struct Recorded {
 }
 
 const RECORDED_RULES: &[Rule<Recorded>] = &[
-    Rule { key: "operation.normal_force", look: pressure },
-    Rule { key: "contact.foundation_height", look: overlap },
-    Rule { key: "materials.disc_primary.specific_wear_rate", look: filled_fraction },
+    ("operation.normal_force", pressure),
+    ("contact.foundation_height", overlap),
+    ("materials.disc_primary.specific_wear_rate", filled_fraction),
 ];
 
 impl Recorded {

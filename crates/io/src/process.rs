@@ -52,7 +52,6 @@ impl Machine {
         THIS.clone()
     }
 
-    /// Its relation to `this` one.
     fn seen_from(&self, this: &Self) -> Relation {
         if self.host != this.host || self.boot.is_empty() || this.boot.is_empty() {
             return Relation::Unknown;
@@ -245,7 +244,6 @@ pub fn writer_of(path: &Path) -> Writer {
     found
 }
 
-/// Tells whether a process is there and belongs to a user.
 fn belongs_to(process: u32, user: u32) -> bool {
     fs::metadata(format!("/proc/{process}")).is_ok_and(|process| process.uid() == user)
 }

@@ -13,7 +13,6 @@ use crate::text::short;
 /// 0 °C, K.
 const CELSIUS: f64 = 273.15;
 
-/// Says that what was found has no unit, and what is expected.
 pub(crate) fn no_unit(found: impl std::fmt::Display, expected: Dimension) -> String {
     format!("{found} has no unit, expected {expected}")
 }
@@ -39,12 +38,8 @@ pub fn parse(text: &str, expected: Dimension) -> Result<f64, String> {
     let scale = Scale::parse(unit).map_err(|reason| format!("{shown}: {reason}, expected {expected}"))?;
     if scale.powers != expected.powers() {
         let found = meaning(scale.powers);
-        let advice = match expected {
-            Dimension::RotationalSpeed if found == "a frequency" => {
-                "; a frequency does not say whether it counts turns or radians"
-            }
-            _ => "",
-        };
+        let is_frequency = expected == Dimension::RotationalSpeed && found == "a frequency";
+        let advice = if is_frequency { "; a frequency does not say whether it counts turns or radians" } else { "" };
         return Err(format!("{shown} is {found}, expected {expected}{advice}"));
     }
     finite(shift_decimal(number, scale.tens) * scale.times / scale.over, not_finite)
@@ -53,19 +48,18 @@ pub fn parse(text: &str, expected: Dimension) -> Result<f64, String> {
 /// Reads a number with a unit that measures the same as `si_unit`, a product of SI units such as `m2` or `kg s-1`; in that unit.
 pub fn parse_as(text: &str, si_unit: &str) -> Result<f64, String> {
     let (number, unit) = split_number(text.trim()).ok_or("it does not start with a number")?;
+    let not_finite = || "it is not finite".to_owned();
     if unit.is_empty() {
         return Err("it has no unit".to_owned());
     }
-    let scale = if si_unit == "K" && is_celsius(unit) {
-        return finite(shift_decimal(number, 0) + CELSIUS, || "it is not finite".to_owned());
-    } else {
-        Scale::parse(unit)?
-    };
-    let expected = Scale::parse(&si_unit.replace('-', "^-"))?;
+    if si_unit == "K" && is_celsius(unit) {
+        return finite(shift_decimal(number, 0) + CELSIUS, not_finite);
+    }
+    let (scale, expected) = (Scale::parse(unit)?, Scale::parse(&si_unit.replace('-', "^-"))?);
     if scale.powers != expected.powers {
         return Err(format!("it is {}", meaning(scale.powers)));
     }
-    finite(shift_decimal(number, scale.tens) * scale.times / scale.over, || "it is not finite".to_owned())
+    finite(shift_decimal(number, scale.tens) * scale.times / scale.over, not_finite)
 }
 
 /// Value of 0 of a unit in the SI unit: 273.15 K for degrees Celsius, else 0.
@@ -179,40 +173,24 @@ fn decimal(scientific: &str, tens: i32) -> String {
 
 /// The kinds of quantity that scenes ask for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[allow(missing_docs)] // Their units say what they are.
 pub enum Dimension {
-    /// m.
     Length,
-    /// N.
     Force,
-    /// Pa: pressures and elastic moduli.
     Pressure,
-    /// s.
     Time,
-    /// m/s.
     Speed,
-    /// rad/s.
     RotationalSpeed,
-    /// N m, which is a joule by its powers.
     Torque,
-    /// 1/Pa = m³/(N·m): worn volume per force and sliding distance.
     SpecificWearRate,
-    /// m².
     Area,
-    /// K; also written in degrees Celsius.
     Temperature,
-    /// W/(m K).
     ThermalConductivity,
-    /// kg/m³.
     Density,
-    /// J/(kg K).
     SpecificHeat,
-    /// W/K: heat lost per temperature above the ambient.
     Cooling,
-    /// J/(K rad): the same per rotational speed.
     CoolingPerSpeed,
-    /// 1/kg.
     NumberPerMass,
-    /// rad.
     Angle,
 }
 
@@ -419,7 +397,6 @@ impl Scale {
         })
     }
 
-    /// self · other^power.
     fn times(self, other: Self, power: i32) -> Self {
         let (times, over) = if power < 0 { (other.over, other.times) } else { (other.times, other.over) };
         let magnitude = power.abs();

@@ -46,9 +46,6 @@ pub struct Assembly {
 
 impl Assembly {
     /// The simulation of a scene in this process.
-    ///
-    /// # Errors
-    /// [`InputError::Simulation`] when parameters and surfaces make no simulation, [`RunError::Failed`] when a worker failed.
     pub fn new(scene: &Scene, surfaces: InitialSurfaces, execution: Execution) -> Result<Self, RunError> {
         Self::made_by(Simulation::with_execution, scene, surfaces, execution)
     }
@@ -149,15 +146,9 @@ pub trait Sink {
     type Error: From<SimulationError>;
 
     /// A sample of the step just done.
-    ///
-    /// # Errors
-    /// When it cannot be taken; the run then ends.
     fn sample(&mut self, sample: Sample) -> Result<(), Self::Error>;
 
     /// The maps after the step just done. Not called where the scene asks for none.
-    ///
-    /// # Errors
-    /// When they cannot be taken; the run then ends.
     fn snapshot(&mut self, _snapshot: Snapshot) -> Result<(), Self::Error> {
         Ok(())
     }
@@ -232,9 +223,6 @@ impl Assembly {
     }
 
     /// The sample of the step just done, with all series that a run file of the scene has.
-    ///
-    /// # Errors
-    /// As [`Simulation::sample_at`].
     pub fn last_sample(&mut self) -> Result<Sample, SimulationError> {
         let Course { steps, time, .. } = self.simulation.course();
         self.sample(&Moment { step: steps, time, ..Moment::default() })

@@ -247,7 +247,6 @@ impl SweepError {
         if lacks_resources(error) { Self::Failed(message) } else { Self::Input(message) }
     }
 
-    /// A failure.
     pub(crate) fn failed(error: impl fmt::Display) -> Self {
         Self::Failed(error.to_string())
     }

@@ -42,7 +42,7 @@ impl StartMode {
 }
 
 /// How a run is carried out. Nothing of it shows in the results, but that the two engines round differently.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default)]
 pub struct ExecutionOptions {
     /// Engine that takes the steps.
     pub engine: Engine,
@@ -50,12 +50,6 @@ pub struct ExecutionOptions {
     pub instructions: Option<InstructionSet>,
     /// Tells whether each worker stays on a core of its own.
     pub pin: bool,
-}
-
-impl Default for ExecutionOptions {
-    fn default() -> Self {
-        Self { engine: Engine::Fast, instructions: None, pin: false }
-    }
 }
 
 /// The program that makes a run, as run files and checkpoints name it. Only the same program goes on from its checkpoints.

@@ -27,9 +27,6 @@ use crate::summary::RunSummary;
 /// its run file, with checkpoints beside it from which a run that was stopped or killed goes on.
 ///
 /// Gives what came of it; nothing where the run was finished before, and in a process that writes no file.
-///
-/// # Errors
-/// [`RunError`], which tells what was given wrong from what failed.
 pub fn run(
     scene: Scene,
     options: &RunOptions,

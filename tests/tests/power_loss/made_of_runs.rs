@@ -23,8 +23,7 @@ fn study() -> String {
 
 /// The table of results, which is collected anew.
 fn results(directory: &WorkingDirectory) -> String {
-    let outcome = run_after(1, directory.command(["sweep", "collect", "study.toml", "--force"]));
-    assert_eq!(outcome.status, Some(0), "{outcome:?}");
+    run_after(1, directory.command(["sweep", "collect", "study.toml", "--force"])).ends(0, &[]);
     fs::read_to_string(directory.path("results/results.csv")).unwrap()
 }
 

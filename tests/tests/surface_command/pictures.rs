@@ -41,13 +41,10 @@ fn no_page_takes_the_place_of_an_input_or_of_another_output() {
         directory.plateau(always)
     };
     for (plot, preview, named) in [("p.png", "./p.png", "./p.png"), ("p.png", "./p-2.png", "./p-2.png")] {
-        let outcome = call(plot, preview);
-        assert_eq!(outcome.status, Some(2), "{}", outcome.stderr);
-        assert!(outcome.stderr.contains(&format!("{named} is named for two outputs")), "{}", outcome.stderr);
+        call(plot, preview).ends(2, &[&format!("{named} is named for two outputs")]);
         assert!(!picture("p.png") && !picture("p-2.png"));
     }
-    let outcome = call("p.png", "q.png");
-    assert_eq!(outcome.status, Some(0), "{}", outcome.stderr);
+    call("p.png", "q.png").ends(0, &[]);
     assert!(picture("p.png") && picture("p-2.png") && picture("q.png"));
     // The micrograph of a scene, where a page would be.
     let micrograph = plateau_tests::program::repository().join("data/surfaces/micrograph.png");

@@ -49,8 +49,7 @@ fn a_table_is_not_replaced_by_one_with_fewer_finished_runs() {
     // Another scene: nothing of what is there is its result.
     directory
         .write("quick.toml", quick_scene_with(&[("foundation_height = \"50 um\"", "foundation_height = \"40 um\"")]));
-    let refused = collect(&directory, &[]);
-    assert_eq!(refused.status, Some(2), "{refused:?}");
+    let refused = collect(&directory, &[]).ends(2, &[]);
     for words in [
         "has 27 runs that finished, of which there are 0 now",
         "27 results are left out: of scenes that no run",
@@ -89,8 +88,8 @@ fn runs_that_did_not_keep_a_series_are_named_and_made_again_when_asked() {
         );
         assert!(outcome.stderr.contains("sweep run study.toml --retry` makes them again"), "{outcome:?}");
     }
-    let again = directory.plateau(["sweep", "run", "study.toml", "--retry", "--json"]);
-    assert!(again.status == Some(0) && again.stderr.contains("are made again: 1, 2, 3"), "{again:?}");
+    let again =
+        directory.plateau(["sweep", "run", "study.toml", "--retry", "--json"]).ends(0, &["are made again: 1, 2, 3"]);
     assert_eq!(json(&again)["finished"].as_u64(), Some(9));
     // What was kept before still is, beside what is new.
     let collected = directory.plateau(["sweep", "collect", "study.toml"]);

@@ -84,8 +84,7 @@ fn what_was_kept_of_a_run_that_has_ended_goes() {
     directory.write(&format!("results/under-way/{name}"), &content);
     let stranger = directory.write(&format!("results/under-way/{}", "0".repeat(64)), &content);
     let notes = directory.write("results/under-way/notes", "mine");
-    let said = directory.plateau(["sweep", "run", "study.toml"]);
-    assert!(said.status == Some(0) && said.stderr.contains("1 state of runs that the study no longer has"), "{said:?}");
+    directory.plateau(["sweep", "run", "study.toml"]).ends(0, &["1 state of runs that the study no longer has"]);
     assert!(!folder.join(&name).exists() && stranger.exists() && notes.exists());
     fs::remove_file(stranger).unwrap();
     fs::remove_file(notes).unwrap();
@@ -119,9 +118,7 @@ fn a_long_run_that_was_stopped_or_killed_goes_on() {
         child.wait().unwrap();
         assert!(states() > 0, "nothing was kept after {signal}");
     }
-    let last = directory.plateau(start);
-    assert_eq!(last.status, Some(0), "{last:?}");
-    assert!(last.stderr.contains("a run that was stopped goes on from step "), "{last:?}");
+    directory.plateau(start).ends(0, &["a run that was stopped goes on from step "]);
     assert_eq!(results(&directory), results(&whole));
     assert!(!directory.path("results/under-way").exists(), "what was kept is of no more use");
 }

@@ -63,15 +63,15 @@ pub struct SurfaceArguments {
     pub force: bool,
 }
 
+/// The meaning of a word of a choice.
+fn meaning<T: Copy>(choices: &[(&str, T)], text: &str, expected: &str) -> Result<T, String> {
+    let known = choices.iter().find(|(word, _)| *word == text);
+    known.map(|(_, meaning)| *meaning).ok_or_else(|| format!("expected {expected}"))
+}
+
 /// A value of `--level`.
-fn level(text: &str) -> Result<Level, &'static str> {
-    match text {
-        "none" => Ok(Level::None),
-        "mean" => Ok(Level::Mean),
-        "plane" => Ok(Level::Plane),
-        "quadratic" => Ok(Level::Quadratic),
-        _ => Err("expected none, mean, plane or quadratic"),
-    }
+fn level(text: &str) -> Result<Level, String> {
+    meaning(&choices::LEVEL, text, "none, mean, plane or quadratic")
 }
 
 /// Options that tell how a surface file is read.
@@ -193,14 +193,12 @@ fn height_range(text: &str) -> Result<[f64; 2], String> {
 
 /// A value of `--decimal`.
 fn decimal(text: &str) -> Result<Decimal, String> {
-    let known = choices::DECIMAL.iter().find(|(word, _)| *word == text);
-    known.map(|(_, decimal)| *decimal).ok_or_else(|| "expected \".\" or \",\"".to_owned())
+    meaning(&choices::DECIMAL, text, "\".\" or \",\"")
 }
 
 /// A value of `--profile-lay`.
 fn lay(text: &str) -> Result<Lay, String> {
-    let known = choices::LAY.iter().find(|(word, _)| *word == text);
-    known.map(|(_, lay)| *lay).ok_or_else(|| "expected along, across or isotropic".to_owned())
+    meaning(&choices::LAY, text, "along, across or isotropic")
 }
 
 #[cfg(test)]

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, Subcommand};
 use plateau_io::study::plan::Plan;
-use plateau_run::sweep;
+use plateau_run::sweep::{self, Part};
 
 use crate::arguments::{CoresArguments, HandedArguments};
 use crate::failure::Failure;
@@ -97,7 +97,7 @@ pub struct SweepRunArguments {
     pub cores: CoresArguments,
     /// Make only every N-th run, beginning with the I-th: one task of N that share the study
     #[arg(long, value_name = "I/N", allow_hyphen_values = true, value_parser = task)]
-    pub task: Option<Task>,
+    pub task: Option<Part>,
     /// Stop when so many runs have failed; unless given, the others go on
     #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = clap::value_parser!(u32).range(1..))]
     pub max_failures: Option<u32>,
@@ -132,21 +132,12 @@ pub struct SweepSceneArguments {
     pub run: u32,
 }
 
-/// One task of several that share a study.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Task {
-    /// Which, from 1.
-    pub number: usize,
-    /// Of how many.
-    pub count: usize,
-}
-
 /// A value of `--task`.
-fn task(text: &str) -> Result<Task, &'static str> {
+fn task(text: &str) -> Result<Part, &'static str> {
     let expected = "expected I/N with 1 <= I <= N, such as 3/10";
     let (number, count) = text.split_once('/').ok_or(expected)?;
     let parse = |text: &str| text.trim().parse().map_err(|_| expected);
-    let task = Task { number: parse(number)?, count: parse(count)? };
+    let task = Part { number: parse(number)?, count: parse(count)? };
     if (1..=task.count).contains(&task.number) { Ok(task) } else { Err(expected) }
 }
 

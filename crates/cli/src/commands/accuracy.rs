@@ -294,9 +294,7 @@ struct Making {
     scene: String,
     /// Files that the scene reads.
     inputs: Vec<InputFile>,
-    /// Workers.
     workers: usize,
-    /// Instruction set.
     instruction_set: &'static str,
     /// Budget, s.
     budget: f64,

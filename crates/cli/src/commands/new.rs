@@ -6,16 +6,15 @@ use std::ffi::OsStr;
 use std::fmt;
 use std::path::{Path, PathBuf};
 
-use plateau_core::surface::{
-    Condition, Extension, HeightParameters, Length, Level, Spikes, TextureDirection, implausible, level,
-};
-use plateau_io::memory::refuse_beyond;
+use plateau_core::surface::{Condition, Extension, HeightParameters, Length, Level, Spikes, implausible, level};
 use plateau_io::scene::{self, Problem, SceneError};
 use plateau_io::surface::{self, FileError, Lay, Measured, TextError};
 use plateau_io::units::{self, Dimension};
 use plateau_io::{number, plausibility, text};
+use serde_json::Value;
 
 use crate::arguments::{NewArguments, ReadArguments, as_options};
+use crate::commands::surface::data::Data;
 use crate::failure::Failure;
 use crate::output::print;
 use crate::{hand_over, invocation, message, output};
@@ -277,7 +276,6 @@ fn condition(measured: &Measured) -> Option<Condition> {
     Some(Condition { form: Level::Plane, rms_of_forms: [rms; 2], spikes: None })
 }
 
-/// Spikes, in words.
 fn spikes_in_words(spikes: &Spikes) -> String {
     let Spikes { count, points, kurtosis, rms } = *spikes;
     let (kurtosis, [before, after]) = (number::rounded(kurtosis, 3), rms.map(Length));
@@ -338,16 +336,22 @@ struct ClearLay {
     direction: f64,
 }
 
-/// The lay of a patch, if it has a clear one and there is memory to look for it.
+/// The lay of a patch, if the Python package is here and tells a clear one.
 fn lay(measured: &Measured, form: Level) -> Option<ClearLay> {
-    let Measured { columns, rows, pitch, ref heights, .. } = *measured;
-    refuse_beyond(TextureDirection::memory_needed(columns, rows)).ok()?;
-    let mut heights = heights.clone();
-    level(&mut heights, rows, form, false);
-    let TextureDirection { aspect_ratio: ratio, is_bound, angle } = TextureDirection::of(&heights, rows, pitch?)?;
+    hand_over::answering(WORD)?;
+    let mut levelled = measured.clone();
+    level(&mut levelled.heights, levelled.rows, form, false);
+    let folder = hand_over::temporary_folder().ok()?;
+    let mut data = Data::new(folder.path());
+    data.add_levelled("", "", None, &levelled, form).ok()?;
+    let told: Value = serde_json::from_str(&hand_over::described(data.finish().ok()?, true).ok()?).ok()?;
     // As `plateau surface` has them.
-    let aspect_ratio = if is_bound { number::less_than(ratio, 3) } else { number::significant(ratio, 3) };
-    (ratio < CLEAR_LAY).then(|| ClearLay { aspect_ratio, form, direction: angle.to_degrees() })
+    let (ratio, aspect_ratio) = match (told["Str"].as_f64(), told["Str_below"].as_f64()) {
+        (Some(ratio), _) => (ratio, number::significant(ratio, 3)),
+        (None, bound) => (bound?, number::less_than(bound?, 3)),
+    };
+    let direction = told["Std"].as_f64()?;
+    (ratio < CLEAR_LAY).then_some(ClearLay { aspect_ratio, form, direction })
 }
 
 impl ClearLay {

@@ -17,7 +17,7 @@ pub fn verify(arguments: &VerifyArguments) -> Result<(), Failure> {
     let mut foreign = 0;
     for path in &arguments.runs {
         match run_file::verify(path) {
-            Ok(verification) => findings.push(Finding::of(path, &verification)),
+            Ok(verification) => findings.push(Finding::of(path, verification)),
             // All that can be said of it.
             Err(error @ ReadError::Damaged { .. }) => findings.push(Finding::unreadable(path, &error)),
             // Nothing of the file's: the next one would fare no better.
@@ -67,50 +67,26 @@ struct Finding {
     digests: usize,
     /// Tells whether there are digests of the numbers among the attributes, and of what tells of machine and time.
     covers_numbers: bool,
-    damage: Vec<Place>,
-}
-
-#[derive(Debug, Serialize)]
-struct Place {
-    place: String,
-    problem: String,
+    damage: Vec<Damage>,
 }
 
 impl Finding {
-    fn of(path: &Path, verification: &Verification) -> Self {
-        let Verification { state, samples, moments, intact, digested, covers_numbers, damage } = verification;
+    fn of(path: &Path, verification: Verification) -> Self {
+        let Verification { state, samples, moments, intact: digests, digested, covers_numbers, damage } = verification;
         let verdict = match (damage.len(), digested, state) {
             (0, true, _) => Verdict::Intact,
             (0, false, State::Running) => Verdict::NotClosed,
             (0, false, _) => Verdict::NoDigests,
             _ => Verdict::Damaged,
         };
-        let place = |Damage { place, problem }: &Damage| Place { place: place.clone(), problem: problem.clone() };
-        Self {
-            file: path.display().to_string(),
-            verdict,
-            state: Some(state.name()),
-            samples: Some(*samples),
-            moments: Some(*moments),
-            digests: *intact,
-            covers_numbers: *covers_numbers,
-            damage: damage.iter().map(place).collect(),
-        }
+        let (file, state) = (path.display().to_string(), Some(state.name()));
+        Self { file, verdict, state, samples: Some(samples), moments: Some(moments), digests, covers_numbers, damage }
     }
 
     fn unreadable(path: &Path, error: &ReadError) -> Self {
-        let damage = vec![Place { place: "file".into(), problem: error.to_string() }];
-        let file = path.display().to_string();
-        Self {
-            file,
-            verdict: Verdict::Damaged,
-            state: None,
-            samples: None,
-            moments: None,
-            digests: 0,
-            covers_numbers: false,
-            damage,
-        }
+        let damage = vec![Damage { place: "file".into(), problem: error.to_string() }];
+        let (file, verdict, covers_numbers) = (path.display().to_string(), Verdict::Damaged, false);
+        Self { file, verdict, state: None, samples: None, moments: None, digests: 0, covers_numbers, damage }
     }
 
     fn to_text(&self) -> String {

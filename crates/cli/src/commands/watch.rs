@@ -135,11 +135,8 @@ impl<'a> Watcher<'a> {
         if since.elapsed() < patience {
             return Ok(None);
         }
-        let waited = if absent && !self.once {
-            format!("; none came within {}", number::duration(patience.as_secs_f64()))
-        } else {
-            String::new()
-        };
+        let within = || format!("; none came within {}", number::duration(patience.as_secs_f64()));
+        let waited = if absent && !self.once { within() } else { String::new() };
         Err(Failure::because(&error, format_args!("{error}{waited}")))
     }
 
@@ -190,7 +187,6 @@ impl Screen {
         }
     }
 
-    /// Shows a look, and the warning if there is one.
     fn show(&mut self, look: &Look, pace: &Pace, warning: Option<&str>) -> io::Result<()> {
         match &self.terminal {
             Some(terminal) => {
@@ -235,49 +231,27 @@ fn is_unicode(variable: impl Fn(&str) -> Option<String>) -> bool {
     })
 }
 
-/// Characters of the dots of a curve.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Dots {
-    /// Braille letters: two by four dots each.
-    Braille,
-    /// One star a character.
-    Stars,
+/// Dots of a character of a curve, in width and height: of a Braille letter, or of a star.
+fn dots_of(unicode: bool) -> (usize, usize) {
+    if unicode { (2, 4) } else { (1, 1) }
 }
 
-impl Dots {
-    /// Dots of a character, in width and height.
-    fn of_a_character(self) -> (usize, usize) {
-        match self {
-            Self::Braille => (2, 4),
-            Self::Stars => (1, 1),
-        }
-    }
-
-    /// The character with these dots, row by row from the top.
-    fn character(self, dots: &[bool]) -> char {
-        match self {
-            // The dots of a Braille letter are numbered down the left column and down the right one, but for the
-            // lowest two, which were added later.
-            Self::Braille => {
-                const BITS: [u32; 8] = [0x01, 0x08, 0x02, 0x10, 0x04, 0x20, 0x40, 0x80];
-                let bits = dots.iter().zip(BITS).filter(|(dot, _)| **dot).map(|(_, bit)| bit).sum::<u32>();
-                if bits == 0 { ' ' } else { char::from_u32(0x2800 + bits).unwrap_or(' ') }
-            }
-            Self::Stars => {
-                if dots.contains(&true) {
-                    '*'
-                } else {
-                    ' '
-                }
-            }
-        }
+/// The character with these dots, row by row from the top: a Braille letter, or a star.
+fn character(dots: &[bool], unicode: bool) -> char {
+    // The dots of a Braille letter are numbered down the left column and down the right one, but for the lowest two, which were
+    // added later.
+    const BITS: [u32; 8] = [0x01, 0x08, 0x02, 0x10, 0x04, 0x20, 0x40, 0x80];
+    match dots.iter().zip(BITS).filter(|(dot, _)| **dot).map(|(_, bit)| bit).sum::<u32>() {
+        0 => ' ',
+        bits if unicode => char::from_u32(0x2800 + bits).unwrap_or(' '),
+        _ => '*',
     }
 }
 
 /// Draws values against times as lines of characters, the highest first; the first time is at the left, the last at the
 /// right, `range` (low, high) at bottom and top.
-fn curve(times: &[f64], values: &[f64], range: (f64, f64), size: (usize, usize), dots: Dots) -> Vec<String> {
-    let ((columns, rows), (wide, high)) = (size, dots.of_a_character());
+fn curve(times: &[f64], values: &[f64], range: (f64, f64), size: (usize, usize), unicode: bool) -> Vec<String> {
+    let ((columns, rows), (wide, high)) = (size, dots_of(unicode));
     let (width, height) = (columns * wide, rows * high);
     let mut marks = vec![false; width * height];
     let (Some(first), Some(last), false) = (times.first(), times.last(), marks.is_empty()) else {
@@ -302,11 +276,11 @@ fn curve(times: &[f64], values: &[f64], range: (f64, f64), size: (usize, usize),
         }
         previous = Some((x, y));
     }
-    let character = |column: usize, row: usize| {
+    let at = |column: usize, row: usize| {
         let dot = |index: usize| marks[(row * high + index / wide) * width + column * wide + index % wide];
-        dots.character(&(0..wide * high).map(dot).collect::<Vec<_>>())
+        character(&(0..wide * high).map(dot).collect::<Vec<_>>(), unicode)
     };
-    (0..rows).map(|row| (0..columns).map(|column| character(column, row)).collect()).collect()
+    (0..rows).map(|row| (0..columns).map(|column| at(column, row)).collect()).collect()
 }
 
 /// Square millimetres in a square metre.
@@ -443,10 +417,9 @@ fn chart(look: &Look, unicode: bool, width: usize, room: usize) -> Vec<String> {
         return Vec::new();
     }
     let rows = room.min(CURVE_LINES.1);
-    let dots = if unicode { Dots::Braille } else { Dots::Stars };
     let (side, corner, bottom) = if unicode { ('│', '└', "─") } else { ('|', '+', "-") };
     let mut lines = vec![readable(title, unicode)];
-    let drawn = curve(&look.times, &shown, (low, high), (columns, rows), dots);
+    let drawn = curve(&look.times, &shown, (low, high), (columns, rows), unicode);
     for (row, line) in drawn.into_iter().enumerate() {
         let label = match row {
             0 => labels[0].as_str(),

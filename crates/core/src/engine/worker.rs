@@ -44,7 +44,6 @@ pub(crate) struct EngineMemory {
     pub overlap_quantum: Quantum,
 }
 
-/// A worker.
 #[derive(Debug)]
 pub(crate) struct Worker<C> {
     communicator: C,

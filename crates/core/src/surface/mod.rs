@@ -18,7 +18,6 @@ mod resample;
 mod rotate;
 mod straighten;
 mod synthesis;
-mod texture_direction;
 mod unroll;
 
 pub use condition::{Condition, Spikes};
@@ -32,5 +31,4 @@ pub use patch::{Body, Length, Patch};
 pub use prepare::{Preparation, Prepared, RawHeights};
 pub use straighten::{Crop, Flip};
 pub use synthesis::{HeightSynthesis, Texture};
-pub use texture_direction::TextureDirection;
 pub use unroll::Unroll;

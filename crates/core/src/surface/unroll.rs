@@ -300,7 +300,6 @@ impl Polar {
         [0, kept.count[1]].map(|rows| self.first_radius + ((kept.first[1] + rows) as f64 - 0.5) * self.row_pitch)
     }
 
-    /// The heights of what is kept.
     fn heights(&self, patch: &Patch, kept: Rectangle) -> Patch {
         let [inner, outer] = self.edges(kept);
         let heights = (kept.first[0]..kept.first[0] + kept.count[0])

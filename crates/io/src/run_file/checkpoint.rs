@@ -125,9 +125,6 @@ pub fn paths(run_file: &Path) -> [PathBuf; 2] {
 
 /// Refuses what has the name of a checkpoint of a run file and is none. Such a file, or link, is replaced only where
 /// `replace` says so; a folder, pipe or device never.
-///
-/// # Errors
-/// [`CheckpointError::Foreign`], and [`CheckpointError::Read`] where that cannot be told.
 pub fn refuse_foreign(run_file: &Path, replace: bool) -> Result<(), CheckpointError> {
     paths(run_file).iter().try_for_each(|path| refuse_one_foreign(path, replace))
 }

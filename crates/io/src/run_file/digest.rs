@@ -26,6 +26,7 @@ use hdf5::{
 };
 use plateau_core::observe::event::EVENT_QUANTITIES;
 use plateau_core::observe::{Map, MapValues};
+use serde::Serialize;
 use sha2::{Digest, Sha256};
 
 use crate::hdf5_file::{self, in_words, text_of, write_text};
@@ -52,7 +53,6 @@ impl Digests {
         update(self.columns.entry(path.to_owned()).or_default(), values);
     }
 
-    /// A map that was appended.
     pub(super) fn append_map(&mut self, path: &'static str, digest: String) {
         self.maps.entry(path).or_default().push(digest);
     }
@@ -270,7 +270,7 @@ pub struct Verification {
 }
 
 /// A part of a run file that is damaged.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct Damage {
     /// Its place, such as `/disc/height at 500 s`.
     pub place: String,
@@ -279,9 +279,6 @@ pub struct Damage {
 }
 
 /// Compares all that a run file holds with the digests that were taken when it was written.
-///
-/// # Errors
-/// [`ReadError`] when it cannot be opened, is no run file, or so damaged that nothing more can be said.
 pub fn verify(path: &Path) -> Result<Verification, ReadError> {
     let run = RunFile::open(path)?;
     let found = Verification {

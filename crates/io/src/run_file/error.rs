@@ -80,7 +80,6 @@ fn what_else_is_safe(path: &Path) -> &'static str {
     }
 }
 
-/// Makes an HDF5 error one of this run file.
 pub(super) fn failed(path: &Path) -> impl Fn(hdf5::Error) -> RunFileError {
     move |error| RunFileError::Write(path.into(), hdf5_reason(&error))
 }

@@ -40,7 +40,6 @@ impl State {
     /// All of them.
     pub(super) const ALL: [Self; 4] = [Self::Running, Self::Finished, Self::Interrupted, Self::Failed];
 
-    /// The one of that name.
     pub(super) fn of(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|state| state.name() == name)
     }

@@ -45,47 +45,38 @@ pub(super) fn event_path(name: &str) -> String {
     format!("{EVENT_GROUP}/{name}")
 }
 
-/// Path of a series.
 pub(super) fn series_path(name: &str) -> String {
     format!("series/{name}")
 }
 
+/// Path, SI unit and long name of a map.
+fn facts_of(map: Map) -> (&'static str, &'static str, &'static str) {
+    match map {
+        Map::DiscHeight => ("disc/height", "m", "surface height of the disc, positive toward the pin"),
+        Map::DiscSubstrate => ("disc/substrate", "m", "height of the disc below any compacted debris"),
+        Map::DiscStatus => ("disc/status", "1", "status of the disc cells"),
+        Map::PinHeight => ("pin/height", "m", "surface height of the pin, positive away from the disc"),
+        Map::PinSubstrate => {
+            ("pin/substrate", "m", "height of the pin below any compacted debris, positive away from the disc")
+        }
+        Map::PinStatus => ("pin/status", "1", "status of the pin cells"),
+        Map::Pressure => ("pin/pressure", "Pa", "contact pressure"),
+        Map::Temperature => ("pin/temperature", "K", "temperature of the contact, pressures frozen during the pass"),
+    }
+}
+
 /// Path of a map.
 pub fn map_path(map: Map) -> &'static str {
-    match map {
-        Map::DiscHeight => "disc/height",
-        Map::DiscSubstrate => "disc/substrate",
-        Map::DiscStatus => "disc/status",
-        Map::PinHeight => "pin/height",
-        Map::PinSubstrate => "pin/substrate",
-        Map::PinStatus => "pin/status",
-        Map::Pressure => "pin/pressure",
-        Map::Temperature => "pin/temperature",
-    }
+    facts_of(map).0
 }
 
 /// SI unit of a map.
 pub(crate) fn map_unit(map: Map) -> &'static str {
-    match map {
-        Map::DiscStatus | Map::PinStatus => "1",
-        Map::Pressure => "Pa",
-        Map::Temperature => "K",
-        _ => "m",
-    }
+    facts_of(map).1
 }
 
-/// Long name of a map.
 pub(super) fn map_long_name(map: Map) -> &'static str {
-    match map {
-        Map::DiscHeight => "surface height of the disc, positive toward the pin",
-        Map::DiscSubstrate => "height of the disc below any compacted debris",
-        Map::DiscStatus => "status of the disc cells",
-        Map::PinHeight => "surface height of the pin, positive away from the disc",
-        Map::PinSubstrate => "height of the pin below any compacted debris, positive away from the disc",
-        Map::PinStatus => "status of the pin cells",
-        Map::Pressure => "contact pressure",
-        Map::Temperature => "temperature of the contact, pressures frozen during the pass",
-    }
+    facts_of(map).2
 }
 
 /// Times in one chunk of a series, at least and at most.
@@ -180,19 +171,17 @@ fn coordinate_bytes(mesh: &Mesh) -> u64 {
     (places * size_of::<f64>() + mesh.pin_cells()) as u64
 }
 
-/// A status with the member names that run files use.
-trait Stored: H5Type + Copy {
-    /// The status of a discriminant of [`Status`], or of [`ABSENT`], if it is one.
-    fn of(value: u8) -> Option<Self>;
+/// A status with the member names that run files use: its place in the list is its number, as [`Status`] and [`ABSENT`] have it.
+trait Stored: H5Type + Copy + 'static {
+    const ALL: &[Self];
 
     /// All of these.
     fn all(values: &[u8]) -> hdf5::Result<Vec<Self>> {
-        let all: Option<Vec<Self>> = values.iter().map(|value| Self::of(*value)).collect();
+        let all: Option<Vec<Self>> = values.iter().map(|value| Self::ALL.get(usize::from(*value)).copied()).collect();
         all.ok_or_else(|| "a value is not a status".into())
     }
 }
 
-/// [`Status`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, H5Type)]
 #[repr(u8)]
 #[allow(non_camel_case_types)]
@@ -203,9 +192,7 @@ enum StoredStatus {
 }
 
 impl Stored for StoredStatus {
-    fn of(value: u8) -> Option<Self> {
-        [Self::none, Self::primary, Self::secondary].into_iter().find(|status| *status as u8 == value)
-    }
+    const ALL: &[Self] = &[Self::none, Self::primary, Self::secondary];
 }
 
 /// The same with cells beyond the pin's outline.
@@ -220,9 +207,7 @@ enum OutlinedStatus {
 }
 
 impl Stored for OutlinedStatus {
-    fn of(value: u8) -> Option<Self> {
-        [Self::none, Self::primary, Self::secondary, Self::absent].into_iter().find(|status| *status as u8 == value)
-    }
+    const ALL: &[Self] = &[Self::none, Self::primary, Self::secondary, Self::absent];
 }
 
 /// The statuses of a file.

@@ -117,7 +117,6 @@ impl Opening<'_> {
         Ok(series)
     }
 
-    /// A dataset that is there and has data.
     pub(super) fn dataset(&self, path: &str) -> Result<Dataset, ReadError> {
         if !self.file.link_exists(path) {
             return Err(ReadError::Foreign(self.path.into(), format!("dataset /{path}")));

@@ -4,7 +4,7 @@ use std::fs;
 use std::os::unix::fs::MetadataExt;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
-use std::time::{Instant, SystemTime};
+use std::time::{Duration, Instant, SystemTime};
 
 use hdf5::{Dataset, File, H5Type};
 use ndarray::{ArrayView2, s};
@@ -18,6 +18,7 @@ use super::error::{failed, hdf5_reason, not_anew};
 use super::image::{Image, MARK, Values};
 use super::layout::{MAP_TIME, Statuses, TIME, map_path, series_path};
 use super::output::Output;
+use super::writer::WriterReport;
 use super::{Earlier, End, Header, ReadError, RunFile, RunFileError, State};
 use crate::hdf5_file::{EMPTY_FILE, open_for_writing, write_text};
 use crate::input::sha256_of;
@@ -76,12 +77,8 @@ impl Datasets {
 
     /// Appends samples and makes them visible to readers.
     pub(super) fn append_samples(&mut self, file: &File, batch: &[Sample]) -> hdf5::Result<()> {
-        let columns = self
-            .series
-            .iter()
-            .map(|(quantity, _)| batch.iter().map(|sample| quantity.value(sample)).collect())
-            .collect();
-        self.append(file, columns, batch.iter().map(|sample| sample.time).collect())
+        let column = |(quantity, _): &(&Quantity, _)| batch.iter().map(|sample| quantity.value(sample)).collect();
+        self.append(file, self.series.iter().map(column).collect(), batch.iter().map(|sample| sample.time).collect())
     }
 
     /// Appends the first samples and maps of another run file, of which it is known that it has them.
@@ -183,9 +180,6 @@ impl Restored {
     }
 
     /// Opens a file as it was when an image of it was taken.
-    ///
-    /// # Errors
-    /// [`RunFileError::Failed`] when there is no room for its copy, [`RunFileError::Earlier`] when that is no run file.
     pub(super) fn as_it_was(path: &Path, image: &Image) -> Result<Self, RunFileError> {
         let copy = image.restore(path).map_err(|error| RunFileError::not_anew(path, error))?;
         let run = RunFile::open(copy.path()).map_err(|error| RunFileError::Earlier(path.into(), error.to_string()))?;
@@ -216,14 +210,6 @@ pub(super) struct Store {
     /// Mark of this file, which no other has.
     mark: String,
     values: Values,
-}
-
-/// Extent of a run file.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Written {
-    pub(super) samples: usize,
-    pub(super) snapshots: usize,
-    pub(super) bytes: u64,
 }
 
 impl Store {
@@ -334,7 +320,7 @@ impl Store {
         end: &End,
         events: &[EventRecord],
         acceleration: Option<Chosen>,
-    ) -> Result<Written, RunFileError> {
+    ) -> Result<WriterReport, RunFileError> {
         self.check_identity()?;
         let Self { path, header, start_time, started, file, datasets, .. } = self;
         let (samples, snapshots) = (datasets.samples, datasets.snapshots);
@@ -345,7 +331,7 @@ impl Store {
         file.close().map_err(failed(&path))?;
         seal.put_on(&path)?;
         let bytes = fs::metadata(&path).map_or(0, |metadata| metadata.len());
-        Ok(Written { samples, snapshots, bytes })
+        Ok(WriterReport { samples, snapshots, bytes, waited: Duration::ZERO })
     }
 }
 

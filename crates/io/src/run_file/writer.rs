@@ -123,7 +123,7 @@ impl RunWriter {
             // Nobody receives any more where the writer has failed.
             let _ = queues.syncs.send(answer);
         }
-        Synced::new(answers, alive)
+        Synced { answers, alive }
     }
 
     /// Sends a sample; readers see it within a second. Waits only when the queue is full.
@@ -136,9 +136,6 @@ impl RunWriter {
     }
 
     /// Sends maps. Waits only when the queue is full.
-    ///
-    /// # Errors
-    /// [`RunFileError::Refused`] when they are not the maps of the header on its mesh; otherwise as [`sample`](Self::sample).
     pub fn snapshot(&mut self, snapshot: Snapshot) -> Result<(), RunFileError> {
         self.check_maps(&snapshot)?;
         let sent = self.queues.as_ref().is_some_and(|queues| send(&queues.snapshots, snapshot, &mut self.waited));
@@ -158,13 +155,7 @@ impl RunWriter {
         acceleration: Option<Chosen>,
     ) -> Result<WriterReport, RunFileError> {
         let store = self.join()?;
-        let written = store.seal(end, events, acceleration)?;
-        Ok(WriterReport {
-            waited: self.waited,
-            samples: written.samples,
-            snapshots: written.snapshots,
-            bytes: written.bytes,
-        })
+        Ok(WriterReport { waited: self.waited, ..store.seal(end, events, acceleration)? })
     }
 
     /// Tells whether a snapshot holds the maps of the header on its mesh.
@@ -222,15 +213,15 @@ impl Drop for RunWriter {
 /// Queues from a simulation to the thread that writes.
 #[derive(Debug)]
 struct Queues {
-    pub(super) samples: Sender<Sample>,
-    pub(super) snapshots: Sender<Snapshot>,
-    pub(super) syncs: Sender<Sender<Vec<Image>>>,
+    samples: Sender<Sample>,
+    snapshots: Sender<Snapshot>,
+    syncs: Sender<Sender<Vec<Image>>>,
     /// See [`Synced`].
-    pub(super) alive: Receiver<()>,
+    alive: Receiver<()>,
 }
 
 /// Sends and adds to `waited` how long that took if the queue was full; false when nobody receives any more.
-pub(super) fn send<T>(queue: &Sender<T>, value: T, waited: &mut Duration) -> bool {
+fn send<T>(queue: &Sender<T>, value: T, waited: &mut Duration) -> bool {
     match queue.try_send(value) {
         Ok(()) => true,
         Err(TrySendError::Disconnected(_)) => false,
@@ -252,11 +243,6 @@ pub struct Synced {
 }
 
 impl Synced {
-    /// The answer to a question that was put to a writer, for as long as that is alive.
-    pub(super) fn new(answers: Receiver<Vec<Image>>, alive: Receiver<()>) -> Self {
-        Self { answers, alive }
-    }
-
     /// For a run file that is complete on the disk.
     pub fn already() -> Self {
         let (answer, answers) = channel::bounded(1);
@@ -306,6 +292,7 @@ fn append_all(
     let mut batch: Vec<Sample> = Vec::new();
     let mut due = channel::never();
     loop {
+        let mut is_due = false;
         crossbeam::select! {
             recv(samples) -> sample => {
                 let Ok(sample) = sample else { break };
@@ -324,31 +311,23 @@ fn append_all(
             recv(syncs) -> answer => {
                 let Ok(answer) = answer else { break };
                 batch.extend(samples.try_iter());
-                for snapshot in snapshots.try_iter() {
-                    store.append_snapshot(&snapshot)?;
-                }
+                snapshots.try_iter().try_for_each(|snapshot| store.append_snapshot(&snapshot))?;
                 store.append_samples(&batch)?;
                 batch.clear();
                 due = channel::never();
                 // Who asked may have given up.
                 let _ = answer.send(store.sync()?.into_iter().collect());
             }
-            recv(due) -> _ => {
-                store.append_samples(&batch)?;
-                batch.clear();
-                due = channel::never();
-            }
+            recv(due) -> _ => is_due = true,
         }
-        if batch.len() == BATCH {
+        if is_due || batch.len() == BATCH {
             store.append_samples(&batch)?;
             batch.clear();
             due = channel::never();
         }
     }
     batch.extend(samples.try_iter());
-    for snapshot in snapshots.try_iter() {
-        store.append_snapshot(&snapshot)?;
-    }
+    snapshots.try_iter().try_for_each(|snapshot| store.append_snapshot(&snapshot))?;
     if batch.is_empty() { Ok(()) } else { store.append_samples(&batch) }
 }
 

@@ -34,7 +34,6 @@ pub(super) fn quantity(value: &Value, dimension: Dimension, range: Range) -> Res
     }
 }
 
-/// A number, if it is in range.
 fn in_range(number: f64, value: &Value, range: Range) -> Result<f64, String> {
     if range.contains(number) { Ok(number) } else { Err(format!("{} is out of range, expected {range}", value.text())) }
 }

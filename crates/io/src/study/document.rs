@@ -40,7 +40,6 @@ pub(super) struct Document {
     pub fit: Option<IgnoredAny>,
 }
 
-/// `[replicates]`.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Replicates {
@@ -48,7 +47,6 @@ pub(super) struct Replicates {
     pub seeds: Spanned<Vec<Spanned<i64>>>,
 }
 
-/// `[[factor]]`.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Factor {
@@ -78,7 +76,6 @@ impl<'de> Deserialize<'de> for Keys {
     }
 }
 
-/// `[[response]]`.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Response {

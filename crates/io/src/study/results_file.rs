@@ -50,12 +50,8 @@ impl Collected {
     }
 
     fn give(&self, rows: &Rows<'_>, content: &Content) -> Result<(), CollectError> {
-        let wanted: Vec<&str> = content
-            .variables
-            .iter()
-            .filter(|variable| variable.values == Values::Rows)
-            .map(|variable| variable.name.as_ref())
-            .collect();
+        let is_wanted = |variable: &&Variable| variable.values == Values::Rows;
+        let wanted: Vec<&str> = content.variables.iter().filter(is_wanted).map(|variable| &*variable.name).collect();
         for (row, run) in self.runs.iter().enumerate() {
             let Some(series) = run.entry.as_ref().map(series).transpose()?.flatten() else { continue };
             for name in &wanted {
@@ -72,42 +68,23 @@ impl Collected {
             |value: fn(&Run) -> usize| Values::Integer(self.runs.iter().map(|run| value(&run.run) as i64).collect());
         let texts = |value: fn(&CollectedRun) -> String| Values::Text(self.runs.iter().map(value).collect());
         let (common, along) = self.samples();
+        let first = Values::Integer(self.runs.iter().map(|run| run.first as i64 + 1).collect());
+        let error =
+            |run: &CollectedRun| if let State::Failed(error) = &run.state { error.clone() } else { String::new() };
+        let wall_time = Values::Float(self.runs.iter().map(|run| run.wall_time).collect());
+        let order = Values::Integer(order_of(plan));
+        let state = texts(|run| run.state.name().into());
         let mut content = Content {
             attributes,
             dimensions: vec![coordinate("run", "1", "number of the run", (1..=self.runs.len()).map(|run| run as f64))],
             variables: vec![
                 variable("point", "1", "point of the design", numbers(|run| run.point + 1)),
                 variable("replicate", "1", "replicate of the point", numbers(|run| run.replicate + 1)),
-                variable(
-                    "order",
-                    "1",
-                    "place in the order in which the runs are made",
-                    Values::Integer(order_of(plan)),
-                ),
-                variable(
-                    "same_as",
-                    "1",
-                    "first run with the same scene",
-                    Values::Integer(self.runs.iter().map(|run| run.first as i64 + 1).collect()),
-                ),
-                variable(
-                    "state",
-                    "",
-                    "how the run ended: finished, failed or missing",
-                    texts(|run| run.state.name().into()),
-                ),
-                variable(
-                    "error",
-                    "",
-                    "why the run failed",
-                    texts(|run| if let State::Failed(error) = &run.state { error.clone() } else { String::new() }),
-                ),
-                variable(
-                    "wall_time",
-                    "s",
-                    "wall time of the run",
-                    Values::Float(self.runs.iter().map(|run| run.wall_time).collect()),
-                ),
+                variable("order", "1", "place in the order in which the runs are made", order),
+                variable("same_as", "1", "first run with the same scene", first),
+                variable("state", "", "how the run ended: finished, failed or missing", state),
+                variable("error", "", "why the run failed", texts(error)),
+                variable("wall_time", "s", "wall time of the run", wall_time),
             ],
         };
         if let Some(replicates) = &study.replicates {
@@ -191,14 +168,12 @@ fn factor_attributes(factor: &Factor, found: Vec<&Level>) -> Vec<(&'static str, 
             (levels.iter().collect(), ends, false)
         }
     };
+    let labels: Vec<_> = listed.iter().map(|level| &level.label).collect();
     let mut attributes = vec![
         ("role", text("factor")),
         ("name", text(&factor.name)),
         ("keys", Attribute::Text(factor.keys.join(", "))),
-        (
-            "levels",
-            Attribute::Text(serde_json::json!(listed.iter().map(|level| &level.label).collect::<Vec<_>>()).to_string()),
-        ),
+        ("levels", Attribute::Text(serde_json::json!(labels).to_string())),
         ("scale", text(if logarithmic { "logarithmic" } else { "linear" })),
         ("whole", Attribute::Integer(i64::from(factor.is_whole()))),
     ];
@@ -270,15 +245,8 @@ fn coordinate(
 }
 
 fn variable(name: impl Into<Name>, unit: &str, long_name: impl Into<Name>, values: Values) -> Variable {
-    let unit = unit.to_owned().into();
-    Variable {
-        name: name.into(),
-        dimensions: vec!["run"],
-        unit,
-        long_name: long_name.into(),
-        attributes: Vec::new(),
-        values,
-    }
+    let (name, unit, long_name) = (name.into(), unit.to_owned().into(), long_name.into());
+    Variable { name, dimensions: vec!["run"], unit, long_name, attributes: Vec::new(), values }
 }
 
 fn rows(name: &'static str, unit: &'static str, long_name: &'static str, along: &'static str) -> Variable {

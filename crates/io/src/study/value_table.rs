@@ -12,7 +12,6 @@ use crate::text::{odd_character, short, text_of_cell, too_long};
 /// Columns that a message names.
 const SHOWN: usize = 12;
 
-/// A table.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct ValueTable {
     path: PathBuf,

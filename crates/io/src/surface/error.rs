@@ -127,7 +127,6 @@ impl From<Hdf5Error> for FileError {
     }
 }
 
-/// What is read.
 const READABLE: &str = "SDF, HDF5, NumPy arrays, PNG, TIFF and text are read";
 
 /// The line that converts a file that another program may know, behind what to do about any file; nothing for another.

@@ -23,9 +23,6 @@ use crate::temporary::Temporary;
 use crate::{input, limits, timestamp};
 
 /// Reads a surface file; what it is, is told by its content.
-///
-/// # Errors
-/// [`FileError`] when the file cannot be read exactly, or holds what no surface has.
 pub fn read(path: &Path, options: &ReadOptions) -> Result<Measured, FileError> {
     if options.profile_lay.is_some() && options.pitch.is_some_and(|[x, y]| x != y) {
         return Err(ProfileError::TwoPitches.into());
@@ -128,10 +125,6 @@ fn refuse_meaningless(options: &ReadOptions, format: Format) -> Result<(), FileE
 /// How far into a file is looked.
 const HEAD: u64 = 4096;
 
-/// Tells what a file is.
-///
-/// # Errors
-/// [`FileError`] when it cannot be read, is not a regular file or is none of the known formats.
 pub(super) fn detect(path: &Path) -> Result<Format, FileError> {
     // Asked before opening: opening a named pipe would wait for its writer.
     let there = std::fs::metadata(path).map_err(|error| input::not_there(path, error))?;
@@ -245,10 +238,6 @@ const ENDINGS: &str = ".sdf, .npy or .h5";
 ///
 /// The format is that of the ending, .sdf, .npy or .h5 in small or large letters. An .npy file has no place for the
 /// pitch. An existing file is replaced only with `replace`. The file appears at `path` when it is complete; whatever goes wrong, a file that was there before stays as it was.
-///
-/// # Errors
-/// [`WriteError`] when the ending is another, the file exists and is not to be replaced, the pitch is no positive number,
-/// a height is infinite, the format has no room for the heights, or the system refuses.
 pub fn write(path: &Path, patch: &Patch, replace: bool) -> Result<(), WriteError> {
     check(patch).map_err(|reason| WriteError::Unsuitable { path: path.into(), reason })?;
     let ending = path.extension().and_then(OsStr::to_str).unwrap_or_default().to_ascii_lowercase();

@@ -239,7 +239,6 @@ fn refuse_promise(width: u64, height: u64, needed: u64, most: usize, bytes: usiz
     })
 }
 
-/// Decodes an image by its format.
 fn decode(content: &[u8], format: Format) -> Result<Raster, ImageError> {
     match format {
         Format::Png => Raster::png(content),
@@ -250,9 +249,6 @@ fn decode(content: &[u8], format: Format) -> Result<Raster, ImageError> {
 
 /// Reads an image as heights: grey levels lie evenly between the heights of black and white, decimal pixels are heights
 /// themselves.
-///
-/// # Errors
-/// [`ImageError`] when the image is damaged, has colours or transparency, or its heights are not told.
 pub(super) fn heights(content: &[u8], format: Format, options: &ReadOptions) -> Result<Measured, ImageError> {
     if format == Format::Jpeg {
         return Err(ImageError::Lossy);
@@ -325,9 +321,6 @@ pub(super) struct Grey {
 
 /// Reads an image as grey levels from black 0 to white 1. Colours become their luma of ITU-R BT.709,
 /// 0.2126 R + 0.7152 G + 0.0722 B.
-///
-/// # Errors
-/// [`ImageError`] when the image is damaged, transparent somewhere, or has decimal pixels beyond 0 and 1.
 pub(super) fn grey(content: &[u8], format: Format) -> Result<Grey, ImageError> {
     let Raster { width, height, colour, samples, pixel, warnings } = decode(content, format)?;
     let (pixels, bits) = match &samples {

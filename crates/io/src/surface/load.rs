@@ -155,9 +155,6 @@ impl Loader<'_> {
 
 /// What a scene makes of the micrograph that the pin's base comes from, and the width of its pixels, m; none where it comes
 /// from something else.
-///
-/// # Errors
-/// [`SurfaceError`] as for [`load`](super::load).
 pub fn micrograph(scene: &Scene) -> Result<Option<(FibreMap, f64)>, SurfaceError> {
     let BaseSource::Image { path, micrograph } = &scene.pin_base else { return Ok(None) };
     let map = fibre_map(path, micrograph, &scene.parameters.mesh);
@@ -394,18 +391,12 @@ fn spread(heights: &[f64]) -> String {
 /// Heights of the pin that come from an instrument (SDF, text, images) are negated after their preparation: an
 /// instrument's peaks are positive, while the pin's z grows away from the disc. HDF5, NumPy and synthetic heights are
 /// taken as they are.
-///
-/// # Errors
-/// [`SurfaceError`], which names the scene's table and the file.
 pub fn load(scene: &Scene) -> Result<Loaded, SurfaceError> {
     Loader::new(scene).load(scene)
 }
 
 /// As [`load`], with the patches from which the heights of disc and pin come: prepared, scaled and with the sign that the
 /// heights have, at their own pitch; none for a body whose heights come from no patch.
-///
-/// # Errors
-/// [`SurfaceError`] as for [`load`].
 pub fn load_with_patches(scene: &Scene) -> Result<(Loaded, Patches), SurfaceError> {
     let mut loader = Loader { patches: Some(Patches::default()), ..Loader::new(scene) };
     let loaded = loader.load(scene)?;

@@ -61,9 +61,6 @@ impl Measured {
     }
 
     /// The heights as a profile; none if they are not taken as one. `pixel` reinterprets the distance of its points, m.
-    ///
-    /// # Errors
-    /// [`ProfileError`] if the distance of its points is unknown.
     pub fn stylus_profile(&self, pixel: Option<f64>) -> Result<Option<StylusProfile>, ProfileError> {
         let Some(lay) = self.profile_lay else { return Ok(None) };
         let pitch = pixel.or(self.pitch.map(|pitch| pitch[0])).ok_or(ProfileError::NoPitch)?;

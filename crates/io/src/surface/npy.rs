@@ -93,7 +93,6 @@ const LONGEST: usize = 10_000;
 /// Bytes from which a header can be read, if the file is that long.
 pub(super) const HEAD: usize = MAGIC.len() + 2 + 4 + LONGEST;
 
-/// What a header says.
 #[derive(Debug, Clone, PartialEq)]
 struct Header {
     /// Type as NumPy writes it, for instance `<f8`.
@@ -250,9 +249,6 @@ impl<'a> Dictionary<'a> {
 const PREFIX: usize = 10;
 
 /// The bytes before the data of an array of that type, as NumPy writes it, and shape; the last index runs fastest.
-///
-/// # Errors
-/// When the array has so many dimensions that their sizes find no room.
 fn preamble(descr: &str, shape: &[usize]) -> io::Result<Vec<u8>> {
     // A tuple of one has a comma after it.
     let sizes: String = shape.iter().map(|size| format!("{size}, ")).collect();
@@ -265,10 +261,6 @@ fn preamble(descr: &str, shape: &[usize]) -> io::Result<Vec<u8>> {
 }
 
 /// Reads the whole content of an .npy file: heights of the model, as those of an HDF5 file.
-///
-/// # Errors
-/// [`NpyError`] when the header is damaged, the array holds no real numbers in two dimensions, or the data are longer or
-/// shorter than the header says.
 pub(super) fn read(content: &[u8], options: &ReadOptions) -> Result<Measured, NpyError> {
     let header = Header::read(content)?;
     let (number, columns, rows) = grid_of(&header, content.len() as u64)?;
@@ -298,9 +290,6 @@ pub(super) fn read(content: &[u8], options: &ReadOptions) -> Result<Measured, Np
 }
 
 /// Refuses an .npy file that is not as long as its first [`HEAD`] bytes say, before the rest is read: it may have gigabytes of holes.
-///
-/// # Errors
-/// [`NpyError`] as for [`read`].
 pub(super) fn check_length(head: &[u8], bytes: u64) -> Result<(), NpyError> {
     grid_of(&Header::read(head)?, bytes).map(drop)
 }
@@ -319,9 +308,6 @@ fn grid_of(header: &Header, bytes: u64) -> Result<(Number, usize, usize), NpyErr
 }
 
 /// Reads an array of an archive: the one that is named, or the only one with two dimensions.
-///
-/// # Errors
-/// [`NpyError`] as for [`read`], and when the archive is damaged or leaves no one choice.
 pub(super) fn read_archive(content: &[u8], options: &ReadOptions) -> Result<Measured, NpyError> {
     let name = options.dataset.as_deref();
     let mut archive = ZipArchive::new(Cursor::new(content))?;
@@ -392,9 +378,6 @@ fn inflate(archive: &mut ZipArchive<Cursor<&[u8]>>, index: usize, bytes: u64) ->
 
 /// Writes the heights of a patch as an .npy file: float64, shape (columns, rows), m, NaN where a point is missing. The
 /// format has no place for the pitch.
-///
-/// # Errors
-/// What the operating system says, or that the patch has other than columns times rows heights.
 pub fn write(path: &Path, patch: &Patch) -> io::Result<()> {
     if patch.columns.checked_mul(patch.rows) != Some(patch.heights.len()) {
         return Err(io::Error::new(io::ErrorKind::InvalidInput, "the patch has other than columns times rows heights"));
@@ -403,9 +386,6 @@ pub fn write(path: &Path, patch: &Patch) -> io::Result<()> {
 }
 
 /// Writes an .npy file of this type and shape.
-///
-/// # Errors
-/// Those of the system.
 pub fn write_array(path: &Path, descr: &str, shape: &[usize], bytes: impl Iterator<Item = u8>) -> io::Result<()> {
     let mut file = BufWriter::new(File::create(path)?);
     file.write_all(&preamble(descr, shape)?)?;

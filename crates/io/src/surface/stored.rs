@@ -1,5 +1,7 @@
 //! Numbers as files store them.
 
+use half::f16;
+
 /// A type of number.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Number {
@@ -41,22 +43,9 @@ impl Number {
                 let unused = 64 - 8 * self.size;
                 ((bits << unused) as i64 >> unused) as f64
             }
-            (Kind::Float, 2) => half(bits as u16),
+            (Kind::Float, 2) => f16::from_bits(bits as u16).to_f64(),
             (Kind::Float, 4) => f64::from(f32::from_bits(bits as u32)),
             (Kind::Float, _) => f64::from_bits(bits),
         }
-    }
-}
-
-/// A number of IEEE 754 binary16.
-fn half(bits: u16) -> f64 {
-    let sign = if bits >> 15 == 1 { -1.0 } else { 1.0 };
-    let exponent = i32::from(bits >> 10 & 0x1f);
-    let fraction = f64::from(bits & 0x3ff) / 1024.0;
-    sign * match exponent {
-        0 => fraction * 2.0_f64.powi(-14),
-        31 if fraction == 0.0 => f64::INFINITY,
-        31 => f64::NAN,
-        _ => (1.0 + fraction) * 2.0_f64.powi(exponent - 15),
     }
 }

@@ -124,9 +124,6 @@ pub struct Rung {
 
 impl Rung {
     /// Reads the scene of a step; `reference` is the time acceleration of the reference.
-    ///
-    /// # Errors
-    /// [`SceneError`] when the scene does not take these values.
     pub fn new(base: &Base, Step { ladder, value, cells }: Step, reference: f64) -> Result<Self, SceneError> {
         let accelerated = |acceleration: f64| format!("numerics.time_acceleration = {acceleration}");
         let columns = cells.columns(&base.scene.parameters.mesh).filter(|_| cells != Cells::Own);

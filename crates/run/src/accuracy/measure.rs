@@ -60,10 +60,6 @@ pub struct Found {
 }
 
 /// Makes the reference, unless there is one, and the runs that fit into the budget.
-///
-/// # Errors
-/// [`AccuracyError`] when the budget is too small or the reference too coarse, when the reference fails, and when a signal came
-/// before anything could be compared.
 pub fn measure(
     mut wish: Wish,
     surfaces: &InitialSurfaces,
@@ -173,7 +169,6 @@ impl Measurement<'_> {
         Ok(Rung::new(&self.wish.base, step, time_acceleration)?)
     }
 
-    /// Initial surfaces of a run.
     fn surfaces_of(&self, rung: &Rung) -> Result<InitialSurfaces, RunError> {
         if rung.scene.disc_surface != self.base().disc_surface {
             let loaded = surface::load(&rung.scene).map_err(|error| InputError::Surface(Box::new(error)))?;

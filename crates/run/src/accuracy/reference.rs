@@ -70,9 +70,6 @@ pub struct ReadReference {
 const MOST_KEYS: usize = 5;
 
 /// Reads the reference of a scene; `inputs` are the surface files that the scene reads, with their digests.
-///
-/// # Errors
-/// [`ReferenceError`] when it is no finished run with samples of this scene.
 pub fn read(path: &Path, scene: &Scene, inputs: &[(PathBuf, String)]) -> Result<ReadReference, ReferenceError> {
     let run = RunFile::open(path)?;
     let shown = path.display();
@@ -186,9 +183,6 @@ pub struct Outcome {
 }
 
 /// Takes all steps of a scene, in memory, and keeps its quantities at the ends of windows.
-///
-/// # Errors
-/// [`Unfinished`].
 pub fn make(
     scene: &Scene,
     surfaces: InitialSurfaces,
@@ -213,9 +207,6 @@ pub fn make(
 }
 
 /// Wall time of the first steps of a scene, s each.
-///
-/// # Errors
-/// When parameters and surfaces make no simulation, or a step fails.
 pub fn try_steps(scene: &Scene, surfaces: InitialSurfaces, execution: Execution) -> Result<f64, RunError> {
     let simulation = Simulation::with_execution(scene.parameters.clone(), surfaces, execution);
     Ok(time_per_step(&mut simulation.map_err(InputError::Simulation)?, scene.steps, TRIAL)?)

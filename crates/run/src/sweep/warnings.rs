@@ -115,7 +115,6 @@ fn around_number(word: &str) -> Option<[&str; 3]> {
     number.parse::<f64>().ok().map(|_| [&word[..start], number, &word[end..]])
 }
 
-/// The numbers of a text.
 fn numbers_of(text: &str) -> impl Iterator<Item = String> + '_ {
     text.split(' ').filter_map(around_number).map(|[_, number, _]| number.to_owned())
 }

@@ -83,7 +83,6 @@ fn at(factor: &Factor, level: usize) -> Setting {
     }
 }
 
-/// Most factors.
 const MOST_FACTORS: usize = 23;
 
 /// First rows of the designs whose other rows follow by turning it, with a last row of minus signs.

@@ -44,29 +44,41 @@ impl Data {
 
     /// Adds the heights of a file, with the form taken out.
     pub fn add_file(&mut self, heights: NamedHeights, form: Level) -> Result<(), Failure> {
-        let NamedHeights { name, map, body, measured } = heights;
-        let closed = body == Some(Body::Disc);
-        let Measured { format, columns, rows, pitch, mut heights, notes, mut warnings, .. } = measured;
+        let NamedHeights { name, map, body, mut measured } = heights;
         // What a run has made of its surfaces is as it is.
         let is_measured = body.is_none();
-        let stand_in = is_measured.then(|| implausible::stand_in(&heights)).flatten();
-        level(&mut heights, rows, form, closed);
+        let stand_in = is_measured.then(|| implausible::stand_in(&measured.heights)).flatten();
+        level(&mut measured.heights, measured.rows, form, body == Some(Body::Disc));
+        let Measured { rows, pitch, ref heights, ref mut warnings, .. } = measured;
         let none = || Failure::input(format!("{name}: none of its {} points has a height", heights.len()));
-        let rms = HeightParameters::of(&heights).ok_or_else(none)?.root_mean_square_height;
+        let rms = HeightParameters::of(heights).ok_or_else(none)?.root_mean_square_height;
         // Numbers that stand for no height make odd heights of any unit.
         if is_measured && stand_in.is_none() {
-            warnings.extend(implausible::odd_units(&heights, rows, pitch, rms));
+            warnings.extend(implausible::odd_units(heights, rows, pitch, rms));
         }
         warnings.extend(stand_in);
-        for warning in &warnings {
+        for warning in warnings {
             message::warning(format_args!("{name}: {warning}"));
         }
-        let title = Path::new(&name).file_name().map_or(name.clone(), |file| file.to_string_lossy().into());
-        let grid = Grid { columns, rows, pitch, heights: &heights };
+        self.add_levelled(&name, &map, body, &measured, form)
+    }
+
+    /// Adds heights from which the form was taken out.
+    pub fn add_levelled(
+        &mut self,
+        name: &str,
+        map: &str,
+        body: Option<Body>,
+        measured: &Measured,
+        form: Level,
+    ) -> Result<(), Failure> {
+        let Measured { format, columns, rows, pitch, ref heights, ref notes, ref warnings, .. } = *measured;
+        let title = Path::new(name).file_name().map_or(name.into(), |file| file.to_string_lossy());
+        let grid = Grid { columns, rows, pitch, heights };
         self.surfaces.push(json!({
             "name": name, "title": title, "map": map, "body": body.map(name_of), "format": format.to_string(),
-            "level": level_name(form, closed), "notes": notes, "warnings": warnings, "is_patch": false, "cells": null,
-            "grid": self.heights("heights", &name, &grid)?,
+            "level": level_name(form, body == Some(Body::Disc)), "notes": notes, "warnings": warnings, "is_patch": false,
+            "cells": null, "grid": self.heights("heights", name, &grid)?,
         }));
         Ok(())
     }

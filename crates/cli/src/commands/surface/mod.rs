@@ -1,6 +1,6 @@
 //! `plateau surface`: what measured and prepared surfaces are like.
 
-mod data;
+pub mod data;
 mod recorded;
 
 use std::path::{Path, PathBuf};

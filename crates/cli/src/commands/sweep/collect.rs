@@ -20,7 +20,6 @@ use crate::{output, program};
 /// Failed runs that are listed.
 const LISTED: usize = 10;
 
-/// Collects what there is.
 pub fn collect(arguments: &CollectArguments) -> Result<(), Failure> {
     let plan = arguments.study.load()?;
     let Found { collected, inputs, left_out, .. } = collected(&plan)?;
@@ -71,9 +70,6 @@ struct Found {
 }
 
 /// The results of a study, as far as there are any.
-///
-/// # Errors
-/// [`Failure::Input`] when a run's scene cannot be built, [`Failure::Run`] when the journal cannot be read.
 fn collected(plan: &Plan) -> Result<Found, Failure> {
     let mut inputs = plan.study().inputs();
     if plan.study().base.is_none() {

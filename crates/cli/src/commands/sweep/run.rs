@@ -12,7 +12,7 @@ use plateau_io::scene::Workers;
 use plateau_io::study::Study;
 use plateau_io::text::shown_on_one_line;
 use plateau_run::sweep::{
-    self, Estimate, Part, Resolved, Sweep, SweepObserver, SweepOptions, SweepSummary, run_in_words, scene_of_run,
+    self, Estimate, Resolved, Sweep, SweepObserver, SweepOptions, SweepSummary, run_in_words, scene_of_run,
 };
 use plateau_run::{Job, RunOptions, signal_in_words};
 
@@ -59,7 +59,7 @@ fn run_study(arguments: &SweepRunArguments, job: &mut Job) -> Result<(), Failure
     let options = SweepOptions {
         retry: arguments.retry,
         keep_files: arguments.keep_files,
-        part: arguments.task.map(|task| Part { number: task.number, count: task.count }),
+        part: arguments.task,
         jobs: arguments.cores.runs_at_a_time(),
         workers: arguments.cores.workers(),
         most_failures: arguments.max_failures.map(|limit| limit as usize),

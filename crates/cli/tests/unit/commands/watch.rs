@@ -17,10 +17,10 @@ fn the_locale_is_that_of_the_first_variable_that_is_set() {
 
 #[test]
 fn a_straight_line_is_a_diagonal() {
-    let lines = curve(&[0.0, 4.0], &[1.0, 5.0], (1.0, 5.0), (5, 5), Dots::Stars);
+    let lines = curve(&[0.0, 4.0], &[1.0, 5.0], (1.0, 5.0), (5, 5), false);
     assert_eq!(lines, ["    *", "   * ", "  *  ", " *   ", "*    "]);
     // In Braille, by the table of the Unicode standard: dots 7, 3+... going up one row and one column at a time.
-    let lines = curve(&[0.0, 3.0], &[0.0, 3.0], (0.0, 3.0), (2, 1), Dots::Braille);
+    let lines = curve(&[0.0, 3.0], &[0.0, 3.0], (0.0, 3.0), (2, 1), true);
     assert_eq!(lines, ["\u{2860}\u{280a}"]); // dots 7 and 6, then 2 and 4
 }
 
@@ -28,16 +28,16 @@ fn a_straight_line_is_a_diagonal() {
 fn many_samples_in_one_column_are_all_seen() {
     let times: Vec<f64> = (0..1000).map(f64::from).collect();
     let values: Vec<f64> = (0..1000).map(|sample| f64::from(sample % 2)).collect();
-    assert_eq!(curve(&times, &values, (0.0, 1.0), (3, 2), Dots::Stars), ["***", "***"]);
+    assert_eq!(curve(&times, &values, (0.0, 1.0), (3, 2), false), ["***", "***"]);
 }
 
 #[test]
 fn nothing_constant_and_not_finite_are_drawn() {
-    assert_eq!(curve(&[], &[], (0.0, 1.0), (3, 1), Dots::Stars), ["   "]);
-    assert_eq!(curve(&[1.0], &[2.0], (2.0, 2.0), (1, 1), Dots::Stars), ["*"]);
+    assert_eq!(curve(&[], &[], (0.0, 1.0), (3, 1), false), ["   "]);
+    assert_eq!(curve(&[1.0], &[2.0], (2.0, 2.0), (1, 1), false), ["*"]);
     let values = [1.0, f64::NAN, 1.0];
-    assert_eq!(curve(&[0.0, 1.0, 2.0], &values, (0.0, 1.0), (3, 2), Dots::Stars), ["***", "   "]);
-    assert_eq!(curve(&[0.0, 1.0], &[0.0, 1.0], (0.0, 1.0), (0, 0), Dots::Braille), [""; 0]);
+    assert_eq!(curve(&[0.0, 1.0, 2.0], &values, (0.0, 1.0), (3, 2), false), ["***", "   "]);
+    assert_eq!(curve(&[0.0, 1.0], &[0.0, 1.0], (0.0, 1.0), (0, 0), true), [""; 0]);
 }
 
 fn look() -> Look {

@@ -224,7 +224,6 @@ struct Job {
 }
 
 impl Job {
-    /// Starts MPI.
     fn start() -> Result<Self, MpiError> {
         let (mut universe, threading) =
             ::mpi::initialize_with_threading(Threading::Funneled).ok_or(MpiError::StartedBefore)?;

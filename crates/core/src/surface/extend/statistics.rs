@@ -316,7 +316,6 @@ impl<'a> Line<'a> {
         means.into_iter().map(|height| centre + (height - centre) * factor).collect()
     }
 
-    /// What is to be warned of.
     pub(super) fn warning(&self) -> Option<String> {
         let length = self.heights.len() as f64 * self.pitch;
         let times = length / self.reach();

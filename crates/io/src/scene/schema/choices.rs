@@ -30,7 +30,7 @@ pub(crate) const INTERPOLATION: Choices<Interpolation, 2> =
 /// `flip` of a preparation.
 pub(crate) const FLIP: Choices<Flip, 3> = [("along", Flip::Along), ("across", Flip::Across), ("both", Flip::Both)];
 /// `level` of a preparation.
-pub(crate) const LEVEL: Choices<Level, 4> =
+pub const LEVEL: Choices<Level, 4> =
     [("quadratic", Level::Quadratic), ("plane", Level::Plane), ("mean", Level::Mean), ("none", Level::None)];
 /// `fill` of a preparation.
 pub(crate) const FILL: Choices<Fill, 2> = [("level", Fill::Level), ("interpolate", Fill::Interpolate)];

@@ -289,7 +289,6 @@ impl Table {
     }
 }
 
-/// A round pin.
 pub(super) const PIN_IS_ROUND: Choose = Choose { key: "mesh.shape", value: "disc" };
 /// A pin that covers all its rows and columns.
 pub(super) const PIN_IS_A_RECTANGLE: Choose = Choose { key: "mesh.shape", value: "rectangle" };

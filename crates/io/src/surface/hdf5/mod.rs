@@ -70,9 +70,6 @@ impl Wanted {
 /// heights of a run file, the last one or that `at` a time in s. Without a name the file's only suitable dataset is taken. Its
 /// attribute `units` may say that heights are in m, `pitch` or coordinates x and y the distance of the points, and the
 /// attributes of netCDF how heights are packed.
-///
-/// # Errors
-/// [`Hdf5Error`] when the file is damaged or the dataset missing, unsuitable or infinite.
 pub(super) fn heights(path: &Path, dataset: Option<&str>, at: Option<f64>) -> Result<Measured, Hdf5Error> {
     if let Some(recorded) = recorded(path, dataset, at)? {
         return Ok(recorded);
@@ -164,9 +161,6 @@ fn pitch(dataset: &Dataset) -> Result<Option<[f64; 2]>, Hdf5Error> {
 
 /// Writes the heights of a patch as the dataset `/height` of a new file: float64, shape (columns, rows), m, NaN where a
 /// point is missing, with the attributes `units` and `pitch` (m, along x and y).
-///
-/// # Errors
-/// [`Hdf5Error::Library`] when the file cannot be written, or the patch has other than columns times rows heights.
 pub fn write(path: &Path, patch: &Patch) -> Result<(), Hdf5Error> {
     let shape = (patch.columns, patch.rows);
     let heights = ArrayView2::from_shape(shape, &patch.heights).map_err(in_words)?;
@@ -186,9 +180,6 @@ pub fn write(path: &Path, patch: &Patch) -> Result<(), Hdf5Error> {
 
 /// Reads a fibre map: integers of shape (columns, rows), 0 = none and 1 = primary; what stands where `is_there` says that there
 /// is no cell, does not matter. Gives the dataset's name too.
-///
-/// # Errors
-/// [`Hdf5Error`] when the file is damaged or the dataset missing, unsuitable or holds another number.
 pub(super) fn base(
     path: &Path,
     dataset: Option<&str>,
@@ -273,7 +264,6 @@ fn bounded_shape(dataset: &Dataset) -> Result<(usize, usize), Hdf5Error> {
     }
 }
 
-/// Maps that are heights.
 const HEIGHTS: [Map; 4] = [Map::DiscHeight, Map::DiscSubstrate, Map::PinHeight, Map::PinSubstrate];
 /// Part of a time by which a map may be from it: that of a step is recorded when it ends.
 const SAME_TIME: f64 = 0.01;

@@ -215,9 +215,6 @@ pub(super) struct Dimensions {
 
 impl Dimensions {
     /// As labels, scales and coordinates have it; x first where they say nothing.
-    ///
-    /// # Errors
-    /// [`Hdf5Error`] when coordinates are not equidistant, or in another unit than one of length.
     pub(super) fn of(dataset: &Dataset) -> Result<Self, Hdf5Error> {
         let (labels, scales) = (labels(dataset)?, scales(dataset)?);
         let name = |place: usize| {

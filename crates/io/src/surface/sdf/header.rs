@@ -248,12 +248,10 @@ pub(super) struct Header {
 
 impl RawHeader {
     pub(super) fn check(&self, dialect: Dialect) -> Result<Header, SdfError> {
-        let data_type = DataType::from_code(self.data_type.0, dialect).ok_or_else(|| SdfError::Field {
-            at: self.data_type.1,
-            field: "DataType",
-            found: self.data_type.0.to_string(),
-            expected: DataType::codes(dialect),
-        })?;
+        let (code, at) = self.data_type;
+        let (field, expected) = ("DataType", DataType::codes(dialect));
+        let unknown = || SdfError::Field { at, field, found: code.to_string(), expected };
+        let data_type = DataType::from_code(code, dialect).ok_or_else(unknown)?;
         zero("Compression", self.compression, "0: compressed data are not read")?;
         zero("CheckType", self.check_type, "0: data with check sums are not read")?;
         Ok(Header {
@@ -272,24 +270,13 @@ impl Header {
     /// Room for the heights in the order of the file. In BCR-1.0 the first profile has the largest y (so MountainsMap
     /// shows such files, and so sdfio reads them; the document itself does not say), in ISO 25178-71 y is 0 there.
     pub(super) fn room(&self) -> Profiles {
-        let (columns, rows) = (self.points, self.profiles);
-        Profiles {
-            columns,
-            rows,
-            downward: self.dialect == Dialect::Bcr1,
-            heights: vec![f64::NAN; columns * rows],
-            done: 0,
-        }
+        let (columns, rows, heights) = (self.points, self.profiles, vec![f64::NAN; self.points * self.profiles]);
+        Profiles { columns, rows, downward: self.dialect == Dialect::Bcr1, heights, done: 0 }
     }
 
     pub(super) fn patch(&self, heights: Profiles) -> Patch {
-        Patch {
-            columns: self.points,
-            rows: self.profiles,
-            column_pitch: self.x_scale,
-            row_pitch: self.y_scale,
-            heights: heights.heights,
-        }
+        let Self { points: columns, profiles: rows, x_scale: column_pitch, y_scale: row_pitch, .. } = *self;
+        Patch { columns, rows, column_pitch, row_pitch, heights: heights.heights }
     }
 
     /// Heights that the header promises.

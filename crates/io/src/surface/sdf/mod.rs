@@ -19,10 +19,6 @@ pub(super) use header::without_margin;
 pub use header::{Dialect, Encoding, Position, SdfError, SdfKind, Surface};
 
 /// Reads an SDF file of `length` bytes, from its start. Memory beyond the heights is a few profiles.
-///
-/// # Errors
-/// [`SdfError`] with line or byte when the content is truncated, promises more than it holds, or holds what is no
-/// number, scale or count.
 pub fn read(mut source: impl BufRead, length: u64) -> Result<Surface, SdfError> {
     match source.fill_buf()?.first() {
         Some(b'b' | b'B') => binary(source, length),
@@ -159,11 +155,8 @@ fn ascii(source: impl BufRead, length: u64) -> Result<Surface, SdfError> {
     let header = read_fields(&mut text, dialect)?.header()?;
     // A height takes at least two bytes: compared before anything is allocated.
     if header.heights() > u128::from(length) / 2 {
-        return Err(SdfError::Truncated {
-            found: length,
-            needed: 2 * header.heights(),
-            what: format!("{} x {} heights", header.points, header.profiles),
-        });
+        let what = format!("{} x {} heights", header.points, header.profiles);
+        return Err(SdfError::Truncated { found: length, needed: 2 * header.heights(), what });
     }
     let patch = read_heights(&mut text, &header)?;
     Ok(Surface { patch, warnings: Vec::new() })
@@ -228,6 +221,18 @@ struct Fields {
     end: Position,
 }
 
+/// Words of BCR-1.0 for types of numbers.
+const WORDS: [(&str, i64); 8] = [
+    ("uchar", 0),
+    ("uinteger", 1),
+    ("ulongint", 2),
+    ("float", 3),
+    ("char", 4),
+    ("integer", 5),
+    ("longint", 6),
+    ("double", 7),
+];
+
 impl Fields {
     fn header(&self) -> Result<Header, SdfError> {
         RawHeader {
@@ -237,19 +242,7 @@ impl Fields {
             y_scale: self.real("Yscale")?,
             z_scale: self.real("Zscale")?,
             compression: self.integer("Compression", &[("null", 0), ("none", 0), ("rll", 1)])?,
-            data_type: self.integer(
-                "DataType",
-                &[
-                    ("uchar", 0),
-                    ("uinteger", 1),
-                    ("ulongint", 2),
-                    ("float", 3),
-                    ("char", 4),
-                    ("integer", 5),
-                    ("longint", 6),
-                    ("double", 7),
-                ],
-            )?,
+            data_type: self.integer("DataType", &WORDS)?,
             check_type: self.integer("CheckType", &[("null", 0), ("none", 0), ("uinttrace", 1)])?,
         }
         .check(self.dialect)

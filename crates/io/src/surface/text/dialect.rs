@@ -113,7 +113,6 @@ pub(super) fn shown(text: &str) -> String {
     shown
 }
 
-/// Whether a line is a comment.
 pub(super) fn is_comment(line: &str) -> bool {
     line.trim_start().starts_with(['#', '%'])
 }
@@ -136,9 +135,6 @@ pub(super) struct Dialect {
 impl Dialect {
     /// The dialect of these lines of numbers. The file may state its separator, the scene give the decimal mark, the header name so many
     /// `columns`.
-    ///
-    /// # Errors
-    /// [`TextError`] where two readings fit, or digits stand in groups.
     pub(super) fn find<'a>(
         lines: impl Iterator<Item = (usize, &'a str)> + Clone,
         stated: Option<char>,

@@ -18,7 +18,6 @@ pub(super) fn length(text: &str, decimal: Decimal) -> Option<f64> {
     positive(units::parse(&point, Dimension::Length).ok())
 }
 
-/// A unit of length, or a length.
 pub(super) fn length_unit(text: &str) -> Option<f64> {
     length(text, Decimal::Point).or_else(|| unit_word(text))
 }

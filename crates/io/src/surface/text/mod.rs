@@ -30,9 +30,6 @@ const NARROW: usize = 100;
 const WIDEST: usize = 8;
 
 /// Reads the whole content of a text file. `xyz` says that it is named as a list of points.
-///
-/// # Errors
-/// [`TextError`] with the line.
 pub(super) fn read(content: &[u8], xyz: bool, options: &ReadOptions) -> Result<Measured, TextError> {
     let text = decode(content);
     let stated = stated_separator(&text);
@@ -44,7 +41,6 @@ pub(super) fn read(content: &[u8], xyz: bool, options: &ReadOptions) -> Result<M
     table(&Numbers::read(lines, stated, options)?, xyz, options)
 }
 
-/// What a table of numbers is.
 fn table(numbers: &Numbers, xyz: bool, options: &ReadOptions) -> Result<Measured, TextError> {
     let (columns, lines) = (numbers.columns, numbers.lines.len());
     if options.profile_lay.is_some() {
@@ -105,9 +101,6 @@ impl Spacing {
     ///
     /// They are on a grid within [`OFF`], or on one of which a tenth of the points is missing at most, or on one when
     /// their rounding to a decimal place is taken into account.
-    ///
-    /// # Errors
-    /// [`TextError`] with the numbers where they are not evenly spaced.
     fn of(coordinates: &[f64], lines: &[usize]) -> Result<Self, TextError> {
         let [first, second, ..] = coordinates else {
             return Err(TextError::ShortProfile { points: coordinates.len() });

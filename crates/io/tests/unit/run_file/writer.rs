@@ -7,6 +7,6 @@ fn a_question_that_nobody_takes_is_answered_with_no() {
     let (answer, answers) = channel::bounded(1);
     questions.send(answer).unwrap();
     drop((taken, life));
-    assert_eq!(Synced::new(answers, alive).wait(), None);
+    assert_eq!(Synced { answers, alive }.wait(), None);
     assert_eq!(Synced::already().wait(), Some(Vec::new()));
 }
