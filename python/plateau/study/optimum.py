@@ -189,7 +189,6 @@ def optimize(
     importance: Sequence[str] = (),
     hold: Mapping[str, Any] | Sequence[str] = (),
     model: str | None = None,
-    terms: str = "all",
     confidence: float = 0.95,
     runs: int = 0,
     confirm: bool = False,
@@ -214,7 +213,7 @@ def optimize(
         ``NAME=NUMBER``: how much a goal counts, 1 unless given.
     hold : dict or sequence of str
         ``FACTOR=VALUE``.
-    model, terms, confidence
+    model, confidence
         As for `effects`.
     runs : int
         Make up to so many runs where improvement is expected, one place after the other, each with all seeds. The best place that was run is given.
@@ -233,7 +232,7 @@ def optimize(
     def made(points: pandas.DataFrame) -> pandas.DataFrame:
         return made_study(study, points, jobs=jobs, workers=workers, retry=confirm, progress=progress).runs
 
-    found = {one.response.name: one for one in surrogates(study, model, terms, confidence)}
+    found = {one.response.name: one for one in surrogates(study, model, confidence)}
     for name in [*(goal.response for goal in goals), *(one.response for one in limits)]:
         if found[name].error:
             raise InputError(f'{study.path or study.title}: response "{name}": {found[name].error}')

@@ -159,7 +159,6 @@ def predict(
     extrapolate: bool = False,
     confirm: bool = False,
     model: str | None = None,
-    terms: str = "all",
     confidence: float = 0.95,
     jobs: int | None = None,
     workers: int | None = None,
@@ -181,7 +180,7 @@ def predict(
         Predict beyond the runs, too.
     confirm : bool
         Make runs there, with all seeds of the study.
-    model, terms : str, optional
+    model : str, optional
         As for `effects`.
     confidence : float
         Level of the intervals.
@@ -197,7 +196,7 @@ def predict(
     >>> predict("loads.toml", {"load": "7 N"}).table[["response", "value", "mean_low", "mean_high", "unit"]]
     """
     opened = usable(analysed(study))
-    known = surrogates(opened, model, terms, confidence)
+    known = surrogates(opened, model, confidence)
     is_curved = all(one.fit.model == "quadratic" for one in known if one.fit)
     if not isinstance(at, Mapping) and not all(isinstance(text, str) for text in at):
         raise InputTypeError(f"at = {at!r}: expected a dictionary, such as {{\"load\": \"7 N\"}}; several places are points=DataFrame(...)")

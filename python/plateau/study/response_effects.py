@@ -25,7 +25,7 @@ MOST_VALUES = 10
 # Members of the document of a response, null where nothing could be fitted.
 MEMBERS = ["model", "model_reason", "runs", "missing", "mean", "middle", "r_squared", "adjusted_r_squared", "predicted_r_squared"]
 MEMBERS += ["residual_standard_deviation", "error_from", "residual", "lack_of_fit", "pure_error", "misfit", "curvature", "box_cox"]
-MEMBERS += ["terms_left_out", "aicc", "equations", "lenth", "terms", "cautions"]
+MEMBERS += ["equations", "lenth", "terms", "cautions"]
 
 
 @dataclass(frozen=True, repr=False)
@@ -153,7 +153,7 @@ def error_from(fit: Fitted) -> str:
         how = "" if is_complete else ", not all at the same points: degrees of freedom after Bell and McCaffrey"
         return f"what each effect differs by between {fit.seeds} sets of seeds{how}"
     left_out = {"main": "interactions", "interactions": "interactions of third and higher order"}
-    said = left_out.get(fit.model if fit.left_out is None and not any(fit.is_curved) else "", "what the model leaves out")
+    said = left_out.get("" if any(fit.is_curved) else fit.model, "what the model leaves out")
     if not fit.scatter[0].freedom:
         return f"pooled: {said}"
     return "replicates" if fit.lack_of_fit[0].freedom <= 0 else f"replicates, pooled with {said}"
@@ -173,8 +173,6 @@ def report_of(one: ResponseEffects) -> dict[str, Any]:
     for row in terms[(terms["term"] == "centre points") & terms["f"].notna()].to_dict("records"):
         report["curvature"] = {"difference": row["effect"], "interval": [row["low"], row["high"]], "f": row["f"], "p": row["p"]}
     report |= {"misfit": misfit(fit), "box_cox": one.box_cox and {"lambda": one.box_cox[0], "interval": list(one.box_cox[1:])}}
-    if fit.left_out is not None:
-        report |= {"terms_left_out": [fit.label(term) for term in fit.left_out], "aicc": plain(fit.aicc)}
     report["equations"] = [{"units": units, "terms": products.to_dict("records")} for units, products in one.equations.items()]
     if np.isnan(fit.error) and (judged := lenth(terms.loc[terms["factors"].str.len() > 0, "effect"], fit.confidence)):
         names = ("pseudo_standard_error", "margin_of_error", "simultaneous_margin_of_error")

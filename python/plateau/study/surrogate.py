@@ -154,16 +154,14 @@ def fills_ranges(study: Study) -> bool:
     return study.design not in SPARSE and all(count > MOST_FACTORIAL_LEVELS for count in counts)
 
 
-def surrogates(
-    study: Study, model: str | None = None, terms: str = "all", confidence: float = 0.95, of_any_design: bool = False
-) -> list[Surrogate]:
+def surrogates(study: Study, model: str | None = None, confidence: float = 0.95, of_any_design: bool = False) -> list[Surrogate]:
     """What forecasts each response; no process if a model is asked for, or points do not fill ranges, unless `of_any_design`."""
-    return [_surrogate(study, one, model, terms, confidence, of_any_design or fills_ranges(study)) for one in study.responses]
+    return [_surrogate(study, one, model, confidence, of_any_design or fills_ranges(study)) for one in study.responses]
 
 
-def _surrogate(study: Study, response: Response, model: str | None, terms: str, confidence: float, may_be_process: bool) -> Surrogate:
+def _surrogate(study: Study, response: Response, model: str | None, confidence: float, may_be_process: bool) -> Surrogate:
     try:
-        fit = fitted(study, response, model, terms, confidence)
+        fit = fitted(study, response, model, confidence)
     except NothingToFit as error:
         return Surrogate(study, response, None, None, False, str(error))
     process = None

@@ -44,7 +44,6 @@ def add(words: Words) -> None:
 
     def model(made: Any) -> None:
         made.add_argument("--model", choices=MODELS, help="What is fitted; unless given, what the design allows")
-        made.add_argument("--terms", choices=("all", "aicc"), default="all", help="Which terms of it: all, or those that the runs support")
         confidence(made)
 
     def cores(made: Any) -> None:
@@ -164,7 +163,7 @@ def _effects(given: argparse.Namespace) -> str:
     from plateau.style import saved
 
     study, folder, _ = _opened(given, "effects")
-    found = effects(study, **options(given, "model", "terms", "confidence"))
+    found = effects(study, **options(given, "model", "confidence"))
     figures = found.figures()
     drawn = saved(figures)
     files = {"effects.csv": csv_of(found.table.drop(columns="factors")), "residuals.csv": csv_of(found.residuals)}
@@ -180,7 +179,7 @@ def _predict(given: argparse.Namespace) -> str:
     inputs = _inputs(study, given.points)
     if given.output is not None:
         refuse_file(given.output, given.force, inputs)
-    asked = options(given, "at", "grid", "points", "extrapolate", "confirm", "model", "terms", "confidence", "jobs", "workers")
+    asked = options(given, "at", "grid", "points", "extrapolate", "confirm", "model", "confidence", "jobs", "workers")
     found = predict(study, **asked, progress=progress(given))
     if given.output is not None:
         refuse_file(given.output, given.force, inputs)
@@ -196,7 +195,7 @@ def _optimize(given: argparse.Namespace) -> str:
     from plateau.style import saved
 
     study, folder, _ = _opened(given, "optimum")
-    asked = options(given, "maximize", "minimize", "target", "limit", "limit_on", "hold", "importance", "model", "terms", "confidence")
+    asked = options(given, "maximize", "minimize", "target", "limit", "limit_on", "hold", "importance", "model", "confidence")
     found = optimize(study, **asked, runs=given.runs or 0, **options(given, "confirm", "jobs", "workers"), progress=progress(given))
     settings = found.settings.set_index("factor")["text"].rename(str.strip)
     files = {"optimum.csv": csv_of(found.table.assign(**settings)), **saved(found.figures(given.contour))}
