@@ -104,20 +104,21 @@ class Surrogate:
     def mean(self, points: pandas.DataFrame) -> Numbers:
         """Expected responses at points (a column for each factor, SI units or words), on the scale of the fit."""
         if self.takes_process and self.process is not None:
-            return self.process.mean(self.rows(points))
+            return np.asarray(self.process.moments(self.rows(points))[0])
         return np.asarray(self._fit.matrix(points) @ self._fit.coefficients)
 
     def deviation(self, points: pandas.DataFrame) -> Numbers:
         """Standard deviations of the mean of many runs, on the scale of the fit; NaN where the runs do not tell it."""
         if self.takes_process and self.process is not None:
-            return self.process.deviation(self.rows(points))
+            _, own, seeds = self.process.moments(self.rows(points))
+            return np.asarray(np.sqrt(own + seeds / self.process.seeds))
         return np.asarray(np.hypot(np.sqrt(self._fit.variances(points)["mean"].to_numpy()), self._apart(points)))
 
     def _apart(self, points: pandas.DataFrame) -> Numbers:
         """Differences of process and polynomial: what of the two is taken by its errors at few points may be wrong by as much."""
         if self.process is None:
             return np.zeros(len(points))
-        return np.abs(self.process.mean(self.rows(points)) - self._fit.matrix(points) @ self._fit.coefficients)
+        return np.asarray(np.abs(self.process.moments(self.rows(points))[0] - self._fit.matrix(points) @ self._fit.coefficients))
 
     @property
     def _fit(self) -> Fitted:
