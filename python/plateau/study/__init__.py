@@ -14,10 +14,9 @@ if TYPE_CHECKING:
     from plateau.study.fit_of_study import fit
     from plateau.study.imports import import_values
     from plateau.study.level_differences import levels
-    from plateau.study.of_scenes import of_scenes
     from plateau.study.optimum import optimize
     from plateau.study.prediction import predict
-    from plateau.study.scene_comparison import compare
+    from plateau.study.scene_comparison import compare, of_scenes
     from plateau.study.seed_counts import seeds_needed
     from plateau.study.variance_parts import sensitivity
 
@@ -27,7 +26,7 @@ ANSWERS = {
     "levels": "level_differences",
     "seeds_needed": "seed_counts",
     "predict": "prediction",
-    "of_scenes": "of_scenes",
+    "of_scenes": "scene_comparison",
     "optimize": "optimum",
     "sensitivity": "variance_parts",
     "fit": "fit_of_study",

@@ -308,13 +308,10 @@ class Fitted:
         return pandas.DataFrame({"value": rows @ self.coefficients, "standard_error": np.sqrt(variances), "freedom": freedoms})
 
     def errors(self, weights: Numbers) -> tuple[Numbers, Numbers]:
-        """Variances of weighted sums of the responses over all seeds, and their degrees of freedom; NaN without an error.
+        """Variances of weighted sums (rows of `weights`) of the responses over all seeds, and their degrees of freedom; NaN without an error.
 
-        With several sets of seeds it is what the sum differs by between them. If all sets have the same points, this is the variance
-        of the mean of one estimate for each set, with a degree of freedom less than there are sets. Else the part of each set is scaled so
-        that it has the right mean if runs scatter alike, and degrees of freedom are those of the same case, after R. M. Bell and D. F.
-        McCaffrey, Survey Methodology 28, 169-181 (2002). With one set of seeds the error is the residual. ``weights`` have a row for each
-        sum and a column for each run.
+        It is what the sum differs by between sets of seeds, of incomplete sets with the right mean if runs scatter alike (R. M. Bell and D. F.
+        McCaffrey, Survey Methodology 28, 169-181 (2002)); with one set of seeds the residual.
         """
         if self.seeds < 2 or np.isnan(self.error):
             variances = self.error * np.square(weights).sum(axis=1)
@@ -339,11 +336,7 @@ class Fitted:
 
     @cached_property
     def _missed(self) -> tuple[float, float]:
-        """Variance by which the mean response of a point differs from the model beyond scatter, and its degrees of freedom.
-
-        It is that which errors at points that were left out support. Without replicates scatter is not known: all of it is taken to be
-        missed.
-        """
+        """Variance by which means of points that were left out differ from the model beyond scatter, and its degrees of freedom."""
         known, pure, freedom = self._held_out[~np.isnan(self.loo)], self.scatter[0], self.point_count - len(self.own)
         if freedom <= 0 or not len(known):
             return (0.0, 1.0) if pure.freedom > 0 else (np.nan, np.nan)

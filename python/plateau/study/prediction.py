@@ -89,10 +89,9 @@ class Prediction:
         """What ``plateau sweep predict`` prints."""
         lines: list[str] = []
         for (number, rows), (_, place) in zip(self.table.groupby("place", sort=False), self.places.iterrows(), strict=True):
-            where = [
-                f"{one.name} = {one.shown(place[one.name])}{'' if one.name in self.given else ' (not given)'}" for one in self.study.factors
-            ]
-            lines += [self.study.title if number == 1 else "", f"  at {', '.join(where)}"]
+            asked = {one.name: "" if one.name in self.given else " (not given)" for one in self.study.factors}
+            where = ", ".join(f"{one.name} = {one.shown(place[one.name])}{asked[one.name]}" for one in self.study.factors)
+            lines += [self.study.title if number == 1 else "", f"  at {where}"]
             cells = []
             for row in rows.to_dict("records"):
                 unit, cell = forecast_cells(self.study, row, self.confidence)
@@ -104,9 +103,8 @@ class Prediction:
             for name, rows in made.groupby("response", sort=False):
                 apart = float(np.sqrt(np.square(rows["confirmed"] - rows["value"]).mean()))
                 within = f"{int(rows['is_within'].sum())} of {len(rows)} places within the interval of runs"
-                lines.append(
-                    f"  {name}: means of runs are {unit_for(rows['unit'].iloc[0], apart).text(apart, is_difference=True)} apart, {within}"
-                )
+                far = unit_for(rows["unit"].iloc[0], apart).text(apart, is_difference=True)
+                lines.append(f"  {name}: means of runs are {far} apart, {within}")
         lines += [f"  {one.response.name}: {one.error or one.reason}" for one in self.surrogates if one.process is not None or one.error]
         return with_minus("\n".join([*lines, *(f"  caution: {caution}" for caution in self.cautions), ""]))
 
@@ -204,10 +202,10 @@ def predict(
     if points is not None:
         places, given = _rows(opened, points, held, is_curved)
     else:
-        if grid and grid > MOST_PLACES:
-            raise InputError(f"--grid {grid}: more than {MOST_PLACES} places; hold factors with --at")
-        axes = {one.name: [held[one.name]] if one.name in held else axis_of(one, grid, is_curved) for one in opened.factors}
-        if np.prod([float(len(axis)) for axis in axes.values()]) > MOST_PLACES:
+        # A grid of very many is refused before it is made.
+        step = min(grid or 0, MOST_PLACES + 1)
+        axes = {one.name: [held[one.name]] if one.name in held else axis_of(one, step, is_curved) for one in opened.factors}
+        if step > MOST_PLACES or np.prod([float(len(axis)) for axis in axes.values()]) > MOST_PLACES:
             raise InputError(f"--grid {grid}: more than {MOST_PLACES} places; hold factors with --at")
         places = pandas.DataFrame(list(itertools.product(*axes.values())), columns=list(axes))
         given = list(axes) if grid else list(held)
@@ -215,16 +213,12 @@ def predict(
     if not extrapolate and (first := next((at for at, said in enumerate(beyond) if said), None)) is not None:
         which = f"place {first + 1}: " if len(places) > 1 else ""
         raise InputError(f"{which}{beyond[first]}; the model knows nothing there, give --extrapolate to see what it says nevertheless")
-    made = None
-    if confirm:
-        made = made_study(opened, places, jobs=jobs, workers=workers, progress=progress).runs
+    made = made_study(opened, places, jobs=jobs, workers=workers, progress=progress).runs if confirm else None
     general = [*together(opened), *no_curve(opened, places)]
     for said in general:
         warnings.warn(said, PlateauWarning, stacklevel=2)
     tables = [forecast_table(one, places, beyond, confidence, made) for one in known]
-    cautions = general + [
-        f"{one.response.name}: {said}" for one, table in zip(known, tables, strict=True) for said in table.attrs["cautions"]
-    ]
+    cautions = general + [f"{one.response.name}: {said}" for one, table in zip(known, tables, strict=True) for said in table.attrs["cautions"]]
     table = pandas.concat([table.assign(own=own) for own, table in enumerate(tables)]).sort_values(["place", "own"], ignore_index=True)
     return Prediction(opened, places, given, table.drop(columns="own"), known, confidence, cautions)
 

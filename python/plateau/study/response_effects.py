@@ -70,7 +70,7 @@ class ResponseEffects:
     @property
     def unit(self) -> str:
         """SI unit of what is fitted."""
-        return self.response.unit if self.response.transform == "none" else "1"
+        return self.response.unit_of_fit
 
     @property
     def terms(self) -> pandas.DataFrame:
@@ -125,7 +125,7 @@ class ResponseEffects:
         at_cell = [np.logical_and.reduce([is_same(fit.runs[name], row[name]) for name in factors]) for _, row in cells.iterrows()]
         observed = [fit.values[own].mean() if own.any() else np.nan for own in at_cell]
         ends = {"mean": values, "low": values - reach, "high": values + reach}
-        return cells.assign(**ends, observed=observed, runs=[int(own.sum()) for own in at_cell], unit=self.unit)
+        return cells.assign(**ends, observed=observed, runs=[int(own.sum()) for own in at_cell], unit=self.response.unit_of_fit)
 
     @property
     def residuals(self) -> pandas.DataFrame:
@@ -138,7 +138,7 @@ class ResponseEffects:
         distance = standardised**2 * fit.leverages / (free * len(fit.fit.kept))
         which = {"response": self.response.name, "run": fit.runs.index, "made_as": fit.runs["order"], "replicate": fit.runs["replicate"]}
         values = {"fitted": fit.values - fit.residuals, "residual": fit.residuals, "standardised": standardised}
-        return pandas.DataFrame(which | values | {"leverage": fit.leverages, "cooks_distance": distance, "unit": self.unit})
+        return pandas.DataFrame(which | values | {"leverage": fit.leverages, "cooks_distance": distance, "unit": self.response.unit_of_fit})
 
 
 def error_from(fit: Fitted) -> str:
@@ -188,14 +188,11 @@ def report_of(one: ResponseEffects) -> dict[str, Any]:
 
 
 def _aliases(fit: Fitted) -> tuple[set[int], list[list[str]]]:
-    """Columns that the runs do not tell, and by mean, blocks and terms, the labels of the terms that they cannot be told from.
-
-    Of two columns that are the same but for a factor the first is told, as the sum of both; of a combination of more, which an empty cell
-    makes, none is.
-    """
+    """Columns that the runs do not tell, and by mean, blocks and terms, the labels of the terms that they cannot be told from."""
     labels = ["mean", "replicate", *(fit.label(term) for term in fit.terms)]
     untold, pairs = set(), []
     for column, (parts, _) in fit.fit.relations.items():
+        # Of two columns that are the same but for a factor the first is told, as the sum of both; of a combination of more none is.
         untold |= {column, *parts} if len(parts) > 1 else {column}
         pairs += [(fit.owner(column), fit.owner(part)) for part in parts or [0]]
     for at, term in enumerate(fit.terms):
@@ -257,17 +254,14 @@ def effect_table(fit: Fitted) -> pandas.DataFrame:
         row |= {"f": f, "p": p} if name == "lack of fit" else {}
         rows.append(row | {"share": squares.sum / fit.total.sum, "aliased_with": []})
     table = pandas.DataFrame(rows).reindex(columns=COLUMNS)
-    table["response"], table["unit"] = fit.response.name, fit.response.unit if fit.response.transform == "none" else "1"
+    table["response"], table["unit"] = fit.response.name, fit.response.unit_of_fit
     if np.isnan(fit.error) and (judged := lenth(table.loc[table["factors"].str.len() > 0, "effect"], fit.confidence)) is not None:
         table.loc[table["effect"].notna(), ["margin_of_error", "simultaneous_margin_of_error"]] = judged[1:]
     return table
 
 
 def lenth(effects: pandas.Series, confidence: float) -> tuple[float, float, float] | None:
-    """Pseudo standard error and margins of effects that have no error; None of fewer than six.
-
-    R. V. Lenth, Technometrics 31, 469-473 (1989).
-    """
+    """Pseudo standard error and margins of effects without an error, none of fewer than six (R. V. Lenth, Technometrics 31, 469-473 (1989))."""
     sizes = effects.dropna().abs().to_numpy(float)
     if len(sizes) < 6 or (first := 1.5 * float(np.median(sizes))) <= 1e-12 * sizes.max():
         return None
@@ -280,8 +274,7 @@ def lenth(effects: pandas.Series, confidence: float) -> tuple[float, float, floa
 def box_cox(fit: Fitted) -> tuple[float, float, float] | None:
     """Power of the response that the model fits best, and the powers that fit hardly worse; None unless all responses are above 0.
 
-    G. E. P. Box and D. R. Cox, J. R. Stat. Soc. B 26, 211-252 (1964): the likelihood of a power at its best is that of the residual sum
-    of squares of (u^power - 1)/power, with u the response by its geometric mean.
+    Its likelihood is that of (u^power - 1)/power, u the response by its geometric mean (G. E. P. Box, D. R. Cox, J. R. Stat. Soc. B 26 (1964)).
     """
     responses, basis = fit.response.back(fit.values), fit.fit.basis
     if np.isnan(fit.error) or not (responses > 0).all() or fit.residual_freedom < 3:

@@ -71,11 +71,8 @@ class Surrogate:
         unit, deviation = unit_for(self.response.unit, float(np.abs(values).max())), values.std()
 
         def shown(error: float) -> str:
-            if np.isnan(error):
-                return "not known"
-            return (
-                f"{with_digits(error * unit.per_si, error * unit.per_si)} {unit.symbol}".strip() + f" (Q² {1 - (error / deviation) ** 2:.3f})"
-            )
+            size = f"{with_digits(error * unit.per_si, error * unit.per_si)} {unit.symbol}".strip()
+            return "not known" if np.isnan(error) else f"{size} (Q² {1 - (error / deviation) ** 2:.3f})"
 
         errors = self._loo_errors if self.process is not None else self._loo_errors[:1]
         said = "leave-one-out error: " + ", ".join(f"{self._words(bool(at))} {shown(error)}" for at, error in enumerate(errors))
