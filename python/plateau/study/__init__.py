@@ -21,18 +21,9 @@ if TYPE_CHECKING:
     from plateau.study.variance_parts import sensitivity
 
 # Where each answer is found.
-ANSWERS = {
-    "effects": "analysis",
-    "levels": "level_differences",
-    "seeds_needed": "seed_counts",
-    "predict": "prediction",
-    "of_scenes": "scene_comparison",
-    "optimize": "optimum",
-    "sensitivity": "variance_parts",
-    "fit": "fit_of_study",
-    "import_values": "imports",
-    "compare": "scene_comparison",
-}
+ANSWERS = {"effects": "analysis", "levels": "level_differences", "seeds_needed": "seed_counts", "predict": "prediction", "optimize": "optimum"}
+ANSWERS |= {"sensitivity": "variance_parts", "fit": "fit_of_study", "import_values": "imports"}
+ANSWERS |= dict.fromkeys(("compare", "of_scenes"), "scene_comparison")
 
 __all__ = ["Factor", "Response", "Study", "compare", "effects", "fit", "import_values", "levels", "of_scenes", "open_study"]
 __all__ += ["optimize", "predict", "seeds_needed", "sensitivity"]

@@ -4,7 +4,7 @@ import itertools
 import warnings
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, lru_cache
 from typing import Any
 
 import numpy as np
@@ -188,18 +188,23 @@ class Problem:
     def _climbed(self, start: Start) -> Start:
         """Goes on from a start along slopes and limits."""
         merit, levels, place = start
+        step = 1e-5 * np.eye(len(place))
 
-        def smooth(x: Numbers) -> Numbers:
-            """Minus the logarithm of the desirability, and the margins of the limits."""
-            found = self.forecasts(self.points(levels, self.within(levels, x[None])))
+        @lru_cache(maxsize=8)
+        def smooth(cube: bytes) -> tuple[Numbers, Numbers]:
+            """Minus the logarithm of the desirability and the margins of the limits, and their slopes, of one forecast of all places."""
+            x = np.frombuffer(cube)
+            found = self.forecasts(self.points(levels, self.within(levels, np.vstack([x, x + step, x - step]))))
             logs = sum(goal.importance * np.log(np.maximum(goal.way(found[goal.response]["value"]), 1e-9)) for goal in self.goals)
-            return np.concatenate([-logs, *(limit.margin(found[limit.response]) for limit in self.limits)])
+            values = np.column_stack([-logs, *(limit.margin(found[limit.response]) for limit in self.limits)])
+            return values[0], ((values[1 : 1 + len(x)] - values[1 + len(x) :]) / 2e-5).T
 
-        options: dict[str, Any] = {"constraints": {"type": "ineq", "fun": lambda x: smooth(x)[1:]}} if self.limits else {}
-        options |= {"method": "SLSQP", "jac": "3-point", "options": {"ftol": 1e-13}, "bounds": [(-1.0, 1.0)] * len(place)}
+        kept = {"type": "ineq", "fun": lambda x: smooth(x.tobytes())[0][1:], "jac": lambda x: smooth(x.tobytes())[1][1:].copy()}
+        options: dict[str, Any] = {"constraints": kept} if self.limits else {}
+        options |= {"jac": lambda x: smooth(x.tobytes())[1][0].copy(), "options": {"ftol": 1e-13}, "bounds": [(-1.0, 1.0)] * len(place)}
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", RuntimeWarning)
-            x = np.clip(minimize(lambda x: smooth(x)[0], place, **options).x, -1.0, 1.0)
+            x = np.clip(minimize(lambda x: smooth(x.tobytes())[0][0], place, method="SLSQP", **options).x, -1.0, 1.0)
         found = float(self.merit(self.at(levels, x[None]))[0]) if np.isfinite(x).all() else -np.inf
         return (found, levels, x) if found > merit else start
 

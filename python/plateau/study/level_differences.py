@@ -51,9 +51,7 @@ class LevelDifferences:
         return "\n".join([f"Differences between levels, simultaneous {100 * self.confidence:g} % intervals ({self.method})", *said, ""])
 
 
-def levels(
-    study: Study | str | os.PathLike[str], control: str | None = None, model: str | None = None, confidence: float = 0.95
-) -> LevelDifferences:
+def levels(study: Study | str | os.PathLike[str], control: str | None = None, model: str | None = None, confidence: float = 0.95) -> LevelDifferences:
     """Compares the levels of all factors that have three and more.
 
     Parameters

@@ -13,13 +13,8 @@ MOST_TRIED = 300
 NO_CURVE = "no factor that is a number has more than two values"
 
 
-def fitted(
-    study: Study, response: Response, model: str | None = None, confidence: float = 0.95, centre: bool = False
-) -> Fitted:
-    """Fits a model to a response; with `centre`, centre points have a term of their own where their squares cannot be told apart.
-
-    Raises `NothingToFit` if the response has no values, or the same one in all runs.
-    """
+def fitted(study: Study, response: Response, model: str | None = None, confidence: float = 0.95, centre: bool = False) -> Fitted:
+    """Fits a model to a response, with `centre` with a term of centre points; `NothingToFit` if all values are the same, or there are none."""
     if not 0.0 < confidence < 1.0:
         raise InputError(f"confidence level {confidence}: it lies between 0 and 1, such as 0.95")
     if model is not None and model not in MODELS:
@@ -87,11 +82,7 @@ def no_squares(fit: Fitted) -> str:
 
 
 def misfit(fit: Fitted) -> dict[str, Any] | None:
-    """Finds what a model misses, if that is significant at the confidence level, and the model to try, with its share.
-
-    Replicates tell it, or a model that has all terms of this one and more: with several such models the level is divided by their
-    number, after Bonferroni.
-    """
+    """What a model misses significantly, by replicates or by models with all its terms and more (Bonferroni), and the model to try."""
     if np.isnan(fit.error):
         return None
     own, level = fit.residual, 1.0 - fit.confidence

@@ -118,8 +118,9 @@ class Optimum:
         cells, confirmed = [], []
         for row in self.table.to_dict("records"):
             unit, cell = forecast_cells(self.problem.study, row, self.problem.confidence)
-            goals = [f"{AIMS[goal.aim]} {' … '.join(f'{unit.value(value):.4g}' for value in goal.values)}" for goal in self._of(row, self.problem.goals)]
-            wanted = "; ".join([*goals, *(_limit_words(limit, unit) for limit in self._of(row, self.problem.limits))])
+            aims = [(goal.aim, [f"{unit.value(value):.4g}" for value in goal.values]) for goal in self._of(row, self.problem.goals)]
+            limits = [_limit_words(limit, unit) for limit in self._of(row, self.problem.limits)]
+            wanted = "; ".join([*(f"{AIMS[aim]} {' … '.join(values)}" for aim, values in aims), *limits])
             worth = "" if np.isnan(row["desirability"]) else f"{row['desirability']:.3g}"
             cells.append({**cell, "goal": wanted, "desirability": worth})
             confirmed += [f"  {row['response']}: {confirmed_words(row, unit)}"] if row["confirmed_runs"] else []
@@ -173,23 +174,11 @@ class Optimum:
 
 
 def optimize(
-    study: Study | str | os.PathLike[str],
-    *,
-    maximize: Sequence[str] = (),
-    minimize: Sequence[str] = (),
-    target: Sequence[str] = (),
-    limit: Sequence[str] = (),
-    limit_on: str = "mean",
-    importance: Sequence[str] = (),
-    hold: Mapping[str, Any] | Sequence[str] = (),
-    model: str | None = None,
-    confidence: float = 0.95,
-    runs: int = 0,
-    confirm: bool = False,
-    jobs: int | None = None,
-    workers: int | None = None,
-    progress: bool | None = None,
-) -> Optimum:
+    study: Study | str | os.PathLike[str], *, maximize: Sequence[str] = (), minimize: Sequence[str] = (), target: Sequence[str] = (),
+    limit: Sequence[str] = (), limit_on: str = "mean", importance: Sequence[str] = (), hold: Mapping[str, Any] | Sequence[str] = (),
+    model: str | None = None, confidence: float = 0.95, runs: int = 0, confirm: bool = False,
+    jobs: int | None = None, workers: int | None = None, progress: bool | None = None,
+) -> Optimum:  # fmt: skip
     """Finds the settings at which responses are best.
 
     Parameters

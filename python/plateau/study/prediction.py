@@ -149,19 +149,10 @@ def confirmed_by(row: dict[Any, Any]) -> dict[str, Any] | None:
 
 
 def predict(
-    study: Study | str | os.PathLike[str],
-    at: Mapping[str, Any] | Sequence[str] = (),
-    grid: int | None = None,
-    points: pandas.DataFrame | str | os.PathLike[str] | None = None,
-    *,
-    extrapolate: bool = False,
-    confirm: bool = False,
-    model: str | None = None,
-    confidence: float = 0.95,
-    jobs: int | None = None,
-    workers: int | None = None,
-    progress: bool | None = None,
-) -> Prediction:
+    study: Study | str | os.PathLike[str], at: Mapping[str, Any] | Sequence[str] = (), grid: int | None = None,
+    points: pandas.DataFrame | str | os.PathLike[str] | None = None, *, extrapolate: bool = False, confirm: bool = False,
+    model: str | None = None, confidence: float = 0.95, jobs: int | None = None, workers: int | None = None, progress: bool | None = None,
+) -> Prediction:  # fmt: skip
     """Predicts the responses of a study.
 
     Parameters
@@ -223,9 +214,7 @@ def predict(
     return Prediction(opened, places, given, table.drop(columns="own"), known, confidence, cautions)
 
 
-def forecast_table(
-    one: Surrogate, places: pandas.DataFrame, beyond: list[str], confidence: float, made: pandas.DataFrame | None
-) -> pandas.DataFrame:
+def forecast_table(one: Surrogate, places: pandas.DataFrame, beyond: list[str], confidence: float, made: pandas.DataFrame | None) -> pandas.DataFrame:
     """Forecasts of a response, with what is to be known of each."""
     names, response = ["value", *INTERVALS, "leverage"], one.response
     untold = pandas.DataFrame(np.nan, index=places.index, columns=names)

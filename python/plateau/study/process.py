@@ -41,7 +41,8 @@ class Equations:
 
     def correlation(self, x: Numbers) -> Numbers:
         """Correlations of the process at places with those at the points (set, place, point)."""
-        return np.asarray(np.prod([(1.0 + a + a * a / 3.0) * np.exp(-a) for a in self.apart(x)], axis=0))
+        apart = self.apart(x)
+        return np.asarray(np.prod([1.0 + a + a * a / 3.0 for a in apart], axis=0) * np.exp(-np.sum(apart, axis=0)))
 
     def gradient(self) -> Numbers:
         """Derivatives of `log_density` by the logarithms."""

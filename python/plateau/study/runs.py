@@ -22,9 +22,7 @@ from plateau.toml_text import toml_document
 OF_DESIGNS = {"resolution", "generators", "points", "trajectories", "levels", "alpha", "centre_points", "seed", "fit"}
 
 
-def made_study(
-    study: Study, points: pandas.DataFrame, *, progress: bool | None = None, retry: bool = False, **options: int | None
-) -> Study:
+def made_study(study: Study, points: pandas.DataFrame, *, progress: bool | None = None, retry: bool = False, **options: int | None) -> Study:
     """Makes runs at points of a study that was opened by its file, each with all its seeds, and opens them as a study of their own.
 
     `points` have a column for each factor, SI units or words; ``point`` of the runs is their row, from 1. With `retry`, runs are made again
@@ -75,15 +73,9 @@ def finished(path: Path, progress: bool | None, retry: bool = False, **options: 
 
 
 def make_missing(
-    path: str | os.PathLike[str],
-    progress: bool | None,
-    retry: bool = False,
-    *,
-    stacklevel: int = 4,
-    jobs: int | None = None,
-    workers: int | None = None,
-    max_failures: int | None = None,
-) -> None:
+    path: str | os.PathLike[str], progress: bool | None, retry: bool = False, *, stacklevel: int = 4,
+    jobs: int | None = None, workers: int | None = None, max_failures: int | None = None,
+) -> None:  # fmt: skip
     """Makes the missing runs of a study file in this process."""
     with Progress(progress, stacklevel) as shown:
         native().make_runs(path, jobs, workers, max_failures, retry, shown.tell)

@@ -29,18 +29,11 @@ from plateau.toml_text import toml_document, toml_of
 from plateau.units import unit_for, unit_of, with_minus
 
 # What is compared unless asked otherwise: name, dataset with question, table of the scene without which there is no such series.
-USUAL = [
-    ("contact area", "contact_area:mean", ""),
-    ("running-in time", "contact_area:reaches 0.9", ""),
-    ("filled fraction", "filled_fraction:end", ""),
-    ("secondary on the pin", "pin_secondary:mean", ""),
-    ("worn off the pin", "worn_whole_pin:end", ""),
-    ("worn off the disc", "worn_disc:end", ""),
-    ("emitted", "emitted:end", ""),
-    ("friction coefficient", "friction_coefficient:mean", "friction"),
-    ("temperature of the contact", "contact_temperature:mean", "thermal"),
-    ("PM10", "pm10_mass:end", "emission"),
-]
+USUAL = [("contact area", "contact_area:mean", ""), ("running-in time", "contact_area:reaches 0.9", "")]
+USUAL += [("filled fraction", "filled_fraction:end", ""), ("secondary on the pin", "pin_secondary:mean", "")]
+USUAL += [("worn off the pin", "worn_whole_pin:end", ""), ("worn off the disc", "worn_disc:end", ""), ("emitted", "emitted:end", "")]
+USUAL += [("friction coefficient", "friction_coefficient:mean", "friction"), ("temperature of the contact", "contact_temperature:mean", "thermal")]
+USUAL += [("PM10", "pm10_mass:end", "emission")]
 NOTE = (
     "Differences are means over pairs of runs with the same seed, with t intervals ({level}); with more than two scenes, intervals and "
     "sureness hold for all differences of a response together (Bonferroni). Sure at: 1 − p/2, how sure the sign is."
@@ -130,17 +123,10 @@ class Comparison:
 
 
 def compare(
-    scenes: Sequence[str | os.PathLike[str]],
-    seeds: int = 5,
-    *,
-    responses: Sequence[str] = (),
-    set: Mapping[str, Any] | Sequence[str] = (),
-    output: str | os.PathLike[str] = "comparison",
-    confidence: float = 0.95,
-    jobs: int | None = None,
-    workers: int | None = None,
-    progress: bool | None = None,
-) -> Comparison:
+    scenes: Sequence[str | os.PathLike[str]], seeds: int = 5, *, responses: Sequence[str] = (), set: Mapping[str, Any] | Sequence[str] = (),
+    output: str | os.PathLike[str] = "comparison", confidence: float = 0.95,
+    jobs: int | None = None, workers: int | None = None, progress: bool | None = None,
+) -> Comparison:  # fmt: skip
     """Runs scenes with the same seeds and compares their responses; runs that exist are not made again.
 
     Parameters
@@ -203,9 +189,7 @@ def compare(
     return _compared(made, dict(zip(names, map(str, files), strict=True)), confidence, cautions, directory, not responses)
 
 
-def _compared(
-    made: dict[str, Study], scenes: dict[str, str], confidence: float, cautions: list[str], directory: Path, are_usual: bool
-) -> Comparison:
+def _compared(made: dict[str, Study], scenes: dict[str, str], confidence: float, cautions: list[str], directory: Path, are_usual: bool) -> Comparison:
     seeds = {scene: study.runs["seed"] if study.factors[0].is_number else [0] for scene, study in made.items()}
     runs = {scene: study.runs.set_index(pandas.Index(seeds[scene], name="seed", dtype=int)) for scene, study in made.items()}
     most = max(runs.values(), key=len).index

@@ -28,12 +28,9 @@ def add(words: Words) -> None:
             made.add_argument("study", type=Path, metavar="STUDY", help="Study file (TOML)")
         return made
 
-    def common(
-        made: Any,
-        *,
-        output: str | None = None,
-        force: str = "Replace the files of an earlier call, and remove those that this call does not write",
-    ) -> None:
+    earlier = "Replace the files of an earlier call, and remove those that this call does not write"
+
+    def common(made: Any, *, output: str | None = None, force: str = earlier) -> None:
         if output is not None:
             made.add_argument("-o", "--output", type=Path, metavar="DIR", help=output)
         made.add_argument("--json", action="store_true", help="Print one JSON document instead of text")
@@ -69,9 +66,8 @@ def add(words: Words) -> None:
     for flag, example in (("maximize", "contact area=1 mm2..2 mm2"), ("minimize", "worn=0..1 mm3"), ("target", "filled=0.5..0.7..0.8")):
         several(made, f"--{flag}", "RESPONSE", f'A goal, such as "{example}"; may be repeated')
     several(made, "--limit", "RESPONSE<=VALUE", 'Keep a response below or above a value: "filled<=0.9"')
-    made.add_argument(
-        "--limit-on", choices=("mean", "means", "runs"), default="mean", help="What keeps the limits: the mean, its interval, that of a run"
-    )
+    about = "What keeps the limits: the mean, its interval, that of a run"
+    made.add_argument("--limit-on", choices=("mean", "means", "runs"), default="mean", help=about)
     several(made, "--hold", "FACTOR=VALUE", 'Hold a factor at a value, such as load="8 N"')
     several(made, "--importance", "RESPONSE=NUMBER", "How much a goal counts; 1 unless given")
     made.add_argument("--contour", metavar="FACTOR,FACTOR", help="Draw the desirability over two factors")
@@ -86,9 +82,8 @@ def add(words: Words) -> None:
     common(made, output='Folder for table and figures; "sensitivity" in the study\'s own unless given')
 
     made = word(study, "import", "Take in responses that were measured or computed elsewhere", _import, "  plateau sweep import study.toml measured.csv")
-    made.add_argument(
-        "table", type=Path, metavar="TABLE", help="Table (CSV) with a column for each factor and for each response with imported = true"
-    )
+    about = "Table (CSV) with a column for each factor and for each response with imported = true"
+    made.add_argument("table", type=Path, metavar="TABLE", help=about)
     common(made, force="Replace values that were imported before")
 
     made = word(words, "fit", "Find the values of keys with which runs give what was measured", _fit, "  plateau fit data/studies/fit-captured-fraction.toml --plan")
@@ -106,9 +101,6 @@ def add(words: Words) -> None:
     cores(made)
     confidence(made)
     common(made, output='Folder for runs, tables, figures and the page; "comparison" unless given')
-
-
-# Answers ---------------------------------------------------------------------------------------------------------------------------
 
 
 def _told(given: argparse.Namespace, found: Any, folder: Path, files: list[str], title: str = "") -> str:
@@ -132,9 +124,7 @@ def csv_of(table: "pandas.DataFrame") -> bytes:
         value = plain(value)
         return "" if value is None else str(value).lower() if isinstance(value, bool) else str(value)
 
-    return written_table(
-        [list(map(str, table.columns)), *([cell(value) for value in row] for row in table.itertuples(index=False, name=None))]
-    )
+    return written_table([list(map(str, table)), *(list(map(cell, row)) for row in table.itertuples(index=False, name=None))])
 
 
 def _opened(given: argparse.Namespace, name: str, of: str | None = None) -> tuple["Study", Path, str | None]:
