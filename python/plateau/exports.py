@@ -4,10 +4,11 @@ import importlib.util
 import json
 import math
 import os
+import zipfile
 from collections.abc import Callable
 from functools import partial
 from pathlib import Path
-from typing import Any, Literal, NamedTuple
+from typing import Any, Literal
 
 import numpy as np
 import pandas
@@ -100,8 +101,7 @@ def _tables(run: xarray.DataTree) -> dict[str, pandas.DataFrame]:
     """Series, and events if there are any."""
     tables, events = {"series": _table(_of(run, "series"), "time")}, _of(run, "event")
     if events:
-        tables["events"] = _table(events)
-        tables["events"].insert(0, "event", range(1, len(tables["events"]) + 1))
+        tables["events"] = _table(events).set_axis(pandas.RangeIndex(1, events.sizes["event"] + 1, name="event")).reset_index()
     return tables
 
 
@@ -134,6 +134,7 @@ def _xlsx(run: xarray.DataTree, path: Path) -> Files:
 
 
 def _npz(run: xarray.DataTree, path: Path) -> Files:
+    """Arrays one after the other: `numpy.savez` needs all of them in memory, and its compression takes long."""
     no_times = xarray.DataArray(np.empty(0), attrs={"units": "s"})
     arrays: dict[str, Any] = {name: run.get(name, no_times) for name in ("time", "radius", "disc_angle", "pin_angle", "map_time")}
     for group in ("series", "event", "disc", "pin"):
@@ -142,19 +143,13 @@ def _npz(run: xarray.DataTree, path: Path) -> Files:
     units = json.dumps({name: str(values.attrs.get("units", "1")) for name, values in arrays.items()}, sort_keys=True)
     texts = {name: str(run.attrs.get(name, "")) for name in ("title", "state", "scene")} | {"units": units}
 
-    class Read(NamedTuple):
-        """What NumPy reads when it writes it, so that one array at a time is in memory."""
-
-        values: Any
-
-        def __array__(self, *_: Any, **__: Any) -> Any:
-            found = self.values[...].values
-            return found.astype(found.dtype.str)
-
     def write(place: Path) -> None:
-        everything: dict[str, Any] = {name: Read(values) for name, values in arrays.items()} | texts
-        with place.open("wb") as file:
-            np.savez_compressed(file, **everything)
+        with zipfile.ZipFile(place, "w", zipfile.ZIP_DEFLATED, compresslevel=1) as archive:
+            for name, values in (arrays | texts).items():
+                with archive.open(f"{name}.npy", "w", force_zip64=True) as file:
+                    # What a part reads does not stay in memory.
+                    found = np.asarray(values if isinstance(values, str) else values[...])
+                    np.lib.format.write_array(file, found.astype(found.dtype.str), allow_pickle=False)
 
     return {path.name: write}
 
@@ -178,13 +173,8 @@ def _vtk(run: xarray.DataTree, path: Path) -> Files:
     inner = quantity(mesh.get("inner_radius", "0 m"), "m") or quantity(mesh["mean_radius"], "m") - quantity(mesh["pin_width"], "m") / 2
     radius = np.linspace(inner, rows[0] + rows[-1] - inner, len(rows) + 1)[:, None, None]
 
-    def grid(place: Path, maps: xarray.Dataset, columns: int, index: int) -> None:
-        # The disc's ring closes.
-        turns = np.arange(columns + 1) / run.sizes["disc_angle"]
-        angle = math.tau * np.where(turns < 1, turns, 0.0)[None, :, None]
-        corners = [np.asfortranarray(radius * of) for of in (np.cos(angle), np.sin(angle), 0 * angle)]
-        cells = {str(name): values.values.T[..., None] for name, values in maps.isel(map_time=index).data_vars.items()}
-        gridToVTK(str(place.with_suffix("")), *corners, cells)
+    def grid(place: Path, corners: list[Any], cells: xarray.Dataset) -> None:
+        gridToVTK(str(place.with_suffix("")), *corners, {str(name): values.values.T[..., None] for name, values in cells.data_vars.items()})
 
     def collection(place: Path, times: dict[str, float]) -> None:
         group = VtkGroup(str(place.with_suffix("")))
@@ -193,12 +183,14 @@ def _vtk(run: xarray.DataTree, path: Path) -> Files:
         group.save()
 
     files: Files = {}
-    for body in ("disc", "pin"):
-        if maps := _of(run, body):
-            times = {f"{body}-{index:04}.vts": time for index, time in enumerate(maps["map_time"].values.tolist())}
-            columns = maps.sizes[f"{body}_angle"]
-            files |= {name: partial(grid, maps=maps, columns=columns, index=index) for index, name in enumerate(times)}
-            files[f"{body}.pvd"] = partial(collection, times=times)
+    for body, maps in ((body, maps) for body in ("disc", "pin") if (maps := _of(run, body))):
+        # The disc's ring closes.
+        turns = np.arange(maps.sizes[f"{body}_angle"] + 1) / run.sizes["disc_angle"]
+        angle = math.tau * np.where(turns < 1, turns, 0.0)[None, :, None]
+        corners = [np.asfortranarray(radius * of) for of in (np.cos(angle), np.sin(angle), 0 * angle)]
+        times = {f"{body}-{index:04}.vts": time for index, time in enumerate(maps["map_time"].values.tolist())}
+        files |= {name: partial(grid, corners=corners, cells=maps.isel(map_time=index)) for index, name in enumerate(times)}
+        files[f"{body}.pvd"] = partial(collection, times=times)
     if not files:
         note("nothing is written: this format has maps only")
     return files

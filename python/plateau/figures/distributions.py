@@ -25,9 +25,9 @@ Found = list[tuple[Subject, int, Any]]
 
 
 def _found(drawing: Drawing, path: str, values: Any) -> Found:
-    """What a function gives of a map and its run, of the runs that have the map; cells of a column are in a row."""
+    """What a function gives of run, path and cells of a map, those of a column in a row, for the runs that have it."""
     return [
-        (subject, -place, values(subject, array(subject.run, path).isel(map_time=index).transpose(..., "radius").values))
+        (subject, -place, values(subject, path, array(subject.run, path).isel(map_time=index).transpose(..., "radius").values))
         for subject in drawing.having(path)
         for place, index in enumerate(subject.moments, 1 - len(subject.moments))
     ]
@@ -70,8 +70,7 @@ def plateau_sizes(drawing: Drawing, subjects: Sequence[Subject]) -> list[Any]:
         radii, angle = array(subject.run, "radius").values, math.tau / subject.run.sizes["disc_angle"]
         return areas_of(cells == SECONDARY if "status" in path else cells > 0, radii, angle, path.startswith("disc"))
 
-    kinds = {title: _found(drawing, path, lambda subject, cells, path=path: areas(subject, path, cells)) for path, title in KINDS.items()}
-    kinds = {title: found for title, found in kinds.items() if found}
+    kinds = {title: found for path, title in KINDS.items() if (found := _found(drawing, path, areas))}
     every = [one for found in kinds.values() for one in found if one[-1].size]
     if not every:
         for subject in subjects if kinds else []:
@@ -98,8 +97,8 @@ def plateau_sizes(drawing: Drawing, subjects: Sequence[Subject]) -> list[Any]:
 def heights(drawing: Drawing, subjects: Sequence[Subject]) -> list[Any]:
     """Distribution of the heights of disc and pin, and the Abbott-Firestone curve."""
     bodies, is_peaked = {}, False
-    for one in (MAPS["disc/height"], MAPS["pin/height"]):
-        found = _found(drawing, one.path, lambda _, cells, one=one: np.sort(one.shown(cells)[np.isfinite(cells)]))
+    for path in ("disc/height", "pin/height"):
+        found = _found(drawing, path, lambda _, path, cells: np.sort(MAPS[path].shown(cells)[np.isfinite(cells)]))
         found = [line for line in found if line[1] == 0 or len(subjects) <= MOST_WITH_FIRST]
         if not found:
             continue
@@ -108,7 +107,7 @@ def heights(drawing: Drawing, subjects: Sequence[Subject]) -> list[Any]:
         edges = np.linspace(min(ends) - margin, max(ends) + margin, CLASSES + 1)
         density = [np.histogram(values, edges)[0] / len(values) / np.diff(edges) * 100 for *_, values in found]
         is_peaked |= any(one.max() > MOST_LINEAR * np.sort(one[one > 0])[:-1].mean() for one in density if (one > 0).sum() > 1)
-        bodies[one] = found, edges, density
+        bodies[MAPS[path]] = found, edges, density
     if not bodies:
         return []
     caption = "Distribution of the heights, positive toward the other body, and Abbott-Firestone curve"

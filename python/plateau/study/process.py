@@ -13,7 +13,7 @@ from plateau.study.data import Numbers
 
 # Logarithms of lengths (a range is 2 long) and of noise over the variance: median and deviation beforehand, and ends.
 LENGTH, NOISE = np.log([2.0, np.e, 0.05, 40.0]), np.log([1e-3, np.exp(3.0), 1e-8, 1e2])
-# Points that lengths and noise are found from at most, and sets of these that are kept.
+# Points that they are found from at most, and sets of them that are kept.
 MOST, KEPT = 300, 48
 
 
@@ -46,13 +46,11 @@ class Equations:
 
     def gradient(self) -> Numbers:
         """Derivatives of `log_density` by the logarithms."""
-        result, (within, freedom) = np.zeros((len(self.noise), self.axes.max() + 2)), self.replicates
+        (within, freedom), noise = self.replicates, self.noise
         pull = self.freedom / self.square[:, None, None] * self.weights[:, :, None] * self.weights[:, None] - self.inverse
-        for at, a in zip(self.axes, self.apart(self.x), strict=True):
-            result[:, at] += 0.5 * (pull * self.known * (a * a * (1.0 + a) / (3.0 + 3.0 * a + a * a))).sum((1, 2))
-        of_means = self.noise * (np.diagonal(pull, axis1=1, axis2=2) @ self.share)
-        result[:, -1] = 0.5 * (of_means - freedom + self.freedom * within / (self.noise * self.square))
-        return result
+        of_axes = [(pull * self.known * (a * a * (1.0 + a) / (3.0 + 3.0 * a + a * a))).sum((1, 2)) for a in self.apart(self.x)]
+        of_noise = noise * (np.diagonal(pull, axis1=1, axis2=2) @ self.share) - freedom + self.freedom * within / (noise * self.square)
+        return 0.5 * np.column_stack([np.transpose(of_axes) @ np.eye(self.axes.max() + 1)[self.axes], of_noise])
 
     def forecast(self, x: Numbers) -> tuple[Numbers, Numbers]:
         """Weights of the points' values in means at places (set, place, point), and variances over σ² (set, place)."""

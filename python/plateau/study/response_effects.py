@@ -125,7 +125,7 @@ class ResponseEffects:
         at_cell = [np.logical_and.reduce([is_same(fit.runs[name], row[name]) for name in factors]) for _, row in cells.iterrows()]
         observed = [fit.values[own].mean() if own.any() else np.nan for own in at_cell]
         ends = {"mean": values, "low": values - reach, "high": values + reach}
-        return cells.assign(**ends, observed=observed, runs=[int(own.sum()) for own in at_cell], unit=self.response.unit_of_fit)
+        return cells.assign(**ends, observed=observed, runs=[int(own.sum()) for own in at_cell], unit=self.unit)
 
     @property
     def residuals(self) -> pandas.DataFrame:
@@ -138,7 +138,7 @@ class ResponseEffects:
         distance = standardised**2 * fit.leverages / (free * len(fit.fit.kept))
         which = {"response": self.response.name, "run": fit.runs.index, "made_as": fit.runs["order"], "replicate": fit.runs["replicate"]}
         values = {"fitted": fit.values - fit.residuals, "residual": fit.residuals, "standardised": standardised}
-        return pandas.DataFrame(which | values | {"leverage": fit.leverages, "cooks_distance": distance, "unit": self.response.unit_of_fit})
+        return pandas.DataFrame(which | values | {"leverage": fit.leverages, "cooks_distance": distance, "unit": self.unit})
 
 
 def error_from(fit: Fitted) -> str:

@@ -269,10 +269,10 @@ def elementary_effects(study: Study, response: str) -> pandas.DataFrame:
             factor = changed[0]
             step = float(np.diff(factor.coded([before[factor.name], after[factor.name]]))[0]) / 2.0 if factor.is_number else 1.0
             effects[factor.name].append(change / step)
-    every = pandas.Series({name: pandas.Series(found, dtype=float) for name, found in effects.items()})
-    asked = {"mean_size": lambda own: own.abs().mean(), "mean": pandas.Series.mean, "deviation": pandas.Series.std}
-    asked |= {"standard_error": lambda own: own.abs().sem(), "effects": len}
-    return pandas.DataFrame({"factor": list(effects), **{name: [of(own) for own in every] for name, of in asked.items()}})
+    each = pandas.DataFrame({name: pandas.Series(found, dtype=float) for name, found in effects.items()})
+    size = each.abs()
+    table = {"mean_size": size.mean(), "mean": each.mean(), "deviation": each.std(), "standard_error": size.sem(), "effects": each.count()}
+    return pandas.DataFrame(table).rename_axis("factor").reset_index()
 
 
 def _part(row: pandas.Series, name: str) -> str:
