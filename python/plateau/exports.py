@@ -21,32 +21,19 @@ from plateau.run_file import array, source
 from plateau.units import quantity
 
 # Formats: the package that writes each, and endings of names.
-FORMATS = {
-    "csv": ("pandas", ".csv", ".tsv", ".txt"),
-    "xlsx": ("xlsxwriter", ".xlsx"),
-    "npz": ("numpy", ".npz"),
-    "netcdf": ("h5netcdf", ".nc", ".nc4"),
-    "vtk": ("pyevtk", "-vtk"),
-}
-# Rows of a sheet of Excel below the heads.
-MOST_ROWS = 1_048_575
-# Columns, and names of maps as arrays, where they have other names than in run files.
-COLUMNS = {"map_time": "time", "disc_angle": "angle", "pin_angle": "angle"}
+FORMATS = {"csv": ("pandas", ".csv", ".tsv", ".txt"), "xlsx": ("xlsxwriter", ".xlsx"), "npz": ("numpy", ".npz")}
+FORMATS |= {"netcdf": ("h5netcdf", ".nc", ".nc4"), "vtk": ("pyevtk", "-vtk")}
+# Rows of a sheet of Excel below the heads; columns, and maps as arrays, that have other names than in run files.
+MOST_ROWS, COLUMNS = 1_048_575, {"map_time": "time", "disc_angle": "angle", "pin_angle": "angle"}
 ARRAYS = {"pin_pressure": "pressure", "pin_temperature": "temperature"}
 # Files by their names, each with what writes it to a path.
 Files = dict[str, Callable[[Path], object]]
 
 
 def export(
-    run: Run,
-    to: Literal["csv", "xlsx", "npz", "netcdf", "vtk"],
-    output: str | os.PathLike[str] | None = None,
-    *,
-    maps: bool = False,
-    decimal: str = ".",
-    separator: str | None = None,
-    force: bool = False,
-) -> list[str]:
+    run: Run, to: Literal["csv", "xlsx", "npz", "netcdf", "vtk"], output: str | os.PathLike[str] | None = None, *,
+    maps: bool = False, decimal: str = ".", separator: str | None = None, force: bool = False,
+) -> list[str]:  # fmt: skip
     """Writes a run in the format of another program.
 
     Parameters
@@ -81,7 +68,8 @@ def export(
     path = followed(named_like(tree, endings[0]) if output is None else Path(output))
     if path.suffix.lower() not in ("", *endings) and to != "vtk":
         raise InputError(f"-o {path}: {to} is written to a file whose name ends in {' or '.join(endings)}, such as {path.stem}{endings[0]}")
-    files = _csv(tree, path, maps, sep=sign, decimal=decimal) if to == "csv" else WRITERS[to](tree, path)
+    writers: dict[str, Callable[..., Files]] = {"xlsx": _xlsx, "npz": _npz, "netcdf": _netcdf, "vtk": _vtk, "csv": _csv}
+    files = writers[to](tree, path, **({"with_maps": maps, "sep": sign, "decimal": decimal} if to == "csv" else {}))
     folder = path if to == "vtk" else path.parent
     with all_or_none(folder, files, force, inputs_of([tree])) as places:
         for write, place in zip(files.values(), places, strict=True):
@@ -104,33 +92,28 @@ def _of(run: xarray.DataTree, group: str) -> xarray.Dataset:
 
 def _table(data: xarray.Dataset, *axes: str) -> pandas.DataFrame:
     """A table of data behind their places, with heads that no spreadsheet computes."""
-
-    def head(name: str) -> str:
-        text = name if name == "event" else f"{COLUMNS.get(name, name)} [{data[name].attrs.get('units', '1')}]"
-        return text if text[0].isalnum() else f"'{text}"
-
-    return data.to_dataframe().reset_index()[[*axes, *data.data_vars]].rename(columns=head)
+    table = data.to_dataframe().reset_index()[[*axes, *data.data_vars]]
+    heads = [f"{COLUMNS.get(name, name)} [{data[name].attrs.get('units', '1')}]" for name in table]
+    return table.set_axis([head if head[0].isalnum() else f"'{head}" for head in heads], axis="columns")
 
 
 def _tables(run: xarray.DataTree) -> dict[str, pandas.DataFrame]:
     """Series, and events if there are any."""
-    series, events = _of(run, "series"), _of(run, "event")
-    numbered = {"events": _table(events, "event").assign(event=range(1, events.sizes["event"] + 1))} if events else {}
-    return {"series": _table(series, "time")} | numbered
+    tables, events = {"series": _table(_of(run, "series"), "time")}, _of(run, "event")
+    if events:
+        tables["events"] = _table(events).set_axis(pandas.RangeIndex(1, events.sizes["event"] + 1, name="event")).reset_index()
+    return tables
 
 
 def _csv(run: xarray.DataTree, path: Path, with_maps: bool, **marks: str) -> Files:
-    def write(table: Callable[[], pandas.DataFrame], place: Path) -> None:
-        table().to_csv(place, index=False, na_rep="NaN", lineterminator="\n", **marks)
+    def write(place: Path, name: str) -> None:
+        body, _, index = name.partition("-")
+        table = _table(bodies[body].isel(map_time=int(index)), "map_time", f"{body}_angle", "radius") if index else tables[name]
+        table.to_csv(place, index=False, na_rep="NaN", lineterminator="\n", **marks)
 
-    def cells(body: str, maps: xarray.Dataset, index: int) -> pandas.DataFrame:
-        return _table(maps.isel(map_time=index), "map_time", f"{body}_angle", "radius")
-
-    tables: dict[str, Callable[[], pandas.DataFrame]] = {name: partial(pandas.DataFrame, table) for name, table in _tables(run).items()}
-    for body in ("disc", "pin") if with_maps else ():
-        maps = _of(run, body)
-        tables |= {f"{body}-{index:04}": partial(cells, body, maps, index) for index in range(maps.sizes.get("map_time", 0))}
-    return {path.name if name == "series" else f"{path.stem}-{name}{path.suffix}": partial(write, table) for name, table in tables.items()}
+    tables, bodies = _tables(run), {body: _of(run, body) for body in ("disc", "pin") if with_maps}
+    names = [*tables, *(f"{body}-{index:04}" for body, maps in bodies.items() for index in range(maps.sizes.get("map_time", 0)))]
+    return {path.name if name == "series" else f"{path.stem}-{name}{path.suffix}": partial(write, name=name) for name in names}
 
 
 def _xlsx(run: xarray.DataTree, path: Path) -> Files:
@@ -151,14 +134,14 @@ def _xlsx(run: xarray.DataTree, path: Path) -> Files:
 
 
 def _npz(run: xarray.DataTree, path: Path) -> Files:
-    """Arrays one after the other: `numpy.savez` needs all of them in memory."""
+    """Arrays one after the other: `numpy.savez` needs all of them in memory, and its compression takes long."""
     no_times = xarray.DataArray(np.empty(0), attrs={"units": "s"})
     arrays: dict[str, Any] = {name: run.get(name, no_times) for name in ("time", "radius", "disc_angle", "pin_angle", "map_time")}
     for group in ("series", "event", "disc", "pin"):
         named = {str(name) if group == "series" else f"{group}_{name}": values for name, values in _of(run, group).data_vars.items()}
         arrays |= {ARRAYS.get(name, name): values for name, values in named.items()}
-    texts = {name: str(run.attrs.get(name, "")) for name in ("title", "state", "scene")}
-    texts["units"] = json.dumps({name: str(values.attrs.get("units", "1")) for name, values in arrays.items()}, sort_keys=True)
+    units = json.dumps({name: str(values.attrs.get("units", "1")) for name, values in arrays.items()}, sort_keys=True)
+    texts = {name: str(run.attrs.get(name, "")) for name in ("title", "state", "scene")} | {"units": units}
 
     def write(place: Path) -> None:
         with zipfile.ZipFile(place, "w", zipfile.ZIP_DEFLATED, compresslevel=1) as archive:
@@ -190,30 +173,24 @@ def _vtk(run: xarray.DataTree, path: Path) -> Files:
     inner = quantity(mesh.get("inner_radius", "0 m"), "m") or quantity(mesh["mean_radius"], "m") - quantity(mesh["pin_width"], "m") / 2
     radius = np.linspace(inner, rows[0] + rows[-1] - inner, len(rows) + 1)[:, None, None]
 
-    def grid(maps: xarray.Dataset, index: int, place: Path) -> None:
-        cells = maps.isel(map_time=index)
-        # The disc's ring closes.
-        [angles] = (maps[name].values for name in ("disc_angle", "pin_angle") if name in maps.dims)
-        turns = np.arange(len(angles) + 1) / run.sizes["disc_angle"]
-        angle = math.tau * np.where(turns < 1, turns, 0.0)[None, :, None]
-        corners = [np.asfortranarray(radius * of) for of in (np.cos(angle), np.sin(angle), 0 * angle)]
+    def grid(place: Path, corners: list[Any], cells: xarray.Dataset) -> None:
         gridToVTK(str(place.with_suffix("")), *corners, {str(name): values.values.T[..., None] for name, values in cells.data_vars.items()})
 
-    def collection(times: dict[str, float], place: Path) -> None:
+    def collection(place: Path, times: dict[str, float]) -> None:
         group = VtkGroup(str(place.with_suffix("")))
         for name, time in times.items():
             group.addFile(str(place.with_name(name)), time)
         group.save()
 
     files: Files = {}
-    for body in ("disc", "pin"):
-        if maps := _of(run, body):
-            times = {f"{body}-{index:04}.vts": time for index, time in enumerate(maps["map_time"].values.tolist())}
-            files |= {name: partial(grid, maps, index) for index, name in enumerate(times)}
-            files[f"{body}.pvd"] = partial(collection, times)
+    for body, maps in ((body, maps) for body in ("disc", "pin") if (maps := _of(run, body))):
+        # The disc's ring closes.
+        turns = np.arange(maps.sizes[f"{body}_angle"] + 1) / run.sizes["disc_angle"]
+        angle = math.tau * np.where(turns < 1, turns, 0.0)[None, :, None]
+        corners = [np.asfortranarray(radius * of) for of in (np.cos(angle), np.sin(angle), 0 * angle)]
+        times = {f"{body}-{index:04}.vts": time for index, time in enumerate(maps["map_time"].values.tolist())}
+        files |= {name: partial(grid, corners=corners, cells=maps.isel(map_time=index)) for index, name in enumerate(times)}
+        files[f"{body}.pvd"] = partial(collection, times=times)
     if not files:
         note("nothing is written: this format has maps only")
     return files
-
-
-WRITERS = {"xlsx": _xlsx, "npz": _npz, "netcdf": _netcdf, "vtk": _vtk}

@@ -203,18 +203,18 @@ class MapAccessor:
         path = f"{body}/{'thickness' if 'thickness' in long_name else cells.name}"
         other = Map(path, long_name, str(cells.name or ""), unit_of(unit, cells.values), "statuses" if names else "span")
         shown = MAPS.get(path, other)
-        picture = maps.picture_of(maps.in_unit(cells.transpose("radius", self._angle), shown), polar)
+        title = shown.title + (f", {moment(float(cells['map_time']))}" if "map_time" in cells.coords else "")
+        picture = maps.picture_of(maps.in_unit(cells.transpose("radius", self._angle), shown), polar, title)
         # What is asked for holds.
         scale = maps.scale_of(shown, [picture], options.pop("cmap") if isinstance(options.get("cmap"), str) else "viridis")
         norm = scale.colours["norm"]
         norm.vmin, norm.vmax = options.pop("vmin", norm.vmin), options.pop("vmax", norm.vmax)
-        title = shown.title + (f", {moment(float(cells['map_time']))}" if "map_time" in cells.coords else "")
-        tile = maps.Tile(picture, title, scale._replace(colours=scale.colours | options))
+        picture.scale = scale._replace(colours=scale.colours | options)
         legend = [(STATUS_COLOURS[value], name) for value, name in names.items() if value != ABSENT]
         if ax is not None:
-            maps.in_axes(ax, tile, legend)
+            maps.in_axes(ax, picture, legend)
             return ax
         import matplotlib.pyplot as plt
 
-        [figure] = maps.pages([[tile]], WIDE, title, legend, plt.figure)
+        [figure] = maps.pages([[picture]], WIDE, title, legend, plt.figure)
         return figure.axes[-1 if legend else -2]

@@ -294,11 +294,12 @@ class Curves(InFolder):
         axes = plateau.plot("seed-1.h5", "plateau-sizes").axes
         for axis, title, areas in ((axes[0], "contact spots of the pin", spots), (axes[2], "secondary plateaus of the disc", ring)):
             self.assertEqual(axis.get_title(loc="left"), title)
-            # The number at least as large, before and after each area.
+            # The number at least as large, up to each area.
             drawn = axis.lines[-1].get_xydata()
             self.assertEqual(drawn[0, 1], len(areas))
-            np.testing.assert_allclose(drawn[1::2, 0], 1e6 * np.array(areas), rtol=1e-6)
-            np.testing.assert_array_equal(drawn[1::2, 1], np.arange(len(areas), 0, -1))
+            self.assertEqual(axis.lines[-1].get_drawstyle(), "steps-pre")
+            np.testing.assert_allclose(drawn[1:-1, 0], 1e6 * np.array(areas), rtol=1e-6)
+            np.testing.assert_array_equal(drawn[1:-1, 1], np.arange(len(areas), 0, -1))
         self.assertEqual(axes[0].get_xlabel(), "area, mm²")
 
     def test_heights(self):

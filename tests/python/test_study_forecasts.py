@@ -92,7 +92,7 @@ class ProcessTest(unittest.TestCase):
         indicators = np.eye(3)[word]
         y = np.sin(2.0 * x) + np.array([0.0, 1.0, 5.0])[word]
         process = Process(np.column_stack([x, indicators]), y, axes=[0, 1, 1, 1])
-        self.assertLess(np.abs(process.mean([[0.2, 0, 0, 1.0], [0.2, 1.0, 0, 0]]) - np.sin(0.4) - [5.0, 0.0]).max(), 0.1)
+        self.assertLess(np.abs(process.moments([[0.2, 0, 0, 1.0], [0.2, 1.0, 0, 0]])[0] - np.sin(0.4) - [5.0, 0.0]).max(), 0.1)
 
     @unittest.skipUnless("PLATEAU_LONG" in os.environ, "a simulation, of 120 fits")
     def test_intervals_cover_the_truth(self):

@@ -78,6 +78,8 @@ of_sets() {
             with_set pooled-sets "set-pooled-$seed-$scale" "$seed" "$seed" "$scale"
         done
     done
+    # To the end of the real test.
+    simulate sets long --set 'operation.duration="7200 s"' --set 'output.maps_at=["0 s", "3000 s", "7200 s"]'
     # Other pins on the disc of the first set.
     for pin in 2 3 4 5; do
         with_set sets "pin-$pin" 1 "$pin" 1

@@ -1,42 +1,32 @@
-"""The figures of runs: for one run, or for several side by side with common scales.
+"""The figures of runs: for one run, or for several side by side with common scales; docs/figures.md says what they show."""
 
-Each is a function of a `Drawing` that gives figures by the names of their files; what they show is in docs/figures.md.
-"""
-
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from functools import partial
 from typing import Any
 
 import xarray
 
 from plateau.errors import InputError, UnknownNameError
-from plateau.figures import maps
+from plateau.figures import maps, series
 from plateau.figures.distributions import heights, plateau_sizes
 from plateau.figures.drawing import Drawing, subjects_of
-from plateau.figures.series import contact_area, debris, emission, filled, friction, temperature
 from plateau.opened_runs import Run, opened
 from plateau.style import Figures, in_style
 from plateau.units import quantity
 
-# Each gives the pages of a figure, none if no run has what it shows.
-FIGURES: dict[str, Callable[[Drawing], list[Any]]] = {
-    **{name: partial(maps.draw_maps, paths=paths, caption=caption) for name, (paths, caption) in maps.FIGURES.items()},
-    "contact-area": contact_area,
-    "friction": friction,
-    "temperature": temperature,
-    "filled": filled,
-    "plateau-sizes": plateau_sizes,
-    "debris": debris,
-    "emission": emission,
-    "heights": heights,
+# What gives the pages of a figure, none if no run has what it shows, and the series that runs need for it.
+FIGURES: dict[str, tuple[Any, ...]] = {name: (partial(maps.draw_maps, paths=paths, caption=said),) for name, (paths, said) in maps.FIGURES.items()} | {
+    "contact-area": (series.contact_area, "contact_area", "contact_area_mean"),
+    "friction": (series.friction, "friction_coefficient_mean", "friction_coefficient", "mean_pressure"),
+    "temperature": (series.temperature, "pin_temperature"),
+    "filled": (series.filled, "pin_primary"),
+    "plateau-sizes": (plateau_sizes,),
+    "debris": (series.debris, *series.PARTS, *series.SOURCES),
+    "emission": (series.emission, "pm10_mass", "pm25_mass", "particle_number"),
+    "heights": (heights,),
 }
 # What scenes must have for figures that most do without.
-NEEDS = {
-    "friction": "[friction]",
-    "temperature": "[thermal]",
-    "contact-temperature": "output.contact_temperature = true",
-    "emission": "[emission]",
-}
+NEEDS = {"friction": "[friction]", "temperature": "[thermal]", "emission": "[emission]", "contact-temperature": "output.contact_temperature = true"}
 
 
 @in_style
@@ -104,21 +94,16 @@ def plot(
 
 @in_style
 def drawn(runs: Sequence[xarray.DataTree], names: Sequence[str] = (), at: Sequence[float] = (), **look: Any) -> Figures:
-    """Figures of opened runs, all unless some are named, by the names of their files; says what is left out.
-
-    Raises
-    ------
-    InputError
-        If the runs have none of those that are named.
-    """
-    drawing = Drawing(subjects_of(runs, at), **look)
-    figures: Figures = {}
+    """Figures of opened runs, all unless some are named, by the names of their files; `InputError` if the runs have none of those named."""
+    drawing, figures = Drawing(subjects_of(runs, at), **look), Figures()
     for drawing.name in (name for name in FIGURES if not names or name in names):
-        pages = FIGURES[drawing.name](drawing)
+        draw, *needed = FIGURES[drawing.name]
+        subjects = drawing.having(*(f"series/{one}" for one in needed), is_part=drawing.name in NEEDS) if needed else drawing.subjects
+        pages = draw(drawing, subjects) if subjects else []
         figures |= {f"{drawing.name}-{number}" if number > 1 else drawing.name: page for number, page in enumerate(pages, 1)}
     if names and not figures:
         missing = [f"{path} has {what}" for path, what in drawing.left_out]
-        needed = f"it needs runs of scenes with {' or '.join(NEEDS[name] for name in names if name in NEEDS)}"
-        raise InputError(f"nothing to draw of the figure {' or '.join(names)}: {', '.join(missing) or needed}")
+        said = ", ".join(missing) or f"it needs runs of scenes with {' or '.join(NEEDS[name] for name in names if name in NEEDS)}"
+        raise InputError(f"nothing to draw of the figure {' or '.join(names)}: {said}")
     drawing.say_left_out()
     return figures

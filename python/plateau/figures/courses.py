@@ -18,11 +18,10 @@ MOST, MOST_OF_CYCLE = 250, 1500
 # Samples of a window of which a band tells the extent, at least; the parts of them that are below its ends.
 LEAST_OF_BAND, BAND = 20, (0.05, 0.95)
 # A line that goes up and down by more than so many times its range is a weighted mean over this part of the longest run.
-MOST_WAY, PART = 3.0, 1 / 16
-MOST_EVENTS = 100
+MOST_WAY, PART, MOST_EVENTS = 3.0, 1 / 16, 100
 
 
-@dataclass(frozen=True)
+@dataclass
 class Course:
     """A series of a run, in the unit that is shown, by its times, s; of runs that differ in seeds alone a column for each."""
 
@@ -30,31 +29,23 @@ class Course:
     label: str
     values: Any
 
-    @property
-    def duration(self) -> float:
-        """s"""
-        return float(self.values.index[-1] - self.values.index[0])
-
-    @property
-    def is_short(self) -> bool:
-        """Whether a band would have too few samples, or go over the gaps of a cycle, and each sample is drawn."""
-        return len(self.values) <= MOST or self.subject.has_cycle
+    def __post_init__(self) -> None:
+        self.duration = float(self.values.index[-1] - self.values.index[0])
+        # A band would have too few samples, or go over the gaps of a cycle: each sample is drawn.
+        self.is_short = len(self.values) <= MOST or self.subject.has_cycle
 
 
 def courses(subjects: Sequence[Subject], name: str, unit: Unit, rubbing: bool = False) -> list[Course]:
     """A series of runs in a unit, if wanted with gaps where nothing rubs; three or more that differ in seeds alone become one."""
-    found, groups = [], dict[str, list[Subject]]()
-    for subject in subjects:
-        groups.setdefault(subject.scene_without_seeds, []).append(subject)
-    for own in groups.values():
-        is_mean = len({str(one.run.attrs.get("seeds")) for one in own}) == len(own) > 2
-        for some in [own] if is_mean else [[one] for one in own]:
+    found, every = [], pandas.Series(subjects, dtype=object)
+    for _, own in every.groupby([one.scene_without_seeds for one in subjects], sort=False):
+        is_mean = own.map(lambda one: str(one.run.attrs.get("seeds"))).nunique() == len(own) > 2
+        for some in [[*own]] if is_mean else [[one] for one in own]:
             time = min((one.time for one in some), key=lambda time: float(time[-1]))
-            every = [unit.value(one.values(name)) for one in some]
-            every = [one.while_rubbing(values) if rubbing else values for one, values in zip(some, every, strict=True)]
-            columns = [np.interp(time, one.time, values) for one, values in zip(some, every, strict=True)]
-            label = f"{own[0].run.attrs.get('title', own[0].label)}: mean of {len(own)} seeds" if is_mean else some[0].label
-            found.append(Course(some[0], label, pandas.DataFrame(np.transpose(columns), time)))
+            values = [one.while_rubbing(unit.value(one.values(name))) if rubbing else unit.value(one.values(name)) for one in some]
+            columns = {number: np.interp(time, one.time, column) for number, (one, column) in enumerate(zip(some, values, strict=True))}
+            label = f"{some[0].run.attrs.get('title', some[0].label)}: mean of {len(own)} seeds" if is_mean else some[0].label
+            found.append(Course(some[0], label, pandas.DataFrame(columns, time)))
     return found
 
 
@@ -63,31 +54,28 @@ def in_windows(values: Any, most: int) -> Any:
     return values.groupby(np.arange(len(values)) // max(1, math.ceil(len(values) / most)))
 
 
-def means(values: Any, most: int) -> Any:
-    """Means in windows, at the mean time of the samples that have a value, if there are any."""
-    known = values.index.where(values.notna().all(axis=1))
-    times = in_windows(pandas.DataFrame({"known": known, "all": values.index}), most).mean()
-    return in_windows(values, most).mean().set_index(times["known"].fillna(times["all"]))
-
-
 def line_of(course: Course, duration: float) -> Any:
-    """A line, by time: means in windows, or, if this duration, s, fits twice into a run without a cycle, means over it, of weights that
-    decrease to zero. They need as many values behind as before, so this line ends before the run does."""
-    line = means(course.values, MOST_OF_CYCLE if course.subject.has_cycle else MOST)
+    """A line by time: means in windows, or over a duration, s, that fits twice into a run without a cycle, with weights that fall to zero.
+
+    Windows are at the mean time of samples with a value. Such weights need as many values behind as before, so the line ends earlier.
+    """
+    most, values = MOST_OF_CYCLE if course.subject.has_cycle else MOST, course.values
+    times = pandas.DataFrame({"known": values.index.where(values.notna().all(axis=1)), "all": values.index})
+    times = in_windows(times, most).mean()
+    line = in_windows(values, most).mean().set_index(times["known"].fillna(times["all"]))
     beside = round(duration * (len(line) - 1) / (course.duration or 1) / 2)
     if beside < 2 or 2 * duration > course.duration or course.subject.has_cycle:
         return line
-    values, found = line.to_numpy(), []
-    for at in range(len(values) + 1 - beside):
+
+    def around(at: int) -> Any:
         reach = min(beside - 1, at)
-        weights = reach + 1 - np.abs(np.arange(-reach, reach + 1))
-        found.append(np.average(values[at - reach : at + reach + 1], axis=0, weights=weights))
-    return pandas.DataFrame(found, line.index[: len(found)])
+        return np.average(line.to_numpy()[at - reach : at + reach + 1], axis=0, weights=np.bartlett(2 * reach + 3)[1:-1])
+
+    return pandas.DataFrame([around(at) for at in range(len(line) + 1 - beside)], line.index[: len(line) + 1 - beside])
 
 
 def calm(every: Sequence[Course]) -> float:
-    """Over how long a time, s, means go: 0 for those of windows; longer if a line goes up and down all along, as with the place of the
-    pin on the disc, which would look like waves, or is, beside others, one block."""
+    """How long means are, s: 0 for windows, more if a line goes up and down all along, as with the place on the disc: it looks like waves."""
     long = [one for one in every if not one.is_short]
     lines = [one.values.mean(axis=1).to_numpy() for one in long]
     is_any = any(np.nansum(np.abs(np.diff(line))) > MOST_WAY * np.ptp(line) for line in lines)

@@ -23,14 +23,12 @@ HIGHEST, LINE, MOST_LINES = 235.0, 3.6, 3
 
 @dataclass(frozen=True, eq=False)
 class Subject:
-    """A run with what it is called, and how its lines are drawn."""
+    """A run with what it is called, its place among the runs, and the times of its maps, s, with the indices of those that are shown."""
 
     run: xarray.DataTree
     label: str
-    # Its place among the runs; whether it is the only one.
     number: int
     is_only: bool
-    # Times of the maps, s; the indices of those that are shown: of the first and the last, or of those that were asked for.
     map_time: Any
     moments: Sequence[int]
     is_chosen: bool
@@ -57,8 +55,8 @@ class Subject:
 
     @property
     def line(self) -> dict[str, Any]:
-        """Options of its lines."""
-        # In a cycle, marks would look like data; else each run has its own, at other places of its line, so that equal lines are all seen.
+        """Options of its lines: each run has its own marks, at other places of its line, so that equal lines are all seen."""
+        # In a cycle, marks would look like data.
         if self.is_only or self.has_cycle:
             return look(self.number)
         mark = MARKERS[(self.number + self.number // len(MARKERS)) % len(MARKERS)]
@@ -71,9 +69,8 @@ class Subject:
 
     def while_rubbing(self, values: Any) -> Any:
         """Values of a contact, NaN while the pin is lifted or the disc stands still, because revolution means are then older."""
-        if not self.has_cycle:
-            return values
-        return np.where((self.values("normal_force") != 0) & (self.values("rotational_speed") != 0), values, np.nan)
+        rubs = not self.has_cycle or (self.values("normal_force") != 0) & (self.values("rotational_speed") != 0)
+        return np.where(rubs, values, np.nan)
 
     def moment(self, index: int) -> str:
         """The time of a map, in words."""
@@ -88,15 +85,14 @@ def moment(seconds: float) -> str:
 
 @dataclass
 class Drawing:
-    """The runs of a call, how their figures are to look, and what is left out."""
+    """The runs of a call; width, mm, if not the usual one, colours and axes of their figures; what is left out."""
 
     subjects: list[Subject]
-    # Width, mm, if it is not the usual one; colours of ranges; the ring as a ring instead of unrolled; axes to draw in.
     width: float | None = None
     cmap: str = "viridis"
     polar: bool = False
     ax: Any = None
-    # The figure that is drawn, and by run and what it does not have the figures that do without it, as keys.
+    # The figure that is drawn; by run and what it does not have the figures that do without it, as keys.
     name: str = ""
     left_out: dict[tuple[str, str], dict[str, None]] = field(default_factory=dict)
 
@@ -105,22 +101,18 @@ class Drawing:
         """The run if it is the only one: it needs no colour of its own."""
         return self.subjects[0] if len(self.subjects) == 1 else None
 
-    @property
-    def is_narrow(self) -> bool:
-        """Whether there is room for one panel only beside each other."""
-        return (self.width or WIDE) < WIDE / 1.5
+    def columns(self, most: int) -> int:
+        """Panels beside each other for which there is room, of so many at most."""
+        return most if (self.width or WIDE) >= WIDE / 1.5 else 1
 
     def having(self, *paths: str, is_part: bool = False) -> list[Subject]:
-        """The runs that have all these series, and a sample, or maps, and a moment; of the others it is noted that they are left out,
-        but for a part that scenes do without, such as friction, if no run has it."""
+        """The runs that have these series or maps, and one of them; others are noted, but for a part, such as friction, that no run has."""
         if is_part and not any(subject.has(*paths) for subject in self.subjects):
             return []
         found, is_series = [], paths[0].startswith("series/")
         for subject in self.subjects:
-            missing = next((path for path in paths if not subject.has(path)), "")
-            if missing:
-                name = missing.removeprefix("series/")
-                self.leave_out(subject, f"no {'series' if is_series else 'map'} {MAP_KEYS.get(name, name.replace('/', '_'))}")
+            if missing := next((path.removeprefix("series/") for path in paths if not subject.has(path)), ""):
+                self.leave_out(subject, f"no {'series' if is_series else 'map'} {MAP_KEYS.get(missing, missing.replace('/', '_'))}")
             elif not (subject.time.size if is_series else subject.moments):
                 self.leave_out(subject, "no samples" if is_series else "no maps yet")
             else:
@@ -137,14 +129,12 @@ class Drawing:
             note(f"{path} has {missing}: left out of {', '.join(figures)}", stacklevel=5)
 
     def panels(self, count: int, height: float, caption: str, columns: int = 2, usual: float | None = None, **options: Any) -> tuple[Any, Any]:
-        """Makes a figure with so many panels of this height, mm, in so many columns if it is wide enough, and the list of its axes. Of
-        the usual width, mm, or of that which was asked for, but no narrower than two thirds of the usual one. Axes that are given
-        are for one panel; `InputError` for more."""
+        """Makes a figure, at least two thirds as wide as usual, mm, with panels of this height in so many columns at most; gives their axes."""
         if self.ax is not None:
             if count > 1:
                 raise InputError(f"the figure {self.name} has {count} panels: leave ax out")
             return self.ax.figure, [self.ax]
-        columns = 1 if self.is_narrow else min(count, columns)
+        columns = min(count, self.columns(columns))
         rows, usual = -(-count // columns), usual or (WIDE if columns > 1 else NARROW)
         width = usual if self.width is None else max(self.width, usual / 1.5)
         figure, axes = new(width, min(height * rows + 14, HIGHEST), caption, rows, columns, **options)
@@ -153,17 +143,15 @@ class Drawing:
         return figure, list(axes.flat[:count])
 
     def explained(self, figure: Any, axis: Any, note: str = "", **options: Any) -> list[Any]:
-        """A figure as the only page, with the legend of axes above it, which names the only run, and a note below; axes that were given
-        have their legend."""
+        """A figure as the only page, with the legend of axes, above it but in axes that were given, and a note below."""
         handles, labels = axis.get_legend_handles_labels()
         if self.ax is not None:
             self.ax.legend(handles, labels)
             return [figure]
         noted(figure, note)
         if handles:
-            # As many columns as the longest label leaves.
+            # As many columns as the longest label leaves; a long legend takes no room from the axes.
             columns = 1 if figure.get_figwidth() / MM < 2 * (12 + 1.5 * max(map(len, labels))) else 2
-            # A long legend takes no room from the axes.
             more = LINE * max(math.ceil(len(labels) / columns) - MOST_LINES, 0)
             figure.set_figheight(min(figure.get_figheight() + more * MM, HIGHEST * MM))
             named = {"title": self.only.label, "alignment": "left"} if self.only and self.only.label not in labels else {}

@@ -1,7 +1,4 @@
-"""Maps of disc and pin: heights, status, build-up, contact pressure and contact temperature, with common scales.
-
-Maps have true proportions, so their widths give their heights and that of a page: pages are laid out here, in millimetres.
-"""
+"""Maps of disc and pin, in true proportions: their widths give their heights and that of a page, so pages are laid out here, in mm."""
 
 import math
 from collections.abc import Callable, Sequence
@@ -29,53 +26,45 @@ PAGE, LEFT, BAR, EDGE, NUMBERS, LINE, LETTER = 240.0, 14.0, 22.0, 3.0, 4.4, 3.6,
 # In mm: highest map, and lowest one without stretching; longest and shortest colour bar; about the narrowest column of a page.
 HIGHEST, LOWEST, LONGEST, SHORTEST, COLUMN = 85.0, 5.0, 60.0, 25.0, 52.0
 # How maps are laid out: what the axis below is called; letters of that without places.
-UNROLLED = "arc length at the mean radius, mm; the disc moves →"
-ARCS = "arc length from the middle, mm; the disc moves →"
-POLAR = "x, mm; the disc turns counter-clockwise"
-SHORT = 32
+UNROLLED, SHORT = "arc length at the mean radius, mm; the disc moves →", 32
+ARCS, POLAR = "arc length from the middle, mm; the disc moves →", "x, mm; the disc turns counter-clockwise"
 # Figures: their maps and captions.
+PRESSURE = "Contact pressure on the pin. The colours end at the pressure above which 0.5 % of the load is carried. "
+PRESSURE += "They begin at zero, or on a logarithmic scale at that below which 0.5 % is carried."
+HOT = "Temperature of the cells of the pin. The colours span 99 % of all cells. Pressures count as constant during a pass, and there is no "
+HOT += "conduction along the surface: on rough discs the hottest cells may be too cold by half of their rise, or more."
+TOPOGRAPHY = "Heights, positive toward the other body; those of the pin from its mean. The colours span 99 % of all heights of a body."
+STATUS = "Status of the cells, with parts of the area. Thick build-up is debris of at least 0.1 µm; where it is thinner, it is paler."
+BUILD_UP = "Thickness of the debris. The colours end at what 99.5 % of the covered cells of a body do not exceed; means are over all."
 FIGURES = {
-    "topography": (
-        ("disc/height", "pin/height"),
-        "Heights, positive toward the other body; those of the pin from its mean. The colours span 99 % of all heights of a body.",
-    ),
-    "status": (
-        ("disc/status", "pin/status"),
-        "Status of the cells, with parts of the area. Thick build-up is debris of at least 0.1 µm; where it is thinner, it is paler.",
-    ),
-    "build-up": (
-        ("disc/thickness", "pin/thickness"),
-        "Thickness of the debris. The colours end at what 99.5 % of the covered cells of a body do not exceed; means are over all.",
-    ),
-    "pressure": (
-        ("pin/pressure",),
-        (
-            "Contact pressure on the pin. The colours end at the pressure above which 0.5 % of the load is carried. They begin at zero, or on "
-            "a logarithmic scale at that below which 0.5 % is carried."
-        ),
-    ),
-    "contact-temperature": (
-        ("pin/temperature",),
-        (
-            "Temperature of the cells of the pin. The colours span 99 % of all cells. Pressures count as constant during a pass, and there is "
-            "no conduction along the surface: on rough discs the hottest cells may be too cold by half of their rise, or more."
-        ),
-    ),
+    "topography": (("disc/height", "pin/height"), TOPOGRAPHY),
+    "status": (("disc/status", "pin/status"), STATUS),
+    "build-up": (("disc/thickness", "pin/thickness"), BUILD_UP),
+    "pressure": (("pin/pressure",), PRESSURE),
+    "contact-temperature": (("pin/temperature",), HOT),
 }
 Legend = Sequence[tuple[str, str]]
 LEGEND = [(colour, f"{name}: {made_of}") for colour, (name, made_of) in zip(STATUS_COLOURS, STATUSES, strict=False)]
 LEGEND.append((FILM_COLOUR, "the same, thinner than 0.1 µm"))
 
 
-@dataclass(frozen=True)
+class Scale(NamedTuple):
+    """Colours that maps share, and the label of their bar; statuses have a legend."""
+
+    colours: dict[str, Any]
+    label: str = ""
+
+
+@dataclass
 class Picture:
-    """A map as it is drawn: in the unit that is shown, row by row from the inside, NaN where there is no cell."""
+    """A map as it is drawn: in the unit that is shown, row by row from the inside, NaN where there is no cell; edges of cells, rad and mm."""
 
     values: Any
-    # Edges of the cells, rad and mm.
     angles: Any
     radii: Any
     form: str
+    title: str = ""
+    scale: Scale = Scale({})
 
     def corners(self) -> tuple[Any, Any]:
         """Corners of the cells, mm, of a map that is not unrolled."""
@@ -93,9 +82,8 @@ class Picture:
         wide, high = self.span
         count = min(max(math.ceil(least * wide / (room * high)), 1), 6, self.values.shape[1]) if self.form is UNROLLED else 1
         width = min(room, HIGHEST * wide / (high * count))
-        height = count * width * high / wide
-        stretch = float(f"{max(LOWEST / height, 1.0):.2g}")
-        return count, width, height * stretch, stretch
+        stretch = float(f"{max(LOWEST * wide / (count * width * high), 1.0):.2g}")
+        return count, width, count * width * high / wide * stretch, stretch
 
     def below(self, letters: int, stretch: float) -> str:
         """What is written below, in lines of about so many letters; maps of a figure have the same words."""
@@ -104,23 +92,7 @@ class Picture:
         return words + (f"\nradius stretched {stretch:g}×" if stretch > 1 else "")
 
 
-class Scale(NamedTuple):
-    """Colours that maps share, and the label and the ends of their bar; statuses have a legend."""
-
-    colours: dict[str, Any]
-    label: str = ""
-    extend: str = "neither"
-
-
-class Tile(NamedTuple):
-    """A map with what is written above it."""
-
-    picture: Picture
-    title: str
-    scale: Scale
-
-
-def picture_of(cells: xarray.DataArray, is_polar: bool) -> Picture:
+def picture_of(cells: xarray.DataArray, is_polar: bool, title: str = "") -> Picture:
     """A map, row by row, as it is drawn; of very many cells those in the middle of each point."""
     places, edges = [], []
     for name, per_unit in (("radius", 1e3), (str(cells.dims[1]), 1.0)):
@@ -133,16 +105,11 @@ def picture_of(cells: xarray.DataArray, is_polar: bool) -> Picture:
     values = cells.values[np.ix_(*places)]
     # Only a round pin has no cells at its corners.
     is_round = cells.dims[1] == "pin_angle" and np.isnan(values[0, 0]) and np.isfinite(values).any()
-    return Picture(values, edges[1], edges[0], POLAR if is_polar else ARCS if is_round else UNROLLED)
+    return Picture(values, edges[1], edges[0], POLAR if is_polar else ARCS if is_round else UNROLLED, title)
 
 
 def scale_of(shown: Map, pictures: Sequence[Picture], cmap: str) -> Scale:
-    """The colours that maps share, of which each counts as much as the others.
-
-    Heights and temperatures: all but the lowest and the highest half per cent. Thickness: from zero to what 99.5 % of the covered cells do
-    not exceed. Pressure: from zero to that above which 0.5 % of the load is carried; where it is more than a hundred times the pressure
-    below which 0.5 % is carried, from this one on, logarithmically. So a few cells that carry nothing do not decide.
-    """
+    """The colours that maps share, of which each counts as much as the others; `FIGURES` tells their ends: few cells do not decide."""
     import matplotlib
     from matplotlib.colors import ListedColormap, LogNorm, Normalize
 
@@ -151,7 +118,6 @@ def scale_of(shown: Map, pictures: Sequence[Picture], cmap: str) -> Scale:
         return Scale({"cmap": statuses, "norm": Normalize(-0.5, FILM + 0.5)})
     # What is apart is not grey among greys.
     apart, name = ("#bfdcf2", "blue") if cmap == "greys" else (APART, "grey")
-    label, colours = labelled(shown.what, shown.unit.symbol), matplotlib.colormaps["Greys_r" if cmap == "greys" else cmap]
     is_pressure, is_span = shown.path == "pin/pressure", shown.colours == "span"
     values, weights = [np.array([])], [np.array([])]
     for picture in pictures:
@@ -167,19 +133,22 @@ def scale_of(shown: Map, pictures: Sequence[Picture], cmap: str) -> Scale:
     if is_span:
         # What rounding makes of equal values is no range.
         around = 0.01 if high - low <= 1e-9 * max(abs(low), abs(high)) else 0.0
-        return Scale({"cmap": colours.with_extremes(bad=GROUND), "norm": Normalize(low - around, high + around)}, label, "both")
-    # Zero is below the colours.
-    norm = LogNorm(low, high) if is_pressure and high > MOST_LINEAR * low > 0 else Normalize(1e-12 * high, high)
-    return Scale({"cmap": colours.with_extremes(under=apart, bad=GROUND), "norm": norm}, f"{label}\n{name}: {ZERO[shown.path]}", "max")
+        norm = Normalize(low - around, high + around)
+    else:
+        # Zero is below the colours.
+        norm = LogNorm(low, high) if is_pressure and high > MOST_LINEAR * low > 0 else Normalize(1e-12 * high, high)
+    colours: Any = matplotlib.colormaps["Greys_r" if cmap == "greys" else cmap].with_extremes(under=None if is_span else apart, bad=GROUND)
+    colours.colorbar_extend = "both" if is_span else "max"
+    return Scale({"cmap": colours, "norm": norm}, labelled(shown.what, shown.unit.symbol) + ("" if is_span else f"\n{name}: {ZERO[shown.path]}"))
 
 
-def draw_map(panels: Sequence[Any], tile: Tile, size: tuple[float, float], letters: int, stretch: float) -> Any:
+def draw_map(panels: Sequence[Any], picture: Picture, size: tuple[float, float], letters: int, stretch: float) -> Any:
     """Draws one map into axes of this size, mm, for an unrolled ring several below each other; gives what a colour bar belongs to."""
     from matplotlib.colors import LogNorm
     from matplotlib.ticker import MaxNLocator
 
-    picture, title, (colours, *_) = tile
-    values, radii, low = picture.values, picture.radii, colours["norm"].vmin
+    values, radii, colours = picture.values, picture.radii, picture.scale.colours
+    low: Any = colours["norm"].vmin
     if isinstance(colours["norm"], LogNorm):
         # Zero has no logarithm, and what is low has the lowest colour.
         values = np.where(values > 0, np.maximum(values, low), np.where(values == 0, 1e-3 * low, values))
@@ -197,7 +166,7 @@ def draw_map(panels: Sequence[Any], tile: Tile, size: tuple[float, float], lette
         panel.yaxis.set_major_locator(MaxNLocator(max(min(int(size[1] / LINE / 1.4), 5), 1), steps=[1, 2, 5, 10]))
         if size[1] < 2.5 * LINE:
             panel.set_yticks(panel.get_ylim(), labels=[f"{radius:.4g}" for radius in panel.get_ylim()])
-    panels[0].set_title(_wrapped(title, size[0]), loc="left", pad=3)
+    panels[0].set_title(_wrapped(picture.title, size[0]), loc="left", pad=3)
     panels[-1].set_xlabel(picture.below(letters, stretch))
     # In the middle of all.
     middle = 0.5 if len(panels) % 2 else 1 + NUMBERS / (2 * size[1])
@@ -210,11 +179,6 @@ def _wrapped(text: str, wide: float) -> str:
     return "\n".join(wrapped(line, int(wide / LETTER)) for line in text.split("\n"))
 
 
-def _high(texts: Sequence[str]) -> float:
-    """Height of the lines of the longest of texts, mm."""
-    return LINE * max(text.count("\n") + 1 for text in texts)
-
-
 def _legend(onto: Any, legend: Legend, **options: Any) -> None:
     """Says what colours mean."""
     from matplotlib.patches import Patch
@@ -223,23 +187,21 @@ def _legend(onto: Any, legend: Legend, **options: Any) -> None:
     onto.legend(handles=keys, loc="upper left", handlelength=1.2, labelspacing=0.3, **options)
 
 
-def pages(rows: Sequence[Sequence[Tile | None]], width: float, caption: str, legend: Legend, figure_of: Callable[..., Any]) -> list[Any]:
+def pages(rows: Sequence[Sequence[Picture | None]], width: float, caption: str, legend: Legend, figure_of: Callable[..., Any]) -> list[Any]:
     """Lays out rows of maps in equal columns on pages of this width, mm."""
     room, columns = width - (EDGE if legend else BAR), 1 if width < 0.8 * WIDE else 2
     letters = int((room / max(map(len, rows)) - LEFT) / LETTER)
-    figures: list[Any] = []
     # By the identity of their colours: a scale, what a bar belongs to, and where that begins, ends and stands.
-    bars: dict[int, tuple[Scale, Any, float, float, float]] = {}
+    figures, bars = list[Any](), dict[int, tuple[Scale, Any, float, float, float]]()
 
     def add(left: float, top: float, wide: float, high: float) -> Any:
         return figures[-1].add_axes((left / width, 1 - (top + high) / PAGE, wide / width, high / PAGE))
 
     def finish(end: float) -> None:
-        """Adds the colour bars of a page, and cuts it off where it ends."""
         for scale, drawn, top, bottom, right in bars.values():
             high = max(min(bottom - top, LONGEST), SHORTEST)
             bar, end = add(right + 2.5, top, 3.0, high), max(end, top + high + 2.0)
-            figures[-1].colorbar(drawn, cax=bar, extend=scale.extend, label=_wrapped(scale.label, high))
+            figures[-1].colorbar(drawn, cax=bar, label=_wrapped(scale.label, high))
         for axes in figures[-1].axes:
             box = axes.get_position(original=True)
             axes.set_position((box.x0, 1 - (1 - box.y0) * PAGE / end, box.width, box.height * PAGE / end))
@@ -247,12 +209,12 @@ def pages(rows: Sequence[Sequence[Tile | None]], width: float, caption: str, leg
         bars.clear()
 
     top = PAGE
-    for tiles in rows:
-        each, least = room / len(tiles), (0.06 if len(tiles) == 1 else 0.04) * width
-        fits = [(tile, each * column + LEFT, *tile.picture.fitted(each - LEFT, least)) for column, tile in enumerate(tiles) if tile]
-        above = _high([_wrapped(tile.title, wide) for tile, _, _, wide, *_ in fits]) + 1.5
+    for pictures in rows:
+        each, least = room / len(pictures), (0.06 if len(pictures) == 1 else 0.04) * width
+        fits = [(one, each * column + LEFT, *one.fitted(each - LEFT, least)) for column, one in enumerate(pictures) if one]
+        above = LINE * max(_wrapped(one.title, wide).count("\n") + 1 for one, _, _, wide, *_ in fits) + 1.5
         maps = max(count * high + (count - 1) * (NUMBERS + 1) for *_, count, _, high, _ in fits)
-        below = NUMBERS + _high([tile.picture.below(letters, stretch) for tile, *_, stretch in fits]) + 2.0
+        below = LINE * max(one.below(letters, stretch).count("\n") + 1 for one, *_, stretch in fits) + NUMBERS + 2.0
         if top + above + maps + below > PAGE:
             if figures:
                 finish(top)
@@ -262,28 +224,28 @@ def pages(rows: Sequence[Sequence[Tile | None]], width: float, caption: str, leg
                 _legend(figures[-1], legend, ncols=columns, borderaxespad=0.2)
                 top += LINE * math.ceil(len(legend) / columns) + 1.0
         top += above
-        for tile, left, count, wide, high, stretch in fits:
+        for one, left, count, wide, high, stretch in fits:
             panels = [add(left, top + number * (high + NUMBERS + 1), wide, high) for number in range(count)]
-            drawn = draw_map(panels, tile, (wide, high), letters, stretch)
+            drawn = draw_map(panels, one, (wide, high), letters, stretch)
             if not legend:
-                _, _, begin, _, right = bars.get(id(tile.scale), (None, None, top, 0.0, 0.0))
-                bars[id(tile.scale)] = tile.scale, drawn, begin, top + maps, max(right, left + wide)
+                _, _, begin, _, right = bars.get(id(one.scale), (None, None, top, 0.0, 0.0))
+                bars[id(one.scale)] = one.scale, drawn, begin, top + maps, max(right, left + wide)
         top += maps + below
     finish(top)
     return figures
 
 
-def in_axes(ax: Any, tile: Tile, legend: Legend) -> None:
+def in_axes(ax: Any, picture: Picture, legend: Legend) -> None:
     """Draws a map into axes that were given, a ring in one window."""
-    box, (along, across) = ax.get_position(original=True), tile.picture.span
+    box, (along, across) = ax.get_position(original=True), picture.span
     wide, high = (float(size) for size in (box.width, box.height) * ax.figure.get_size_inches() / MM)
     true = wide * across / along
-    stretch = max(float(f"{high / true:.2g}"), 1.0) if tile.picture.form is UNROLLED and true < LOWEST else 1.0
-    drawn = draw_map([ax], tile, (wide, min(true * stretch, high)), int(wide / LETTER), stretch)
+    stretch = max(float(f"{high / true:.2g}"), 1.0) if picture.form is UNROLLED and true < LOWEST else 1.0
+    drawn = draw_map([ax], picture, (wide, min(true * stretch, high)), int(wide / LETTER), stretch)
     if legend:
         _legend(ax, legend, bbox_to_anchor=(1.02, 1), borderaxespad=0)
     else:
-        ax.figure.colorbar(drawn, ax=ax, extend=tile.scale.extend, label=tile.scale.label)
+        ax.figure.colorbar(drawn, ax=ax, label=picture.scale.label)
 
 
 def in_unit(cells: xarray.DataArray, shown: Map) -> xarray.DataArray:
@@ -302,23 +264,18 @@ def _read(subject: Subject, path: str, index: int) -> xarray.DataArray:
 
 
 def _moments(drawing: Drawing, shown: Map) -> dict[int, Sequence[int]]:
-    """The moments of a map that are shown, by the numbers of the runs that have it: the first and the last, of the build-up the last, of a
-    contact the first one after the start that has it and the last; or those that were asked for."""
+    """The moments that are shown by the numbers of the runs: of a map of the contact, unless told, the first and the last that have one."""
     is_thickness, of_contact = shown.what == "thickness", shown.path in ("pin/pressure", "pin/temperature")
-    found: dict[int, Sequence[int]] = {}
+    found = dict[int, Sequence[int]]()
     needed = [f"{shown.body}/{name}" for name in ("height", "substrate")] if is_thickness else [shown.path]
     # Temperatures of cells are recorded on request.
     for subject in drawing.having(*needed, is_part=shown.path == "pin/temperature"):
         own = subject.moments[-1:] if is_thickness and not subject.is_chosen else subject.moments
-
-        def touches(index: int, subject: Subject = subject) -> bool:
-            return bool(np.nanmax(_read(subject, shown.path, index).values, initial=0.0) > 0)
-
-        if of_contact and subject.is_chosen:
-            own = [*filter(touches, own)]
-        elif of_contact:
-            later = np.flatnonzero(subject.map_time > 0).tolist()
-            own = sorted({next(filter(touches, order), -1) for order in (later, later[::-1])} - {-1})
+        if of_contact:
+            order = own if subject.is_chosen else np.flatnonzero(subject.map_time > 0).tolist()
+            touching = (index for index in order if _read(subject, shown.path, index).max() > 0)
+            last = (index for index in order[::-1] if _read(subject, shown.path, index).max() > 0)
+            own = [*touching] if subject.is_chosen else sorted({next(touching, -1), next(last, -1)} - {-1})
         found[subject.number] = own
         if not own:
             drawing.leave_out(subject, f"no map {shown.what} with a contact {'then' if subject.is_chosen else 'after the start'}")
@@ -348,48 +305,45 @@ def _said(subject: Subject, shown: Map, index: int, recorded: xarray.DataArray, 
     return "" if shown.body == "disc" else f"; at most {np.nanmax(values):.3g}\u00a0{unit}"
 
 
-def draw_maps(drawing: Drawing, paths: Sequence[str], caption: str) -> list[Any]:
+def draw_maps(drawing: Drawing, _: Sequence[Subject], paths: Sequence[str], caption: str) -> list[Any]:
     """Pages of maps with their common scales: those of several runs in columns, of a single run moments beside each other."""
     from matplotlib.figure import Figure
 
-    tiles: dict[tuple[str, int], list[Tile]] = {}
+    found: dict[tuple[str, int], list[Picture]] = {}
     for path in paths:
-        shown = MAPS[path]
-        places = [(number, index) for number, indices in _moments(drawing, shown).items() for index in indices]
-        pictures, titles = [], []
-        for number, index in places:
+        shown, pictures = MAPS[path], list[Picture]()
+        for number, indices in _moments(drawing, shown).items():
             subject = drawing.subjects[number]
-            recorded = _read(subject, path, index)
-            cells = in_unit(recorded, shown)
-            run, when = "" if drawing.only else f"{subject.label}\n", subject.moment(index).replace(" ", "\u00a0")
-            titles.append(f"{run}{shown.body.capitalize()}, {when}{_said(subject, shown, index, recorded, cells)}")
-            pictures.append(picture_of(cells, drawing.polar and shown.body == "disc"))
+            for index in indices:
+                recorded = _read(subject, path, index)
+                cells = in_unit(recorded, shown)
+                run, when = "" if drawing.only else f"{subject.label}\n", subject.moment(index).replace(" ", "\u00a0")
+                title = f"{run}{shown.body.capitalize()}, {when}{_said(subject, shown, index, recorded, cells)}"
+                pictures.append(picture_of(cells, drawing.polar and shown.body == "disc", title))
+                found.setdefault((path, number), []).append(pictures[-1])
         scale = scale_of(shown, pictures, drawing.cmap)
-        for (number, _), picture, title in zip(places, pictures, titles, strict=True):
-            tiles.setdefault((path, number), []).append(Tile(picture, title, scale))
-    if not tiles:
-        return []
+        for picture in pictures:
+            picture.scale = scale
     legend = LEGEND if "disc/status" in paths else ()
-    if drawing.ax is not None:
-        figure, _ = drawing.panels(sum(map(len, tiles.values())), NARROW, caption)
-        in_axes(drawing.ax, next(iter(tiles.values()))[0], legend)
+    if found and drawing.ax is not None:
+        figure, _ = drawing.panels(sum(map(len, found.values())), NARROW, caption)
+        in_axes(drawing.ax, next(iter(found.values()))[0], legend)
         return [figure]
-    numbers = sorted({number for _, number in tiles})
+    numbers = sorted({number for _, number in found})
     is_ring = paths[0].startswith("disc") and not drawing.polar
-    width = drawing.width or (WIDE if is_ring or len(numbers) > 1 or max(map(len, tiles.values())) > 1 else NARROW)
+    width = drawing.width or (WIDE if is_ring or len(numbers) > 1 or any(len(own) > 1 for own in found.values()) else NARROW)
 
     def beside(count: int) -> int:
         """Columns of so many, so that rows are about equally long."""
         return math.ceil(count / math.ceil(count / max(int(width / COLUMN), 1)))
 
-    rows: list[Sequence[Tile | None]] = []
-    across = beside(len(numbers))
+    rows, across = list[Sequence[Picture | None]](), beside(max(len(numbers), 1))
     for begin in range(0, len(numbers), across):
         for path in paths:
-            columns = [tiles.get((path, number), []) for number in numbers[begin : begin + across]]
+            columns = [found.get((path, number), []) for number in numbers[begin : begin + across]]
             if len(numbers) == 1 and columns[0]:
                 # But those of an unrolled ring below each other.
                 side = 1 if is_ring and path.startswith("disc") else beside(len(columns[0]))
                 columns = [columns[0][first::side] for first in range(side)]
             rows += zip_longest(*columns, *[[]] * (across - len(columns)))
-    return pages(rows, width, caption, legend, Figure)
+    return pages(rows, width, caption, legend, Figure) if rows else []

@@ -1,6 +1,7 @@
 """Figures of series against time: contact area, friction, temperatures, filling and coverage, debris, emission."""
 
 import math
+from collections.abc import Sequence
 from functools import partial
 from typing import Any
 
@@ -23,19 +24,17 @@ SOURCES = ("worn_pin", "worn_resin", "worn_disc", "returned")
 REVOLUTION = "mean of the last simulated revolution"
 TEMPERATURES = ("contact_temperature_max", "contact_temperature_heated", "contact_temperature", "disc_temperature", "pin_temperature")
 FILLED = ("filled_fraction", "disc_secondary", "pin_secondary", "pin_primary")
+# Airborne: what panels show, with the prefix of its unit, and the name of each line.
+AIRBORNE = {"airborne mass": ("kg ", {"pm10_mass": "PM10", "pm25_mass": "PM2.5"}), "number of airborne particles": ("", {"particle_number": ""})}
 
 
-def contact_area(drawing: Drawing) -> list[Any]:
+def contact_area(drawing: Drawing, subjects: list[Subject]) -> list[Any]:
     """Mean over the last simulated revolution against time, and single steps; above it load and speed if a run has a cycle."""
-    subjects = drawing.having("series/contact_area", "series/contact_area_mean")
-    if not subjects:
-        return []
     shown = courses(subjects, "contact_area_mean", MM2, True)
     single = [one for one in courses(subjects, "contact_area", MM2, True) if one.values.shape[1] == 1 and len(shown) <= MOST_BANDS]
     above = ["normal_force", "rotational_speed"] if any(one.has_cycle for one in subjects) and drawing.ax is None else []
     height, ratios = (58 + 22 * len(above)) / (len(above) + 1), {"height_ratios": [1] * len(above) + [2]} if above else {}
-    usual = WIDE if above else NARROW
-    figure, axes = drawing.panels(len(above) + 1, height, "Contact area against time", 1, usual, **ratios)
+    figure, axes = drawing.panels(len(above) + 1, height, "Contact area against time", 1, WIDE if above else NARROW, **ratios)
     *upper, axis = axes
     time, duration = time_of(subjects), calm(shown)
     for one, name in zip(upper, above, strict=True):
@@ -67,29 +66,24 @@ def operation(axis: Any, subjects: list[Subject], name: str, time: Unit) -> None
         elif subject.has(f"series/{name}"):
             values = subject.values(name)
         else:
-            said = subject.run.plateau.scene["operation"][name]
-            values = np.full(subject.time.size, quantity(said, "N" if name == "normal_force" else "rad s-1"))
+            said = quantity(subject.run.plateau.scene["operation"][name], "N" if name == "normal_force" else "rad s-1")
+            values = np.full(subject.time.size, said)
         draw(axis, Course(subject, subject.label, pandas.DataFrame(unit.value(values), subject.time)), time, 0.0)
     title = "speed of the\nvehicle" if is_road else "speed of the\ndisc" if name == "rotational_speed" else "normal\nforce"
     axis.set(ylim=(0, None), ylabel=f"{title}, {unit.symbol}")
 
 
-def friction(drawing: Drawing) -> list[Any]:
+def friction(drawing: Drawing, subjects: list[Subject]) -> list[Any]:
     """Coefficient of friction against time, and that of single steps against mean pressure."""
-    names = ("friction_coefficient_mean", "friction_coefficient", "mean_pressure")
-    subjects = drawing.having(*(f"series/{name}" for name in names), is_part=True)
-    if not subjects:
-        return []
-    shown = courses(subjects, names[0], NUMBER, True)
+    shown = courses(subjects, "friction_coefficient_mean", NUMBER, True)
     time, duration = time_of(subjects), calm(shown)
-    caption = "Coefficient of friction against time and against mean contact pressure"
-    figure, (left, right) = drawing.panels(2, 60, caption, sharey=True)
+    figure, (left, right) = drawing.panels(2, 60, "Coefficient of friction against time and against mean contact pressure", sharey=True)
     for course in shown:
         draw(left, course, time, duration)
-    unit = unit_of("Pa", np.concatenate([subject.values(names[2]) for subject in subjects]))
+    unit = unit_of("Pa", np.concatenate([subject.values("mean_pressure") for subject in subjects]))
     every = np.array([])
     for subject in subjects:
-        pressure, coefficient = unit.value(subject.values(names[2])), subject.while_rubbing(subject.values(names[1]))
+        pressure, coefficient = unit.value(subject.values("mean_pressure")), subject.while_rubbing(subject.values("friction_coefficient"))
         touching = np.flatnonzero((pressure > 0) & np.isfinite(coefficient))
         touching = touching[:: max(1, math.ceil(len(touching) / MOST_MARKS))]
         mark = {"color": subject.line["color"], "markersize": 2, "markeredgewidth": 0, "alpha": 0.7}
@@ -103,47 +97,42 @@ def friction(drawing: Drawing) -> list[Any]:
     return drawing.explained(figure, left, note)
 
 
-def in_panels(drawing: Drawing, names: tuple[str, ...], unit: Unit, caption: str, what: str) -> list[Any]:
-    """Draws series of one unit: those of a single run in one panel, of several each in its own; nothing if no run has the last."""
-    subjects = drawing.having(f"series/{names[-1]}", is_part=True)
-    found = {name: courses([subject for subject in subjects if subject.has(f"series/{name}")], name, unit) for name in names}
-    found = {name: shown for name, shown in found.items() if shown}
-    if not found:
-        return []
-    every = [course for shown in found.values() for course in shown]
+def in_panels(drawing: Drawing, subjects: list[Subject], names: Sequence[str], unit: Unit, caption: str, what: str) -> list[Any]:
+    """Draws series of one unit: those of a single run in one panel, of several each in its own."""
+    every = {name: courses([subject for subject in subjects if subject.has(f"series/{name}")], name, unit) for name in names}
+    found = {name: shown for name, shown in every.items() if shown}
     # Temperatures have peaks that nothing may take away.
     durations = {name: 0.0 if unit is CELSIUS else calm(shown) for name, shown in found.items()}
-    count = 1 if drawing.only else len(found)
+    count, duration = 1 if drawing.only else len(found), max(durations.values())
     figure, axes = drawing.panels(count, 62 if drawing.only else 48, caption)
     for number, (name, shown) in enumerate(found.items()):
-        axis = axes[number % count]
-        title = "valleys of the disc filled" if name == "filled_fraction" else SERIES[name].title
+        axis, title = axes[number % count], "valleys of the disc filled" if name == "filled_fraction" else SERIES[name].title
         for course in shown:
             own = look(number) | {"label": title} if drawing.only else {}
-            draw(axis, course, time_of(subjects), max(durations.values()) if durations[name] else 0.0, unit is CELSIUS, **own)
+            draw(axis, course, time_of(subjects), duration if durations[name] else 0.0, unit is CELSIUS, **own)
         axis.set_ylabel(f"{what}, {unit.symbol}")
         axis.set_title("" if drawing.only else title, loc="left")
     for axis in axes if unit is PERCENT else ():
         axis.set_ylim(0, None)
     time_axis(axes, subjects)
-    duration, is_band = max(durations.values()), any(course.values.shape[1] > 1 for course in every)
-    return drawing.explained(figure, axes[0], note_of(every if duration or is_band else [], duration, "mean"))
+    drawn = [course for shown in found.values() for course in shown]
+    is_noted = duration or any(course.values.shape[1] > 1 for course in drawn)
+    return drawing.explained(figure, axes[0], note_of(drawn if is_noted else [], duration, "mean"))
 
 
 temperature = partial(in_panels, names=TEMPERATURES, unit=CELSIUS, caption="Temperatures against time", what="temperature")
 filled = partial(in_panels, names=FILLED, unit=PERCENT, caption="Filled part of the valleys, and coverage, against time", what="fraction")
 
 
-def debris(drawing: Drawing) -> list[Any]:
+def debris(drawing: Drawing, subjects: list[Subject]) -> list[Any]:
     """Where the wear debris is, stacked, with all that was worn; below it the same without what was emitted."""
-    subjects, figures = drawing.having(*(f"series/{name}" for name in (*PARTS, *SOURCES))), []
     # At the start there was none.
     every = [{name: np.insert(subject.values(name), 0, 0.0) for name in (*PARTS, *SOURCES)} for subject in subjects]
     there = [name for name in PARTS if any(np.any(parts[name] > 0) for parts in every)]
     kept = [name for name in there if name != "emitted"]
     line = "worn off" + (", or back from plateaus that broke away" if any(np.any(parts["returned"] > 0) for parts in every) else "")
-    columns = min(len(subjects), 1 if drawing.is_narrow else 3)
-    for first in range(0, len(subjects), columns or 1):
+    columns, figures = min(len(subjects), drawing.columns(3)), list[Any]()
+    for first in range(0, len(subjects), columns):
         figure, axes = drawing.panels(2 * columns, 49, "Balance of the wear debris", columns, sharex=True, sharey="row")
         shown = subjects[first : first + columns]
         time_axis(axes, subjects)
@@ -151,7 +140,7 @@ def debris(drawing: Drawing) -> list[Any]:
             totals = [np.sum([parts[name] for name in sums] or [np.zeros(1)], axis=0) for parts in every]
             unit = unit_of("m3", np.concatenate(totals))
             labels = [SERIES[name].title.removesuffix(" of the simulated pin") for name in names]
-            for axis, subject, parts, total in zip(row, shown, every[first:], totals[first:]):
+            for axis, subject, parts, total in zip(row, shown, every[first:], totals[first:], strict=False):
                 at = np.insert(time_of(subjects).value(subject.time), 0, 0.0)
                 chosen = np.append(np.arange(0, len(at) - 1, math.ceil(len(at) / MOST)), len(at) - 1)
                 if names:
@@ -170,28 +159,23 @@ def debris(drawing: Drawing) -> list[Any]:
     return figures
 
 
-def emission(drawing: Drawing) -> list[Any]:
+def emission(drawing: Drawing, subjects: list[Subject]) -> list[Any]:
     """Airborne mass and number of particles that are added in windows of time, and since the start for each kilometre of road."""
-    subjects = drawing.having("series/pm10_mass", "series/pm25_mass", "series/particle_number", is_part=True)
-    if not subjects:
-        return []
     on_road = [subject for subject in subjects if subject.has("series/road_distance")]
     # Windows of few pulses would beat with them.
     most = MOST_OF_EMISSION // 2 if calm(courses(subjects, "contact_area_mean", MM2)) else MOST_OF_EMISSION
-    kinds = {"airborne mass": ("kg ", ("pm10_mass", "pm25_mass")), "number of airborne particles": ("", ("particle_number",))}
-    panels = [(title, *kind, is_road) for is_road in (False, True) if on_road or not is_road for title, kind in kinds.items()]
+    panels = [(title, *kind, is_road) for is_road in (False, True) if on_road or not is_road for title, kind in AIRBORNE.items()]
     figure, axes = drawing.panels(len(panels), 50, "Airborne emission of the simulated pin against time")
     for axis, (title, prefix, names, is_road) in zip(axes, panels, strict=True):
         drawn = []
         for subject in on_road if is_road else subjects:
-            for place, name in enumerate(names):
-                own = look(place) | {"label": ["PM10", "PM2.5"][place]} if drawing.only else {}
-                line = {**subject.line, "label": None if place else subject.label, "alpha": 0.45 if place and not own else 1.0, **own}
-                drawn.append((line, per_metre(subject, name) if is_road else rates(subject, name, most)))
+            for place, (name, label) in enumerate(names.items()):
+                paler = {"label": None, "alpha": 0.45} if place else {"label": subject.label}
+                own = look(place) | {"label": label or "PM10"} if drawing.only else paler
+                drawn.append((subject.line | own, per_metre(subject, name) if is_road else rates(subject, name, most)))
         unit = in_powers(prefix + ("m-1" if is_road else "s-1"), np.concatenate([values for _, values in drawn]))
         for line, values in drawn:
-            at = time_of(subjects).value(values.index)
-            axis.plot(at, unit.value(values), drawstyle="default" if is_road else "steps-post", **line)
+            axis.plot(time_of(subjects).value(values.index), unit.value(values), drawstyle="default" if is_road else "steps-post", **line)
         axis.set(ylim=(0, None), ylabel=f"{'emission factor' if is_road else 'rate'}, {unit.symbol}")
         axis.set_title(title, loc="left")
     time_axis(axes, subjects)

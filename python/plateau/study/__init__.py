@@ -14,26 +14,16 @@ if TYPE_CHECKING:
     from plateau.study.fit_of_study import fit
     from plateau.study.imports import import_values
     from plateau.study.level_differences import levels
-    from plateau.study.of_scenes import of_scenes
     from plateau.study.optimum import optimize
     from plateau.study.prediction import predict
-    from plateau.study.scene_comparison import compare
+    from plateau.study.scene_comparison import compare, of_scenes
     from plateau.study.seed_counts import seeds_needed
     from plateau.study.variance_parts import sensitivity
 
 # Where each answer is found.
-ANSWERS = {
-    "effects": "analysis",
-    "levels": "level_differences",
-    "seeds_needed": "seed_counts",
-    "predict": "prediction",
-    "of_scenes": "of_scenes",
-    "optimize": "optimum",
-    "sensitivity": "variance_parts",
-    "fit": "fit_of_study",
-    "import_values": "imports",
-    "compare": "scene_comparison",
-}
+ANSWERS = {"effects": "analysis", "levels": "level_differences", "seeds_needed": "seed_counts", "predict": "prediction", "optimize": "optimum"}
+ANSWERS |= {"sensitivity": "variance_parts", "fit": "fit_of_study", "import_values": "imports"}
+ANSWERS |= dict.fromkeys(("compare", "of_scenes"), "scene_comparison")
 
 __all__ = ["Factor", "Response", "Study", "compare", "effects", "fit", "import_values", "levels", "of_scenes", "open_study"]
 __all__ += ["optimize", "predict", "seeds_needed", "sensitivity"]

@@ -88,7 +88,7 @@ class Effects:
         return effects_page(self.study, self.cautions, self.responses, figures, files)
 
 
-def effects(study: Study | str | os.PathLike[str], model: str | None = None, terms: str = "all", confidence: float = 0.95) -> Effects:
+def effects(study: Study | str | os.PathLike[str], model: str | None = None, confidence: float = 0.95) -> Effects:
     """Tells what the factors of a study do to its responses.
 
     Parameters
@@ -97,8 +97,6 @@ def effects(study: Study | str | os.PathLike[str], model: str | None = None, ter
         The study, TOML.
     model : str, optional
         ``"main"``, ``"interactions"``, ``"full"`` or ``"quadratic"``; one that the design allows unless given.
-    terms : str
-        ``"all"`` of the model, or ``"aicc"``: those with the least AICc.
     confidence : float
         Confidence level of intervals.
 
@@ -112,7 +110,7 @@ def effects(study: Study | str | os.PathLike[str], model: str | None = None, ter
     >>> found.table[["response", "term", "effect", "low", "high", "unit"]]
     """
     opened = usable(analysed(study))
-    return Effects(opened, [_effects(opened, response, model, terms, confidence) for response in opened.responses], confidence)
+    return Effects(opened, [_effects(opened, response, model, confidence) for response in opened.responses], confidence)
 
 
 def usable(study: Study) -> Study:
@@ -141,10 +139,10 @@ def together(study: Study) -> list[str]:
     return [said.format(*pair) for pair in itertools.combinations(places, 2) if alike.loc[pair]]
 
 
-def _effects(study: Study, response: Response, model: str | None, terms: str, confidence: float) -> ResponseEffects:
+def _effects(study: Study, response: Response, model: str | None, confidence: float) -> ResponseEffects:
     """The analysis of one response."""
     try:
-        fit = fitted(study, response, model, terms, confidence, centre=True)
+        fit = fitted(study, response, model, confidence, centre=True)
     except NothingToFit as error:
         return ResponseEffects(response, None, str(error), pandas.DataFrame(columns=COLUMNS), None, "", {}, [])
     table, power, said_of_fit = effect_table(fit), box_cox(fit), cautions(fit)

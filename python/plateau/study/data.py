@@ -134,6 +134,11 @@ class Response:
     high: float
     asked: dict[str, Any]
 
+    @property
+    def unit_of_fit(self) -> str:
+        """SI unit of what is fitted."""
+        return self.unit if self.transform == "none" else "1"
+
     def scaled(self, values: Any) -> Numbers:
         """Values, SI, on the scale of the fit; not finite where it has no such value."""
         with np.errstate(divide="ignore", invalid="ignore"):

@@ -36,23 +36,19 @@ def _pareto(one: ResponseEffects, fit: Fitted) -> Any:
     left_out, table = len(table) - MOST_TERMS, table.head(MOST_TERMS)
     if table.empty:
         return None
-    level, margins, has_effects = f"{100 * fit.confidence:g} %", table["margin_of_error"].dropna(), bool(table["effect"].notna().any())
+    level, has_effects = f"{100 * fit.confidence:g} %", bool(table["effect"].notna().any())
     notes = [f"Bars: {level} interval"] if table["low"].notna().any() else []
     notes += [f"filled: p < {1 - fit.confidence:.3g}"] if table["p"].notna().any() else []
-    notes += ["dotted: margin of error (Lenth)"] if len(margins) else []
     notes += [f"{left_out} smaller terms are not shown"] if left_out > 0 else []
     caption = f"{one.title}: effects with {level} intervals, and shares of the variance"
     figure, axes = new(WIDE, 26 + 5 * len(table), caption, 1, 1 + has_effects, "; ".join(notes), sharey=True)
-    places, is_sure = np.arange(len(table)), (table["p"] < 1.0 - fit.confidence) | (table["effect"].abs() > table["margin_of_error"])
-    colours = np.where(is_sure, LINES[0], QUIET)
+    places, colours = np.arange(len(table)), np.where(table["p"] < 1.0 - fit.confidence, LINES[0], QUIET)
     if has_effects:
         unit, axis = unit_for(one.unit, float(table["effect"].abs().max())), axes[0, 0]
         for place, colour, row in zip(places, colours, table.to_dict("records"), strict=True):
             effect, low, high = (row[name] * unit.per_si for name in ("effect", "low", "high"))
             axis.plot([low, high], [place, place], color=colour, linewidth=1.4, solid_capstyle="butt")
             axis.plot(effect, place, "o", color=colour, markerfacecolor=colour if row["p"] < 1.0 - fit.confidence else "white")
-        for sign in (-1.0, 1.0) if len(margins) else ():
-            axis.axvline(sign * margins.iloc[0] * unit.per_si, color=LINES[1], linestyle=":")
         axis.axvline(0.0, color=QUIET, linewidth=0.6)
         axis.locator_params(axis="x", nbins=6)
         name = one.response.name if one.response.transform == "none" else one.title
@@ -142,14 +138,11 @@ def _residuals(one: ResponseEffects, fit: Fitted) -> Any:
     caption = f"{one.title}: residuals against fitted values, in the order of the runs, and against normal quantiles"
     figure, axes = new(WIDE, 60, caption, 1, 3)
     residuals, standardised = table["residual"].to_numpy() * unit.per_si, table["standardised"].to_numpy()
-    quantiles = np.empty(len(table))
-    quantiles[np.argsort(residuals, kind="stable")] = stats.probplot(residuals, fit=False)[0]
+    quantiles = stats.probplot(residuals, fit=False)[0][np.argsort(np.argsort(residuals, kind="stable"))]
     of_residuals = labelled("residual", unit.of_differences)
-    panels = [
-        (of_fit.value(table["fitted"].to_numpy()), residuals, labelled("fitted", of_fit.symbol or one.title), of_residuals),
-        (table["made_as"].to_numpy(), residuals, "order of the runs", of_residuals),
-        (quantiles, standardised, "normal quantile", "residual, standard deviations"),
-    ]
+    panels = [(of_fit.value(table["fitted"].to_numpy()), residuals, labelled("fitted", of_fit.symbol or one.title), of_residuals)]
+    panels += [(table["made_as"].to_numpy(), residuals, "order of the runs", of_residuals)]
+    panels += [(quantiles, standardised, "normal quantile", "residual, standard deviations")]
     for axis, (x, y, label, of_y) in zip(axes.flat, panels, strict=True):
         axis.plot(x, y, "o", color=LINES[0], alpha=0.7 if len(x) < 100 else 0.4, markeredgewidth=0)
         if y is residuals:

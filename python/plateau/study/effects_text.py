@@ -30,11 +30,6 @@ def told(one: ResponseEffects) -> tuple[list[str], list[list[str]], list[str]]:
     unit = Unit(one.unit, 1.0) if unit.offset else unit
     scale, symbol = unit.per_si, f" {unit.symbol}".rstrip()
     lines = [one.response.name, f"model: {MODELS[fit.model]}" + (f"; {fit.reason}" if fit.reason else "")]
-    if fit.left_out is not None:
-        kept, left = (", ".join(fit.label(term) for term in terms) for terms in (fit.terms, fit.left_out))
-        lines[-1] = f"model: {kept or 'the mean alone'}; chosen from {MODELS[fit.model]}"
-        of_all = f" instead of {fit.aicc_of_all:.5g} with all" if np.isfinite(fit.aicc_of_all) else ""
-        lines.append(f"terms left out: {left or 'none'}; AICc {fit.aicc:.5g}{of_all}")
     names = {"R²": "r_squared", "adjusted R²": "adjusted_r_squared", "predicted R²": "predicted_r_squared"}
     quality = [f"{name} {summary[key]:.4f}" for name, key in names.items() if np.isfinite(summary[key])]
     p, why = fit.lack_of_fit[2], "nothing is left for it" if fit.scatter[0].freedom else "no point has replicates"

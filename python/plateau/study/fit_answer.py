@@ -69,10 +69,7 @@ class Fit:
 
     @cached_property
     def keys(self) -> pandas.DataFrame:
-        """A row for each piece of the interval of each key: ``key``, ``unit``, ``most_likely``, ``low``, ``high``, ``open_below``, ``open_above``.
-
-        NaN where a key may be anywhere, or where runs contradict the forecast.
-        """
+        """A row for each piece of the interval of each key, with its ends; NaN where it may be anywhere, or runs contradict the forecast."""
         rows, has_failed = [], self.outcome.has_failed
         for at, (factor, _, _, pieces) in enumerate(self._profiles):
             likely = math.nan if has_failed or pieces == [(-1.0, 1.0)] else float(factor.value(self._likelihood.best[at]))
@@ -113,9 +110,7 @@ class Fit:
 
     @cached_property
     def responses(self) -> pandas.DataFrame:
-        """Single values at the most likely place: ``measured``, ``uncertainty``, ``forecast``, ``surrogate_deviation`` (for want of runs),
-        ``seeds_deviation`` (for want of seeds), ``seed_to_seed`` (of runs), ``leave_one_out_error``, ``discrepancy`` (that the model is given).
-        """
+        """Single values at the most likely place; ``surrogate_deviation`` is for want of runs, ``seeds_deviation`` for want of seeds."""
         rows, (means, own, seeds) = [], self._moments
         for at in self.target.singles:
             (number,), one = self._terms(at), self.target.measured[at]
@@ -270,9 +265,9 @@ class Fit:
             is_open = len(pieces) == 1 and pieces[0]["open_below"] and pieces[0]["open_above"]
             about = {"name": factor.name, "keys": factor.keys.split(", "), "unit": factor.unit, "most_likely": rows["most_likely"].iloc[0]}
             keys.append({**about, "interval": pieces, "undetermined": is_open})
-        found: dict[str, Any] = {"study": self.study.title, "keys": keys}
-        found |= {"responses": self.responses.rename(columns={"response": "name"}).to_dict("records")}
-        found |= {"confidence": self.confidence, "misfit": self.misfit, "degrees_of_freedom": self.freedom, "p": self.p}
+        responses = self.responses.rename(columns={"response": "name"}).to_dict("records")
+        found: dict[str, Any] = {"study": self.study.title, "keys": keys, "responses": responses, "confidence": self.confidence}
+        found |= {"misfit": self.misfit, "degrees_of_freedom": self.freedom, "p": self.p}
         found |= {"determined": self.determined, "notes": self.cautions, "runs": len(self._likelihood.runs.x), "runs_at_most": self.most}
         found |= {"rounds": self.outcome.rounds, "ended": self.outcome.ended, "check": self._check}
         found |= {"surrogate_share": float(self._likelihood.share_by_term().max())}
@@ -311,12 +306,9 @@ class Fit:
         test = test if self.freedom else "; there are no more measurements than keys, so the misfit cannot be tested"
         stated = [(one.response.name, size) for one, size in zip(self.target.measured, self.target.discrepancies, strict=True) if size]
         model = f"standard uncertainty of the model: {', '.join(f'{100.0 * size:.3g} % in {name}' for name, size in stated)}"
-        return {
-            "runs": f"{made}; {ENDS[self.outcome.ended]}",
-            "check": "none: no runs are made" if self.outcome.ended == "no runs" else CHECKED[self._check],
-            "misfit": f"χ² = {self.misfit:.3g}{test}",
-            "model": model if stated else "taken for exact; [fit] discrepancy = 0.05 gives it an uncertainty of 5 %",
-        }
+        model = model if stated else "taken for exact; [fit] discrepancy = 0.05 gives it an uncertainty of 5 %"
+        check = "none: no runs are made" if self.outcome.ended == "no runs" else CHECKED[self._check]
+        return {"runs": f"{made}; {ENDS[self.outcome.ended]}", "check": check, "misfit": f"χ² = {self.misfit:.3g}{test}", "model": model}
 
     def figures(self) -> dict[str, Any]:
         """Draws profiles of the keys, regions of their pairs, series."""

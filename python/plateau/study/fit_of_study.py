@@ -23,12 +23,7 @@ from plateau.units import unit_for, with_minus
 
 
 def fit(
-    study: Study | str | os.PathLike[str],
-    *,
-    jobs: int | None = None,
-    workers: int | None = None,
-    retry: bool = False,
-    progress: bool | None = None,
+    study: Study | str | os.PathLike[str], *, jobs: int | None = None, workers: int | None = None, retry: bool = False, progress: bool | None = None
 ) -> Fit:
     """Finds the values of keys with which runs give what was measured, and makes the runs for it.
 
@@ -89,10 +84,8 @@ def _task(study: Study) -> tuple[Target, int, float]:
     where, asked = study.path or study.title, study.document.get("fit", {})
     measured = measurements(study)
     if not measured:
-        raise InputError(
-            f"{where}: nothing was measured: give a [[response]] what was measured of it, such as measured = 0.70, uncertainty = 0.02, or "
-            'measured_file = "FILE.csv" for a whole series'
-        )
+        such = 'measured = 0.70, uncertainty = 0.02, or measured_file = "FILE.csv" for a whole series'
+        raise InputError(f"{where}: nothing was measured: give a [[response]] what was measured of it, such as {such}")
     for factor in study.factors:
         if not factor.is_range:
             advice = f"make one study for each of {', '.join(map(factor.text, factor.levels))}, fit each, and compare the misfits"

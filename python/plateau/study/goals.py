@@ -41,10 +41,8 @@ class Goal:
     def way(self, response: Any) -> Numbers:
         """The part of the way from worth nothing to worth everything, beyond 0 and 1, too."""
         low, best = self.values[:2]
-        up = (np.asarray(response, float) - low) / (best - low)
-        return np.asarray(
-            up if len(self.values) == 2 else np.minimum(up, (self.values[2] - np.asarray(response)) / (self.values[2] - best))
-        )
+        ways = [(np.asarray(response, float) - end) / (best - end) for end in (low, *self.values[2:])]
+        return np.asarray(np.minimum.reduce(ways))
 
     def desirability(self, response: Any) -> Numbers:
         """Desirability, 0 to 1 (G. Derringer and R. Suich, Journal of Quality Technology 12, 214-219 (1980)); 0 of NaN."""
@@ -120,13 +118,10 @@ class Problem:
 
     def forecasts(self, points: pandas.DataFrame, *, with_intervals: bool = False) -> dict[str, pandas.DataFrame]:
         """What surrogates expect of the responses that are wanted."""
-        found = {}
-        for name in self.wanted:
-            surrogate = self.surrogates[name]
-            needs = with_intervals or any(limit.response == name and limit.on != "mean" for limit in self.limits)
-            value = pandas.DataFrame({"value": surrogate.response.back(surrogate.mean(points))})
-            found[name] = surrogate.forecast(points, self.confidence) if needs else value
-        return found
+        needs = {limit.response for limit in self.limits if limit.on != "mean"} | set(self.wanted if with_intervals else ())
+        values = {name: one.response.back(one.mean(points)) for name, one in self.surrogates.items() if name in set(self.wanted) - needs}
+        found = {name: pandas.DataFrame({"value": value}) for name, value in values.items()}
+        return found | {name: self.surrogates[name].forecast(points, self.confidence) for name in needs}
 
     def worth(self, points: pandas.DataFrame) -> Numbers:
         """The mean desirability; NaN where a limit is missed."""
@@ -153,9 +148,7 @@ class Problem:
         """All combinations of levels, each with points spread over a cube from -1 to 1, which stands for the region."""
         choices = [[None] if axis is None else axis for axis in self.axes]
         if (combinations := int(np.prod([len(choice) for choice in choices], dtype=float))) > MOST_COMBINATIONS:
-            raise InputError(
-                f"the levels have {combinations} combinations, at most {MOST_COMBINATIONS} are looked at: hold some of the factors"
-            )
+            raise InputError(f"the levels have {combinations} combinations, at most {MOST_COMBINATIONS} are looked at: hold some of the factors")
         ranges = self.axes.count(None)
         bits = int(np.ceil(np.log2(max(count // combinations, LEAST_POINTS))))
         places = 2.0 * stats.qmc.Sobol(ranges, rng=0).random_base2(bits) - 1.0 if ranges else np.zeros((1, 0))
@@ -199,7 +192,7 @@ class Problem:
 
         @lru_cache(maxsize=8)
         def smooth(cube: bytes) -> tuple[Numbers, Numbers]:
-            """Minus the logarithm of the desirability and the margins of the limits, and their slopes."""
+            """Minus the logarithm of the desirability and the margins of the limits, and their slopes, of one forecast of all places."""
             x = np.frombuffer(cube)
             found = self.forecasts(self.points(levels, self.within(levels, np.vstack([x, x + step, x - step]))))
             logs = sum(goal.importance * np.log(np.maximum(goal.way(found[goal.response]["value"]), 1e-9)) for goal in self.goals)
@@ -217,8 +210,7 @@ class Problem:
 
 
 def beyond_runs(problem: Problem) -> Problem:
-    """The problem whose goals end at the best that is expected within the ranges, if that is better than all runs: else all that is better
-    were worth the same."""
+    """The problem whose goals end at the best that is expected within the ranges, if that is better than all runs."""
     goals = []
     for goal in problem.goals:
         if goal.is_of_runs:
@@ -266,9 +258,8 @@ def wanted(
             values = [low, high]
         elif len(values) == 1 and aim == "target":
             if not low <= values[0] <= high:
-                raise InputError(
-                    f'--target "{text}": the runs have {low:.6g} to {high:.6g} {responses[name].unit}; to aim beyond give LOW..VALUE..HIGH'
-                )
+                has = f"the runs have {low:.6g} to {high:.6g} {responses[name].unit}"
+                raise InputError(f'--target "{text}": {has}; to aim beyond give LOW..VALUE..HIGH')
             reach = max(high - values[0], values[0] - low)
             values = [values[0] - reach, values[0], values[0] + reach]
         if len(values) != (3 if aim == "target" else 2) or not all(a < b for a, b in itertools.pairwise(values)):
@@ -298,9 +289,7 @@ def axes_of(study: Study, hold: Mapping[str, Any] | Sequence[str], is_curved: bo
         raise InputError(f"--hold: {beyond}; the search stays in the region of the design")
     axes: list[list[Any] | None] = []
     for factor in study.factors:
-        levels = (
-            list(range(int(np.ceil(factor.ends[0])), int(factor.ends[1]) + 1)) if factor.whole and factor.is_range else list(factor.levels)
-        )
+        whole = range(int(np.ceil(factor.ends[0])), int(factor.ends[1]) + 1) if factor.whole and factor.is_range else factor.levels
         is_between = factor.is_number and not factor.whole and (factor.is_range or len(factor.levels) == 2 or is_curved)
-        axes.append([held[factor.name]] if factor.name in held else None if is_between else levels)
+        axes.append([held[factor.name]] if factor.name in held else None if is_between else list(whole))
     return axes

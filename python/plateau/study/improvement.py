@@ -22,10 +22,9 @@ NEAR = 0.02
 def improved(
     problem: Problem, runs: int, made: Callable[[pandas.DataFrame], pandas.DataFrame], at_a_time: int = 1
 ) -> tuple[Problem, pandas.DataFrame]:
-    """Makes runs at most, those with each seed counted, where improvement is expected, and fits processes anew after each round.
+    """Makes so many runs at most where improvement is expected, the last ones where the mean is expected to be best.
 
-    The last ones are made where the mean is expected to be best. Of the points of a round each is chosen as if the ones before it had
-    given what is expected of them. Gives the problem with all runs, and the points with the improvement that was expected of them.
+    Of a round each point is chosen as if those before it had given what is expected. Gives the problem with all runs, and the points.
     """
     rows: list[dict[Any, Any]] = []
     left, number = runs // problem.study.seeds, 0
@@ -76,9 +75,8 @@ def with_processes(problem: Problem, study: Study) -> Problem:
 def expected_improvement(problem: Problem, points: pandas.DataFrame) -> Numbers:
     """By how much of the way to the goals points are expected to be better than the best mean of a point that was run.
 
-    The reference is the best expected mean, not the best run, as runs are noisy (V. Picheny and others, Structural and Multidisciplinary
-    Optimization 48, 607-626 (2013)). What is as uncertain at points that were run, too, is nothing that more runs tell. Points that miss a
-    limit improve nothing.
+    It is the best expected mean, as runs are noisy (V. Picheny and others, Struct. Multidisc. Optim. 48, 607-626 (2013)). What is as uncertain
+    at points that were run, too, is nothing that more runs tell.
     """
     names = problem.wanted
     known = problem.study.runs.drop_duplicates("point")

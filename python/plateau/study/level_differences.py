@@ -51,9 +51,7 @@ class LevelDifferences:
         return "\n".join([f"Differences between levels, simultaneous {100 * self.confidence:g} % intervals ({self.method})", *said, ""])
 
 
-def levels(
-    study: Study | str | os.PathLike[str], control: str | None = None, model: str | None = None, confidence: float = 0.95
-) -> LevelDifferences:
+def levels(study: Study | str | os.PathLike[str], control: str | None = None, model: str | None = None, confidence: float = 0.95) -> LevelDifferences:
     """Compares the levels of all factors that have three and more.
 
     Parameters
@@ -137,19 +135,9 @@ def _of_factor(fit: Fitted, at: int, control: str | None) -> pandas.DataFrame | 
         single, most = float(stats.t.isf(tail, freedom)), float(stats.t.isf(tail / len(pairs), freedom))
         reach = float(optimize.brentq(lambda size: within(size) - fit.confidence, 0.98 * single, 1.02 * most, xtol=1e-4))
         chances = np.array([1.0 - within(abs(size)) for size in differences / errors])
-    table = pandas.DataFrame(
-        {
-            "response": fit.response.name,
-            "factor": coding.factor.name,
-            "level": [names[one] for one, _ in pairs],
-            "other": [names[other] for _, other in pairs],
-            "difference": differences,
-            "standard_error": errors,
-            "freedom": freedom,
-            "low": differences - reach * errors,
-            "high": differences + reach * errors,
-            "p": np.clip(chances, 0.0, 1.0),
-            "unit": fit.response.unit if fit.response.transform == "none" else "1",
-        }
-    )
+    table = pandas.DataFrame([(names[one], names[other]) for one, other in pairs], columns=["level", "other"])
+    table = table.assign(difference=differences, standard_error=errors, freedom=freedom, low=differences - reach * errors)
+    table = table.assign(high=differences + reach * errors, p=np.clip(chances, 0.0, 1.0), unit=fit.response.unit_of_fit)
+    table.insert(0, "response", fit.response.name)
+    table.insert(1, "factor", coding.factor.name)
     return table[table["difference"].notna()]

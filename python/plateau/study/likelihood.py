@@ -1,5 +1,4 @@
-"""Likelihood of what was measured, by Gaussian processes of the responses over the keys: where it is largest, how far it falls elsewhere, and
-what runs would tell.
+"""Likelihood of what was measured, by Gaussian processes of the responses over the keys: its largest, its fall, and what runs would tell.
 
 M. C. Kennedy, A. O'Hagan, J. R. Stat. Soc. B 63(3), 425-464 (2001), doi:10.1111/1467-9868.00294 (calibration with Gaussian processes and
 discrepancy of the model); D. Higdon et al., J. Am. Stat. Assoc. 103(482), 570-583 (2008), doi:10.1198/016214507000000888 (series as principal
@@ -158,9 +157,8 @@ class Likelihood:
     @property
     def agrees_by_ignorance(self) -> bool:
         """Whether what was measured is likely at the most likely place only because little is known there."""
-        known, all_in_all = (
-            stats.chi2.sf(self.misfit(self.best[None], with_processes=each)[0], max(self.freedom, 1)) for each in (False, True)
-        )
+        misfits = [self.misfit(self.best[None], with_processes=each)[0] for each in (False, True)]
+        known, all_in_all = stats.chi2.sf(misfits, max(self.freedom, 1))
         return bool(known < 0.01 and all_in_all > 10.0 * known)
 
     def _added(self, own: Numbers, seeds: Numbers) -> Numbers:
@@ -209,11 +207,8 @@ class Likelihood:
         means = self.moments(at)[0]
         differences = (means[: self.keys] - means[self.keys :]).T / (at[: self.keys] - at[self.keys :]).sum(axis=1)
         _, own, seeds = self.moments(place[None])
-        return np.asarray(
-            linalg.solve_triangular(
-                linalg.cholesky(self.covariance + np.diag(self._added(own, seeds)[0]), lower=True), differences, lower=True
-            )
-        )
+        root = linalg.cholesky(self.covariance + np.diag(self._added(own, seeds)[0]), lower=True)
+        return np.asarray(linalg.solve_triangular(root, differences, lower=True))
 
     def shape(self, place: Numbers) -> tuple[Numbers, Numbers]:
         """Axes and deviations of the normal distribution that the likelihood is near a place; no wider than the ranges."""
@@ -236,9 +231,8 @@ class Likelihood:
             value = self.value(places)
             return value[0], (value[1 : 1 + len(free)] - value[1 + len(free) :]) / 2e-3
 
-        found = optimize.minimize(
-            both, place[free], jac=True, bounds=[(-1.0, 1.0)] * len(free), options={"gtol": 1e-2, "ftol": 1e-6, "maxls": 6}
-        )
+        options = {"gtol": 1e-2, "ftol": 1e-6, "maxls": 6}
+        found = optimize.minimize(both, place[free], jac=True, bounds=[(-1.0, 1.0)] * len(free), options=options)
         place[free] = found.x
         return place, float(found.fun)
 
@@ -276,9 +270,8 @@ class Likelihood:
 
         def variances(x: Numbers, share: Numbers) -> Numbers:
             # The values do not matter.
-            return np.asarray(
-                Equations(x, np.linspace(0.0, 1.0, len(x)), share, sets.replicates, middle, sets.axes).forecast(self.places)[1][0]
-            )
+            equations = Equations(x, np.linspace(0.0, 1.0, len(x)), share, sets.replicates, middle, sets.axes)
+            return np.asarray(equations.forecast(self.places)[1][0])
 
         more = variances(np.vstack([sets.x, new]), np.concatenate([sets.share, np.full(len(new), 1.0 / seeds)]))
         return np.asarray((more + 1e-12) / (variances(sets.x, sets.share) + 1e-12)).clip(max=1.0)
@@ -342,10 +335,9 @@ def region(likelihood: Likelihood, one: int, other: int) -> tuple[Numbers, Numbe
 
 
 def products(slopes: Numbers, halves: Numbers, threshold: float) -> tuple[list[tuple[Numbers, float]] | None, list[tuple[Numbers, float]]]:
-    """Exponents of keys, with 1 for the leading one, of products that are determined where the keys are not, or are known far better.
+    """Exponents of keys and the factor that it may be off by, of products that are determined (None if all keys are), or known far better.
 
-    `slopes` are those of the responses over their deviations, by logarithms of keys as multiples of `halves`, half their ranges. Each
-    product has the factor by which it may be off; the determined ones are None if all keys are.
+    `slopes` are those of the responses over their deviations, by logarithms of keys as multiples of `halves`, half their ranges.
     """
     values, axes = np.linalg.eigh(slopes.T @ slopes)
     known, size = values > threshold, halves

@@ -93,9 +93,8 @@ def _series(path: Path, response: Response, uncertainty: float | None, correlati
         raise InputError(f'{path}:1: column "time" has no unit, expected one such as "time [s]"')
     if (deviation is None) == (uncertainty is None):
         what = "no column uncertainty; give one, or uncertainty = ... in the response for all points"
-        raise InputError(
-            f"{path}: {what if deviation is None else 'a column of uncertainties, and the key uncertainty of the response; keep one'}"
-        )
+        twice = "a column of uncertainties, and the key uncertainty of the response; keep one"
+        raise InputError(f"{path}: {what if deviation is None else twice}")
 
     def numbers(column: int, si: str, is_difference: bool = False) -> Numbers:
         # Uncertainties without a unit are in that of the values.

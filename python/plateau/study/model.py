@@ -163,24 +163,22 @@ class Fitted:
 
     Its `runs` were fitted, each once, with equal settings as one `point`; sets of seeds are blocks. `columns` are those of the mean, the
     blocks and each term in `design`, and `coefficients` are 0 where others have the estimate. `centre` has the coded places of the term of
-    centre points, `error` is the mean square of the residual, NaN where nothing but rounding is left, and `left_out` are the terms that a
-    choice by AICc left out, None if none was made.
+    centre points, and `error` is the mean square of the residual, NaN where nothing but rounding is left.
     """
 
     def __init__(
-        self, study: Study, response: Response, model: str, runs: pandas.DataFrame, values: Numbers, terms: list[Term] | None = None,
+        self, study: Study, response: Response, model: str, runs: pandas.DataFrame, values: Numbers,
         reason: str = "", confidence: float = 0.95, centre: bool = False, missing: int = 0,
     ) -> None:  # fmt: skip
         self.study, self.response, self.model, self.reason, self.confidence = study, response, model, reason, confidence
-        self.values, self.missing, self.aicc, self.aicc_of_all = values, missing, np.nan, np.nan
-        self.left_out: list[Term] | None = None
+        self.values, self.missing = values, missing
         self.codings = [Coding.of(factor, runs[factor.name], model) for factor in study.factors]
         keys = [np.round(one.coded(runs[one.name]) * 1e9) if one.is_number else rank(runs[one.name]) for one in study.factors]
         self.is_curved = [coding.classes is None and len(set(key)) > 2 for coding, key in zip(self.codings, keys, strict=True)]
         self.runs = runs.assign(point=rank(np.column_stack(keys)))
         self.seeds, self.point_count = int(runs["replicate"].nunique()), int(self.runs["point"].max()) + 1
         self.centre = self._centre() if centre and model != "quadratic" else {}
-        self.terms = terms if terms is not None else self._terms() + ([()] if self.centre else [])
+        self.terms = self._terms() + ([()] if self.centre else [])
         widths = [1, self.seeds - 1, *(math.prod(self.codings[at].width for at in term) for term in self.terms)]
         self.columns = [slice(int(end) - width, int(end)) for end, width in zip(np.cumsum(widths), widths, strict=True)]
         self.design = self.matrix(runs)
@@ -310,13 +308,10 @@ class Fitted:
         return pandas.DataFrame({"value": rows @ self.coefficients, "standard_error": np.sqrt(variances), "freedom": freedoms})
 
     def errors(self, weights: Numbers) -> tuple[Numbers, Numbers]:
-        """Variances of weighted sums of the responses over all seeds, and their degrees of freedom; NaN without an error.
+        """Variances of weighted sums (rows of `weights`) of the responses over all seeds, and their degrees of freedom; NaN without an error.
 
-        With several sets of seeds it is what the sum differs by between them. If all sets have the same points, this is the variance
-        of the mean of one estimate for each set, with a degree of freedom less than there are sets. Else the part of each set is scaled so
-        that it has the right mean if runs scatter alike, and degrees of freedom are those of the same case, after R. M. Bell and D. F.
-        McCaffrey, Survey Methodology 28, 169-181 (2002). With one set of seeds the error is the residual. ``weights`` have a row for each
-        sum and a column for each run.
+        It is what the sum differs by between sets of seeds, of incomplete sets with the right mean if runs scatter alike (R. M. Bell and D. F.
+        McCaffrey, Survey Methodology 28, 169-181 (2002)); with one set of seeds the residual.
         """
         if self.seeds < 2 or np.isnan(self.error):
             variances = self.error * np.square(weights).sum(axis=1)
@@ -341,11 +336,7 @@ class Fitted:
 
     @cached_property
     def _missed(self) -> tuple[float, float]:
-        """Variance by which the mean response of a point differs from the model beyond scatter, and its degrees of freedom.
-
-        It is that which errors at points that were left out support. Without replicates scatter is not known: all of it is taken to be
-        missed.
-        """
+        """Variance by which means of points that were left out differ from the model beyond scatter, and its degrees of freedom."""
         known, pure, freedom = self._held_out[~np.isnan(self.loo)], self.scatter[0], self.point_count - len(self.own)
         if freedom <= 0 or not len(known):
             return (0.0, 1.0) if pure.freedom > 0 else (np.nan, np.nan)

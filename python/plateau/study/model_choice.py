@@ -1,4 +1,4 @@
-"""Which model is fitted to a response, with which of its terms, and what it misses."""
+"""Which model is fitted to a response, and what it misses."""
 
 from typing import Any
 
@@ -6,34 +6,27 @@ import numpy as np
 
 from plateau.errors import InputError
 from plateau.study.data import Response, Study
-from plateau.study.model import CONTRIBUTES, LEAST_FREEDOM, MODELS, ROUNDING, Fitted, LeastSquares, NothingToFit, Squares, f_test
+from plateau.study.model import CONTRIBUTES, LEAST_FREEDOM, MODELS, ROUNDING, Fitted, NothingToFit, Squares, f_test
 
 # Most coefficients of a model that is tried beside another one.
 MOST_TRIED = 300
 NO_CURVE = "no factor that is a number has more than two values"
 
 
-def fitted(
-    study: Study, response: Response, model: str | None = None, terms: str = "all", confidence: float = 0.95, centre: bool = False
-) -> Fitted:
-    """Fits a model to a response; with `centre`, centre points have a term of their own where their squares cannot be told apart.
-
-    Raises `NothingToFit` if the response has no values, or the same one in all runs.
-    """
+def fitted(study: Study, response: Response, model: str | None = None, confidence: float = 0.95, centre: bool = False) -> Fitted:
+    """Fits a model to a response, with `centre` with a term of centre points; `NothingToFit` if all values are the same, or there are none."""
     if not 0.0 < confidence < 1.0:
         raise InputError(f"confidence level {confidence}: it lies between 0 and 1, such as 0.95")
-    for what, value, known in (("model", model or "main", tuple(MODELS)), ("terms", terms, ("all", "aicc"))):
-        if value not in known:
-            raise InputError(f"{what} {value!r}: expected one of {', '.join(known)}")
+    if model is not None and model not in MODELS:
+        raise InputError(f"model {model!r}: expected one of {', '.join(MODELS)}")
     reason = "as asked for"
     if model is None:
         model, reason = _choice(study, response)
-    whole = _whole(study, response, model, reason, confidence, centre)
-    return _selected(whole) if terms == "aicc" else whole
+    return _whole(study, response, model, reason, confidence, centre)
 
 
 def _whole(study: Study, response: Response, model: str, reason: str = "", confidence: float = 0.95, centre: bool = False) -> Fitted:
-    """The fit with all terms of a model."""
+    """The fit of a model."""
     runs = study.runs
     # What was measured elsewhere was measured for each run by itself.
     own = np.ones(len(runs), bool) if not response.series else ~runs["same_as"].duplicated().to_numpy()
@@ -51,7 +44,7 @@ def _whole(study: Study, response: Response, model: str, reason: str = "", confi
         raise NothingToFit(f"the response {largest:e} is beyond ±1e150")
     if np.ptp(values) <= max(ROUNDING * largest, 1e-150):
         raise NothingToFit(f"the response is {float(values[0])!r} in all {len(values)} observations: no factor has an effect on it")
-    return Fitted(study, response, model, runs[has], values, None, reason, confidence, centre, missing)
+    return Fitted(study, response, model, runs[has], values, reason, confidence, centre, missing)
 
 
 def _choice(study: Study, response: Response) -> tuple[str, str]:
@@ -88,53 +81,8 @@ def no_squares(fit: Fitted) -> str:
     return f"the runs cannot tell {', '.join(aliased)} from other terms" if aliased else ""
 
 
-def _selected(whole: Fitted) -> Fitted:
-    """The fit with the terms that have the least AICc. Terms come and go one at a time; one stays while it is a part of another one.
-
-    C. M. Hurvich and C.-L. Tsai, Biometrika 76, 297-307 (1989).
-    """
-    values, count, terms = whole.values - whole.mean, len(whole.values), whole.terms
-
-    def criterion(kept: frozenset[int]) -> float:
-        fit = LeastSquares(np.hstack([whole.design[:, whole.columns[at]] for at in (0, 1, *(term + 2 for term in sorted(kept)))]))
-        left, k = fit.residuals(values), len(fit.kept) + 1
-        if count - k - 1 <= 0:
-            return np.inf
-        squares = max(float(left @ left), count * whole.rounding**2)
-        return float(count * np.log(squares / count) + 2 * k + 2 * k * (k + 1) / (count - k - 1))
-
-    def is_part(one: int, other: int) -> bool:
-        return 0 < len(terms[one]) < len(terms[other]) and set(terms[one]) <= set(terms[other])
-
-    def may_change(kept: frozenset[int], term: int) -> bool:
-        if term in kept:
-            return not any(is_part(term, other) for other in kept)
-        return all(other in kept or not is_part(other, term) for other in range(len(terms)))
-
-    def improved(kept: frozenset[int]) -> tuple[float, frozenset[int]]:
-        least = criterion(kept)
-        while changes := [kept ^ {term} for term in range(len(terms)) if may_change(kept, term)]:
-            value, best = min(((criterion(change), change) for change in changes), key=lambda found: found[0])
-            if not (value < least - 1e-9 or value == least == np.inf and len(best) < len(kept)):
-                break
-            least, kept = value, best
-        return least, kept
-
-    everything = frozenset(at - 2 for at in map(whole.owner, whole.fit.kept) if at > 1)
-    aicc, kept = min((improved(everything), improved(frozenset())), key=lambda found: found[0])
-    own = whole.study, whole.response, whole.model, whole.runs, whole.values, [terms[at] for at in sorted(kept)]
-    chosen = Fitted(*own, whole.reason, whole.confidence, bool(whole.centre), whole.missing)
-    chosen.left_out = [term for at, term in enumerate(terms) if at not in kept]
-    chosen.aicc, chosen.aicc_of_all = aicc, criterion(everything)
-    return chosen
-
-
 def misfit(fit: Fitted) -> dict[str, Any] | None:
-    """Finds what a model misses, if that is significant at the confidence level, and the model to try, with its share.
-
-    Replicates tell it, or a model that has all terms of this one and more: with several such models the level is divided by their
-    number, after Bonferroni.
-    """
+    """What a model misses significantly, by replicates or by models with all its terms and more (Bonferroni), and the model to try."""
     if np.isnan(fit.error):
         return None
     own, level = fit.residual, 1.0 - fit.confidence
@@ -143,8 +91,7 @@ def misfit(fit: Fitted) -> dict[str, Any] | None:
     if by_replicates := p < level:
         found = [(f, p, other) for other in others if other.residual.mean < own.mean and other.residual.sum < own.sum]
     else:
-        # That terms which were left out explain something is no news.
-        larger = [other for other in others if fit.left_out is None and other.residual_freedom < own.freedom and _contains(other, fit)]
+        larger = [other for other in others if other.residual_freedom < own.freedom and _contains(other, fit)]
         added = [Squares(own.freedom - other.residual_freedom, max(own.sum - other.residual.sum, 0.0)) for other in larger]
         tests = [f_test(new, other.residual) if other.residual.sum > 0 else (np.inf, 0.0) for new, other in zip(added, larger, strict=True)]
         found = [(*test, other) for test, other in zip(tests, larger, strict=True) if test[1] < level / len(larger)]
@@ -193,6 +140,4 @@ def cautions(fit: Fitted) -> list[str]:
     if fit.seeds == 2:
         wide = "two sets of seeds leave one degree of freedom for the error, and intervals are wide"
         said.append(f"{wide}; a third makes them about 3.6 times as narrow")
-    if fit.left_out is not None:
-        said.append("terms were chosen by AICc from the same runs: F, p and intervals are too favourable and are no tests")
     return said

@@ -100,10 +100,8 @@ class Optimum:
             margin = self._margin(limit)
             kept = {"is_kept": margin >= -ROUNDING, "holds_back": abs(margin) < ON_LIMIT}
             limits.append({"response": limit.response, **ends, "on": limit.on, **kept})
-        goals = [
-            {**{name: getattr(goal, name) for name in ("response", "aim", "values", "importance")}, "desirability": worth[goal.response]}
-            for goal in problem.goals
-        ]
+        names = ("response", "aim", "values", "importance")
+        goals = [{name: getattr(goal, name) for name in names} | {"desirability": worth[goal.response]} for goal in problem.goals]
         settings = settings_at(problem.study, self.settings.set_index("factor")["value"], [factor.name for factor in problem.study.factors])
         responses = [reported(row, "no model could be fitted" if row["value"] is None else "") for row in rows]
         found = {"study": problem.study.title, "confidence": problem.confidence, "settings": settings, "responses": responses, "goals": goals}
@@ -120,11 +118,9 @@ class Optimum:
         cells, confirmed = [], []
         for row in self.table.to_dict("records"):
             unit, cell = forecast_cells(self.problem.study, row, self.problem.confidence)
-            goals = [
-                f"{AIMS[goal.aim]} {' … '.join(f'{unit.value(value):.4g}' for value in goal.values)}"
-                for goal in self._of(row, self.problem.goals)
-            ]
-            wanted = "; ".join([*goals, *(_limit_words(limit, unit) for limit in self._of(row, self.problem.limits))])
+            aims = [(goal.aim, [f"{unit.value(value):.4g}" for value in goal.values]) for goal in self._of(row, self.problem.goals)]
+            limits = [_limit_words(limit, unit) for limit in self._of(row, self.problem.limits)]
+            wanted = "; ".join([*(f"{AIMS[aim]} {' … '.join(values)}" for aim, values in aims), *limits])
             worth = "" if np.isnan(row["desirability"]) else f"{row['desirability']:.3g}"
             cells.append({**cell, "goal": wanted, "desirability": worth})
             confirmed += [f"  {row['response']}: {confirmed_words(row, unit)}"] if row["confirmed_runs"] else []
@@ -144,9 +140,8 @@ class Optimum:
             is_near = all(abs(row["coded"]) <= FAR for row in each["stationary"])
             at = ", ".join(f"{row['factor']} = {factors[row['factor']].shown(row['value'])}" for row in each["stationary"])
             where = "" if all(row["is_within"] for row in each["stationary"]) else ", outside the ranges"
-            lines.append(
-                f"  {each['response']}: the quadratic model has a {each['nature']}{f' at {at}{where}' if at and is_near else ' far outside the ranges' if at else ''}"
-            )
+            where = f" at {at}{where}" if at and is_near else " far outside the ranges" if at else ""
+            lines.append(f"  {each['response']}: the quadratic model has a {each['nature']}{where}")
         if self.looked_for:
             of = ", ".join(name for name, one in self.problem.surrogates.items() if one.takes_process)
             lines.append(f"  {of}: a Gaussian process told where runs may be better, and tells what is predicted")
@@ -179,24 +174,11 @@ class Optimum:
 
 
 def optimize(
-    study: Study | str | os.PathLike[str],
-    *,
-    maximize: Sequence[str] = (),
-    minimize: Sequence[str] = (),
-    target: Sequence[str] = (),
-    limit: Sequence[str] = (),
-    limit_on: str = "mean",
-    importance: Sequence[str] = (),
-    hold: Mapping[str, Any] | Sequence[str] = (),
-    model: str | None = None,
-    terms: str = "all",
-    confidence: float = 0.95,
-    runs: int = 0,
-    confirm: bool = False,
-    jobs: int | None = None,
-    workers: int | None = None,
-    progress: bool | None = None,
-) -> Optimum:
+    study: Study | str | os.PathLike[str], *, maximize: Sequence[str] = (), minimize: Sequence[str] = (), target: Sequence[str] = (),
+    limit: Sequence[str] = (), limit_on: str = "mean", importance: Sequence[str] = (), hold: Mapping[str, Any] | Sequence[str] = (),
+    model: str | None = None, confidence: float = 0.95, runs: int = 0, confirm: bool = False,
+    jobs: int | None = None, workers: int | None = None, progress: bool | None = None,
+) -> Optimum:  # fmt: skip
     """Finds the settings at which responses are best.
 
     Parameters
@@ -214,7 +196,7 @@ def optimize(
         ``NAME=NUMBER``: how much a goal counts, 1 unless given.
     hold : dict or sequence of str
         ``FACTOR=VALUE``.
-    model, terms, confidence
+    model, confidence
         As for `effects`.
     runs : int
         Make up to so many runs where improvement is expected, one place after the other, each with all seeds. The best place that was run is given.
@@ -233,17 +215,13 @@ def optimize(
     def made(points: pandas.DataFrame) -> pandas.DataFrame:
         return made_study(study, points, jobs=jobs, workers=workers, retry=confirm, progress=progress).runs
 
-    found = {one.response.name: one for one in surrogates(study, model, terms, confidence)}
+    found = {one.response.name: one for one in surrogates(study, model, confidence)}
     for name in [*(goal.response for goal in goals), *(one.response for one in limits)]:
         if found[name].error:
             raise InputError(f'{study.path or study.title}: response "{name}": {found[name].error}')
     known = {name: one for name, one in found.items() if not one.error}
     is_curved = all(one.fit is not None and one.fit.model == "quadratic" for one in known.values())
-    problem, rounds, confirming = (
-        Problem(study, known, goals, limits, axes_of(study, hold, is_curved or runs > 0), confidence),
-        pandas.DataFrame(),
-        None,
-    )
+    problem, rounds = Problem(study, known, goals, limits, axes_of(study, hold, is_curved or runs > 0), confidence), pandas.DataFrame()
     if runs:
         problem, rounds = improved(problem, runs, made, max(1, (jobs or os.cpu_count() or 1) // study.seeds))
     problem = beyond_runs(problem)
@@ -253,11 +231,9 @@ def optimize(
         points = problem.study.runs.drop_duplicates("point").reset_index(drop=True)[list(best.columns)]
         best = points.iloc[[int(problem.merit(points).argmax())]].reset_index(drop=True)
     if confirm and not runs and is_run(problem, best, 1e-9).any():
-        warnings.warn(
-            "a point of the study is at this place: the fit has used its runs, so that they confirm nothing", PlateauWarning, stacklevel=2
-        )
-    if confirm or runs:
-        confirming = made(best).drop_duplicates("same_as")
+        said = "a point of the study is at this place: the fit has used its runs, so that they confirm nothing"
+        warnings.warn(said, PlateauWarning, stacklevel=2)
+    confirming = made(best).drop_duplicates("same_as") if confirm or runs else None
     return replace(_told(problem, best, confirming, rounds), looked_for=runs)
 
 
@@ -275,9 +251,7 @@ def _told(problem: Problem, best: pandas.DataFrame, confirming: pandas.DataFrame
     tables = {name: forecast_table(one, best, beyond, problem.confidence, confirming) for name, one in problem.surrogates.items()}
     cautions = [*together(study), *no_curve(study, best)]
     cautions += [f"{name}: {said}" for name, table in tables.items() for said in table.attrs["cautions"]]
-    table = pandas.DataFrame(
-        {"response": [response.name for response in study.responses], "unit": [response.unit for response in study.responses]}
-    )
+    table = pandas.DataFrame([(response.name, response.unit) for response in study.responses], columns=["response", "unit"])
     columns = ["response", "value", *INTERVALS, "leverage", "confirmed", "confirmed_error", "confirmed_runs", "is_within"]
     table = table.merge(pandas.concat(tables.values())[columns], "left", on="response").fillna({"confirmed_runs": 0})
     worth = {goal.response: float(goal.desirability(tables[goal.response]["value"])[0]) for goal in problem.goals}

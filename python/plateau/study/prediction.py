@@ -15,7 +15,7 @@ from plateau.errors import InputError, InputTypeError, PlateauWarning
 from plateau.output_folder import plain
 from plateau.study.analysis import together, usable
 from plateau.study.data import Study
-from plateau.study.kept_values import factor_value
+from plateau.study.imports import factor_value
 from plateau.study.results import analysed
 from plateau.study.runs import made_study
 from plateau.study.settings import SAME, axis_of, beyond_of, factor_named, held_values, joined, no_curve, region_of, value_of
@@ -89,10 +89,9 @@ class Prediction:
         """What ``plateau sweep predict`` prints."""
         lines: list[str] = []
         for (number, rows), (_, place) in zip(self.table.groupby("place", sort=False), self.places.iterrows(), strict=True):
-            where = [
-                f"{one.name} = {one.shown(place[one.name])}{'' if one.name in self.given else ' (not given)'}" for one in self.study.factors
-            ]
-            lines += [self.study.title if number == 1 else "", f"  at {', '.join(where)}"]
+            asked = {one.name: "" if one.name in self.given else " (not given)" for one in self.study.factors}
+            where = ", ".join(f"{one.name} = {one.shown(place[one.name])}{asked[one.name]}" for one in self.study.factors)
+            lines += [self.study.title if number == 1 else "", f"  at {where}"]
             cells = []
             for row in rows.to_dict("records"):
                 unit, cell = forecast_cells(self.study, row, self.confidence)
@@ -104,9 +103,8 @@ class Prediction:
             for name, rows in made.groupby("response", sort=False):
                 apart = float(np.sqrt(np.square(rows["confirmed"] - rows["value"]).mean()))
                 within = f"{int(rows['is_within'].sum())} of {len(rows)} places within the interval of runs"
-                lines.append(
-                    f"  {name}: means of runs are {unit_for(rows['unit'].iloc[0], apart).text(apart, is_difference=True)} apart, {within}"
-                )
+                far = unit_for(rows["unit"].iloc[0], apart).text(apart, is_difference=True)
+                lines.append(f"  {name}: means of runs are {far} apart, {within}")
         lines += [f"  {one.response.name}: {one.error or one.reason}" for one in self.surrogates if one.process is not None or one.error]
         return with_minus("\n".join([*lines, *(f"  caution: {caution}" for caution in self.cautions), ""]))
 
@@ -151,20 +149,10 @@ def confirmed_by(row: dict[Any, Any]) -> dict[str, Any] | None:
 
 
 def predict(
-    study: Study | str | os.PathLike[str],
-    at: Mapping[str, Any] | Sequence[str] = (),
-    grid: int | None = None,
-    points: pandas.DataFrame | str | os.PathLike[str] | None = None,
-    *,
-    extrapolate: bool = False,
-    confirm: bool = False,
-    model: str | None = None,
-    terms: str = "all",
-    confidence: float = 0.95,
-    jobs: int | None = None,
-    workers: int | None = None,
-    progress: bool | None = None,
-) -> Prediction:
+    study: Study | str | os.PathLike[str], at: Mapping[str, Any] | Sequence[str] = (), grid: int | None = None,
+    points: pandas.DataFrame | str | os.PathLike[str] | None = None, *, extrapolate: bool = False, confirm: bool = False,
+    model: str | None = None, confidence: float = 0.95, jobs: int | None = None, workers: int | None = None, progress: bool | None = None,
+) -> Prediction:  # fmt: skip
     """Predicts the responses of a study.
 
     Parameters
@@ -181,7 +169,7 @@ def predict(
         Predict beyond the runs, too.
     confirm : bool
         Make runs there, with all seeds of the study.
-    model, terms : str, optional
+    model : str, optional
         As for `effects`.
     confidence : float
         Level of the intervals.
@@ -197,7 +185,7 @@ def predict(
     >>> predict("loads.toml", {"load": "7 N"}).table[["response", "value", "mean_low", "mean_high", "unit"]]
     """
     opened = usable(analysed(study))
-    known = surrogates(opened, model, terms, confidence)
+    known = surrogates(opened, model, confidence)
     is_curved = all(one.fit.model == "quadratic" for one in known if one.fit)
     if not isinstance(at, Mapping) and not all(isinstance(text, str) for text in at):
         raise InputTypeError(f"at = {at!r}: expected a dictionary, such as {{\"load\": \"7 N\"}}; several places are points=DataFrame(...)")
@@ -205,10 +193,10 @@ def predict(
     if points is not None:
         places, given = _rows(opened, points, held, is_curved)
     else:
-        if grid and grid > MOST_PLACES:
-            raise InputError(f"--grid {grid}: more than {MOST_PLACES} places; hold factors with --at")
-        axes = {one.name: [held[one.name]] if one.name in held else axis_of(one, grid, is_curved) for one in opened.factors}
-        if np.prod([float(len(axis)) for axis in axes.values()]) > MOST_PLACES:
+        # A grid of very many is refused before it is made.
+        step = min(grid or 0, MOST_PLACES + 1)
+        axes = {one.name: [held[one.name]] if one.name in held else axis_of(one, step, is_curved) for one in opened.factors}
+        if step > MOST_PLACES or np.prod([float(len(axis)) for axis in axes.values()]) > MOST_PLACES:
             raise InputError(f"--grid {grid}: more than {MOST_PLACES} places; hold factors with --at")
         places = pandas.DataFrame(list(itertools.product(*axes.values())), columns=list(axes))
         given = list(axes) if grid else list(held)
@@ -216,23 +204,17 @@ def predict(
     if not extrapolate and (first := next((at for at, said in enumerate(beyond) if said), None)) is not None:
         which = f"place {first + 1}: " if len(places) > 1 else ""
         raise InputError(f"{which}{beyond[first]}; the model knows nothing there, give --extrapolate to see what it says nevertheless")
-    made = None
-    if confirm:
-        made = made_study(opened, places, jobs=jobs, workers=workers, progress=progress).runs
+    made = made_study(opened, places, jobs=jobs, workers=workers, progress=progress).runs if confirm else None
     general = [*together(opened), *no_curve(opened, places)]
     for said in general:
         warnings.warn(said, PlateauWarning, stacklevel=2)
     tables = [forecast_table(one, places, beyond, confidence, made) for one in known]
-    cautions = general + [
-        f"{one.response.name}: {said}" for one, table in zip(known, tables, strict=True) for said in table.attrs["cautions"]
-    ]
+    cautions = general + [f"{one.response.name}: {said}" for one, table in zip(known, tables, strict=True) for said in table.attrs["cautions"]]
     table = pandas.concat([table.assign(own=own) for own, table in enumerate(tables)]).sort_values(["place", "own"], ignore_index=True)
     return Prediction(opened, places, given, table.drop(columns="own"), known, confidence, cautions)
 
 
-def forecast_table(
-    one: Surrogate, places: pandas.DataFrame, beyond: list[str], confidence: float, made: pandas.DataFrame | None
-) -> pandas.DataFrame:
+def forecast_table(one: Surrogate, places: pandas.DataFrame, beyond: list[str], confidence: float, made: pandas.DataFrame | None) -> pandas.DataFrame:
     """Forecasts of a response, with what is to be known of each."""
     names, response = ["value", *INTERVALS, "leverage"], one.response
     untold = pandas.DataFrame(np.nan, index=places.index, columns=names)

@@ -1,21 +1,19 @@
 """Gaussian process: a smooth response of noisy runs, with lengths and noise that are not taken for certain.
 
-A constant plus a process with the product of Matérn's correlations (ν = 5/2) along the axes. Constant and variance are integrated out
-exactly (prior 1/σ²), lengths and noise by weighted draws, half of them about the likeliest places and half from what is known beforehand
-(M. S. Handcock, M. L. Stein, Technometrics 35, 403-410 (1993), doi:10.1080/00401706.1993.10485354). Points that are missed when they
-are left out (O. Dubrule, Math. Geol. 15, 687-699 (1983), doi:10.1007/BF01033232) by more than is expected widen all intervals.
+A constant plus Matérn's correlations (ν = 5/2) along the axes. Constant and variance are integrated out exactly (prior 1/σ²), lengths and noise
+by weighted draws about the likeliest places and from what is known beforehand (M. S. Handcock, M. L. Stein, Technometrics 35, 403-410 (1993)).
+Points that are missed when they are left out (O. Dubrule, Math. Geol. 15, 687-699 (1983)) by more than is expected widen all intervals.
 """
 
 import numpy as np
 import numpy.typing as npt
 from scipy import optimize, special, stats
 
-Numbers = npt.NDArray[np.float64]
+from plateau.study.data import Numbers
 
-# Logarithms of lengths (a range is 2 long) and of the noise of a run over the variance: median and deviation of what is known
-# beforehand, and ends; the least noise keeps the equations solvable.
+# Logarithms of lengths (a range is 2 long) and of noise over the variance: median and deviation beforehand, and ends.
 LENGTH, NOISE = np.log([2.0, np.e, 0.05, 40.0]), np.log([1e-3, np.exp(3.0), 1e-8, 1e2])
-# Points that lengths and noise are found from at most, and sets of these that are kept.
+# Points that they are found from at most, and sets of them that are kept.
 MOST, KEPT = 300, 48
 
 
@@ -30,7 +28,6 @@ class Equations:
         ones, values = root.sum(-1), root @ y
         self.information = (ones**2).sum(-1)
         left = values - ones * ((ones * values).sum(-1) / self.information)[:, None]
-        # Weights of the residuals, of the constant, and the inverse without what the constant takes.
         self.weights, of_one = ((root.transpose(0, 2, 1) @ each[..., None])[..., 0] for each in (left, ones))
         self.of_constant = of_one / self.information[:, None]
         self.inverse = root.transpose(0, 2, 1) @ root - of_one[:, :, None] * self.of_constant[:, None]
@@ -49,13 +46,11 @@ class Equations:
 
     def gradient(self) -> Numbers:
         """Derivatives of `log_density` by the logarithms."""
-        result, (within, freedom) = np.zeros((len(self.noise), self.axes.max() + 2)), self.replicates
+        (within, freedom), noise = self.replicates, self.noise
         pull = self.freedom / self.square[:, None, None] * self.weights[:, :, None] * self.weights[:, None] - self.inverse
-        for at, a in zip(self.axes, self.apart(self.x), strict=True):
-            result[:, at] += 0.5 * (pull * self.known * (a * a * (1.0 + a) / (3.0 + 3.0 * a + a * a))).sum((1, 2))
-        of_means = self.noise * (np.diagonal(pull, axis1=1, axis2=2) @ self.share)
-        result[:, -1] = 0.5 * (of_means - freedom + self.freedom * within / (self.noise * self.square))
-        return result
+        of_axes = [(pull * self.known * (a * a * (1.0 + a) / (3.0 + 3.0 * a + a * a))).sum((1, 2)) for a in self.apart(self.x)]
+        of_noise = noise * (np.diagonal(pull, axis1=1, axis2=2) @ self.share) - freedom + self.freedom * within / (noise * self.square)
+        return 0.5 * np.column_stack([np.transpose(of_axes) @ np.eye(self.axes.max() + 1)[self.axes], of_noise])
 
     def forecast(self, x: Numbers) -> tuple[Numbers, Numbers]:
         """Weights of the points' values in means at places (set, place, point), and variances over σ² (set, place)."""
@@ -65,23 +60,19 @@ class Equations:
 
     def left_out(self) -> tuple[Numbers, Numbers, Numbers]:
         """Errors of points that are left out, their squared scale, and log density (Student's t): arrays of set and point."""
-        diagonal, freedom = np.diagonal(self.inverse, axis1=1, axis2=2), max(self.freedom - 1, 1)
-        square = np.maximum(self.square[:, None] - self.weights**2 / diagonal, 1e-12 * self.square[:, None]) / freedom / diagonal
-        error = self.weights / diagonal
+        diagonal, freedom, whole = np.diagonal(self.inverse, axis1=1, axis2=2), max(self.freedom - 1, 1), self.square[:, None]
+        error, square = self.weights / diagonal, np.maximum(whole - self.weights**2 / diagonal, 1e-12 * whole) / freedom / diagonal
         return error, square, stats.t.logpdf(error / np.sqrt(square), freedom) - 0.5 * np.log(square)
 
 
 class Process:
-    """Gaussian process of a response; it raises ValueError where points are too few or responses all the same.
+    """Gaussian process of a response; ValueError where points are too few or responses all the same.
 
-    Columns of `x` are coded numbers and indicators of words; equal rows are replicates, whose scatter tells the noise. `noise_groups` are
-    the sets of seeds, and what a set adds to its runs is part of the errors. `axes` number the length of each column: indicators of one
-    factor share one. `loo` has errors of `means` at `points` (observed less expected of the others), and their expected deviations.
+    Columns of `x` are coded numbers and indicators of words, equal rows replicates, `groups` sets of seeds; `axes` number the length of each
+    column. `loo` has errors of `means` at `points` (observed less expected of the others), and their expected deviations.
     """
 
-    def __init__(
-        self, x: npt.ArrayLike, y: npt.ArrayLike, noise_groups: npt.ArrayLike | None = None, axes: npt.ArrayLike | None = None
-    ) -> None:
+    def __init__(self, x: npt.ArrayLike, y: npt.ArrayLike, groups: npt.ArrayLike | None = None, axes: npt.ArrayLike | None = None) -> None:
         told = np.isfinite(np.asarray(y, float))
         places, values = np.asarray(x, float)[told], np.asarray(y, float)[told]
         _, first, inverse = np.unique(np.round(places, 9), axis=0, return_index=True, return_inverse=True)
@@ -90,8 +81,8 @@ class Process:
         if len(runs) < 3 or np.ptp(values) <= 16.0 * np.finfo(float).eps * np.abs(values).max():
             raise ValueError(f"{len(runs)} points have a response: a Gaussian process needs 3 of which not all are equal")
         # A run is the mean of its point, what its seeds add everywhere, and noise.
-        groups = np.zeros(len(values)) if noise_groups is None else np.asarray(noise_groups)[told]
-        seeds, of_point = np.equal.outer(groups, np.unique(groups)) * 1.0, np.equal.outer(np.arange(len(runs)), point) / runs[:, None]
+        own = np.zeros(len(values)) if groups is None else np.asarray(groups)[told]
+        seeds, of_point = np.equal.outer(own, np.unique(own)) * 1.0, np.equal.outer(np.arange(len(runs)), point) / runs[:, None]
         self.offset, self.seeds = values.mean(), seeds.shape[1]
         added = np.linalg.lstsq(seeds - (of_point @ seeds)[point], values - (of_point @ values)[point], rcond=None)[0]
         added -= added.mean()
@@ -109,17 +100,12 @@ class Process:
         return Equations(x[some], y[some], share[some], replicates, np.atleast_2d(logs), self._axes)
 
     def _draw(self) -> None:
-        """Draws sets of lengths and noise, and weighs them."""
         size, some = int(self._axes.max()) + 2, np.sort(np.random.default_rng(0).permutation(len(self.points))[:MOST])
         middle, spread, low, high = np.array([LENGTH] * (size - 1) + [NOISE]).T
 
         def density(logs: Numbers) -> tuple[Numbers, Numbers]:
             solved, away = self.solved(logs, some), (logs - middle) / spread
             return 0.5 * (away**2).sum(-1) - solved.log_density, away / spread - solved.gradient()
-
-        def one(logs: Numbers) -> tuple[float, Numbers]:
-            value, slope = density(logs)
-            return value[0], slope[0]
 
         def evenly(count: int) -> Numbers:
             return np.asarray(special.ndtri(stats.qmc.Sobol(size, scramble=False).random(count) + 0.5 / count))
@@ -128,7 +114,8 @@ class Process:
         begin = np.clip(middle + 1.2 * spread * evenly(64), low, high)
         begin, box = begin[np.argsort(density(begin)[0])], list(zip(low, high, strict=True))
         is_noisy, step = begin[:, -1] > np.log(1e-2), 1e-3 * np.eye(size)
-        tops = [optimize.minimize(one, start, jac=True, bounds=box) for start in [*begin[is_noisy][:2], *begin[~is_noisy][:2]]]
+        four = [*begin[is_noisy][:2], *begin[~is_noisy][:2]]
+        tops = [optimize.minimize(lambda logs: [each[0] for each in density(logs)], start, jac=True, bounds=box) for start in four]
         sources = [(middle, np.diag(spread), 4)]
         for top in [top.x for top in tops if top.fun < min(other.fun for other in tops) + 5.0]:
             curved = spread[:, None] * (density(top + step)[1] - density(top - step)[1]) * spread / 2e-3
@@ -168,20 +155,10 @@ class Process:
             found.append([self.offset + self.probabilities @ means, self.calibration * own, np.maximum(seeds, 0.0)])
         return np.concatenate(found, axis=1)
 
-    def mean(self, x: npt.ArrayLike) -> Numbers:
-        """Expected responses at places, each a row of coded numbers."""
-        return np.asarray(self.moments(x)[0])
-
-    def deviation(self, x: npt.ArrayLike) -> Numbers:
-        """Standard deviations of the mean of many runs, with what few sets of seeds leave open."""
-        _, own, seeds = self.moments(x)
-        return np.asarray(np.sqrt(own + seeds / self.seeds))
-
     def intervals(self, x: npt.ArrayLike, confidence: float) -> Numbers:
-        """Means, ends of their intervals, and ends of those of runs: five columns."""
+        """Means, ends of their intervals, and ends of those of runs: five columns. Degrees of freedom are Satterthwaite's."""
         columns, (mean, own, seeds) = [], self.moments(x)
         for one, other in ((own, seeds / self.seeds), (own + self.run_variance, seeds * (1.0 + 1.0 / self.seeds))):
-            # Sets of seeds are few: the degrees of freedom of the sum are Satterthwaite's.
             freedom = (one + other) ** 2 / (one**2 / self.freedom + other**2 / max(self.seeds - 1, 1))
             reach = stats.t.ppf(0.5 + confidence / 2.0, freedom) * np.sqrt(one + other)
             columns += [mean - reach, mean + reach]

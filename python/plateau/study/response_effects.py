@@ -25,7 +25,7 @@ MOST_VALUES = 10
 # Members of the document of a response, null where nothing could be fitted.
 MEMBERS = ["model", "model_reason", "runs", "missing", "mean", "middle", "r_squared", "adjusted_r_squared", "predicted_r_squared"]
 MEMBERS += ["residual_standard_deviation", "error_from", "residual", "lack_of_fit", "pure_error", "misfit", "curvature", "box_cox"]
-MEMBERS += ["terms_left_out", "aicc", "equations", "lenth", "terms", "cautions"]
+MEMBERS += ["equations", "lenth", "terms", "cautions"]
 
 
 @dataclass(frozen=True, repr=False)
@@ -70,7 +70,7 @@ class ResponseEffects:
     @property
     def unit(self) -> str:
         """SI unit of what is fitted."""
-        return self.response.unit if self.response.transform == "none" else "1"
+        return self.response.unit_of_fit
 
     @property
     def terms(self) -> pandas.DataFrame:
@@ -153,7 +153,7 @@ def error_from(fit: Fitted) -> str:
         how = "" if is_complete else ", not all at the same points: degrees of freedom after Bell and McCaffrey"
         return f"what each effect differs by between {fit.seeds} sets of seeds{how}"
     left_out = {"main": "interactions", "interactions": "interactions of third and higher order"}
-    said = left_out.get(fit.model if fit.left_out is None and not any(fit.is_curved) else "", "what the model leaves out")
+    said = left_out.get("" if any(fit.is_curved) else fit.model, "what the model leaves out")
     if not fit.scatter[0].freedom:
         return f"pooled: {said}"
     return "replicates" if fit.lack_of_fit[0].freedom <= 0 else f"replicates, pooled with {said}"
@@ -173,8 +173,6 @@ def report_of(one: ResponseEffects) -> dict[str, Any]:
     for row in terms[(terms["term"] == "centre points") & terms["f"].notna()].to_dict("records"):
         report["curvature"] = {"difference": row["effect"], "interval": [row["low"], row["high"]], "f": row["f"], "p": row["p"]}
     report |= {"misfit": misfit(fit), "box_cox": one.box_cox and {"lambda": one.box_cox[0], "interval": list(one.box_cox[1:])}}
-    if fit.left_out is not None:
-        report |= {"terms_left_out": [fit.label(term) for term in fit.left_out], "aicc": plain(fit.aicc)}
     report["equations"] = [{"units": units, "terms": products.to_dict("records")} for units, products in one.equations.items()]
     if np.isnan(fit.error) and (judged := lenth(terms.loc[terms["factors"].str.len() > 0, "effect"], fit.confidence)):
         names = ("pseudo_standard_error", "margin_of_error", "simultaneous_margin_of_error")
@@ -190,14 +188,11 @@ def report_of(one: ResponseEffects) -> dict[str, Any]:
 
 
 def _aliases(fit: Fitted) -> tuple[set[int], list[list[str]]]:
-    """Columns that the runs do not tell, and by mean, blocks and terms, the labels of the terms that they cannot be told from.
-
-    Of two columns that are the same but for a factor the first is told, as the sum of both; of a combination of more, which an empty cell
-    makes, none is.
-    """
+    """Columns that the runs do not tell, and by mean, blocks and terms, the labels of the terms that they cannot be told from."""
     labels = ["mean", "replicate", *(fit.label(term) for term in fit.terms)]
     untold, pairs = set(), []
     for column, (parts, _) in fit.fit.relations.items():
+        # Of two columns that are the same but for a factor the first is told, as the sum of both; of a combination of more none is.
         untold |= {column, *parts} if len(parts) > 1 else {column}
         pairs += [(fit.owner(column), fit.owner(part)) for part in parts or [0]]
     for at, term in enumerate(fit.terms):
@@ -259,17 +254,14 @@ def effect_table(fit: Fitted) -> pandas.DataFrame:
         row |= {"f": f, "p": p} if name == "lack of fit" else {}
         rows.append(row | {"share": squares.sum / fit.total.sum, "aliased_with": []})
     table = pandas.DataFrame(rows).reindex(columns=COLUMNS)
-    table["response"], table["unit"] = fit.response.name, fit.response.unit if fit.response.transform == "none" else "1"
+    table["response"], table["unit"] = fit.response.name, fit.response.unit_of_fit
     if np.isnan(fit.error) and (judged := lenth(table.loc[table["factors"].str.len() > 0, "effect"], fit.confidence)) is not None:
         table.loc[table["effect"].notna(), ["margin_of_error", "simultaneous_margin_of_error"]] = judged[1:]
     return table
 
 
 def lenth(effects: pandas.Series, confidence: float) -> tuple[float, float, float] | None:
-    """Pseudo standard error and margins of effects that have no error; None of fewer than six.
-
-    R. V. Lenth, Technometrics 31, 469-473 (1989).
-    """
+    """Pseudo standard error and margins of effects without an error, none of fewer than six (R. V. Lenth, Technometrics 31, 469-473 (1989))."""
     sizes = effects.dropna().abs().to_numpy(float)
     if len(sizes) < 6 or (first := 1.5 * float(np.median(sizes))) <= 1e-12 * sizes.max():
         return None
@@ -282,8 +274,7 @@ def lenth(effects: pandas.Series, confidence: float) -> tuple[float, float, floa
 def box_cox(fit: Fitted) -> tuple[float, float, float] | None:
     """Power of the response that the model fits best, and the powers that fit hardly worse; None unless all responses are above 0.
 
-    G. E. P. Box and D. R. Cox, J. R. Stat. Soc. B 26, 211-252 (1964): the likelihood of a power at its best is that of the residual sum
-    of squares of (u^power - 1)/power, with u the response by its geometric mean.
+    Its likelihood is that of (u^power - 1)/power, u the response by its geometric mean (G. E. P. Box, D. R. Cox, J. R. Stat. Soc. B 26 (1964)).
     """
     responses, basis = fit.response.back(fit.values), fit.fit.basis
     if np.isnan(fit.error) or not (responses > 0).all() or fit.residual_freedom < 3:

@@ -15,7 +15,7 @@ from plateau.errors import InputError, InputTypeError, MissingFileError
 from plateau.program import call, file_name
 from plateau.run_file import locking
 from plateau.study.data import Factor, Response, Study
-from plateau.study.kept_values import KeptValues
+from plateau.study.imports import KeptValues
 from plateau.units import with_unit
 
 
@@ -90,23 +90,14 @@ def _opened(folder: Path, study: Path | None, directory: Path) -> Study:
         own = {name: data[name].values for name in ("point", "replicate", "order", "same_as", "state")}
         index = pandas.Index(data["run"].values.astype(int), name="run")
 
-        factors, responses = [_factor(values) for values in with_role["factor"]], with_role["response"]
+        factors = [_factor(values) for values in with_role["factor"]]
         taken = {*own, *(factor.name for factor in factors)}
-        named = {_name(values, "response", taken): values for values in responses}
+        named = {_name(values, "response", taken): values for values in with_role["response"]}
         columns = own | {factor.name: values.values for factor, values in zip(factors, with_role["factor"], strict=True)}
+        runs = pandas.DataFrame(columns | {name: values.values for name, values in named.items()}, index=index)
         asked = {str(table.get("name", table.get("dataset", "").rsplit("/")[-1])): table for table in document.get("response", [])}
-        study_of = Study(
-            title=str(data.attrs["title"]),
-            design=str(data.attrs["design"]),
-            factors=factors,
-            responses=[_response(values, asked, name) for name, values in named.items()],
-            runs=pandas.DataFrame(columns | {name: values.values for name, values in named.items()}, index=index),
-            table=table,
-            data=data,
-            document=document,
-            path=study,
-            directory=directory,
-        )
+        responses, (title, design) = [_response(values, asked, name) for name, values in named.items()], map(data.attrs.get, ("title", "design"))
+        study_of = Study(str(title), str(design), factors, responses, runs, table, data, document, study, directory)
     except InputError:
         raise
     except (OSError, ValueError, KeyError) as error:
@@ -160,18 +151,9 @@ def _factor(values: xarray.DataArray) -> Factor:
         if len(levels) == 2 and len(found) > 2 or not labels and len(found) > 2 or len(levels) > MOST_LEVELS:
             # Between two levels there are points of a response surface, and a table has values where they are.
             levels, is_range = (min(levels), max(levels)) if len(levels) > 2 else levels, True
-    return Factor(
-        name=_name(values, "factor", COLUMNS),
-        keys=str(said["keys"]),
-        unit=str(said.get("units", "")),
-        levels=levels,
-        is_range=is_range,
-        logarithmic=said["scale"] == "logarithmic",
-        whole=bool(said["whole"]),
-        study_unit=str(said.get("study_units", "")),
-        one=float(said.get("study_unit", 1.0)),
-        zero=float(said.get("study_zero", 0.0)),
-    )
+    name, keys, unit = _name(values, "factor", COLUMNS), str(said["keys"]), str(said.get("units", ""))
+    in_study = str(said.get("study_units", "")), float(said.get("study_unit", 1.0)), float(said.get("study_zero", 0.0))
+    return Factor(name, keys, unit, levels, is_range, said["scale"] == "logarithmic", bool(said["whole"]), *in_study)
 
 
 # Numbers of a factor up to which they are levels; with more it has a range.
@@ -179,16 +161,9 @@ MOST_LEVELS = 10
 
 
 def _response(values: xarray.DataArray, asked: dict[str, Any], name: str) -> Response:
-    said = values.attrs
-    return Response(
-        name=name,
-        unit=str(said.get("units", "1")),
-        series=str(said.get("series", "")),
-        transform=str(said["transform"]),
-        low=float(said.get("valid_min", -math.inf)),
-        high=float(said.get("valid_max", math.inf)),
-        asked=asked.get(str(said["name"]), {}),
-    )
+    said, (low, high) = values.attrs, (float(values.attrs.get(name, end)) for name, end in (("valid_min", -math.inf), ("valid_max", math.inf)))
+    unit, series = str(said.get("units", "1")), str(said.get("series", ""))
+    return Response(name, unit, series, str(said["transform"]), low, high, asked.get(str(said["name"]), {}))
 
 
 def _directory(study: Path, given: str | os.PathLike[str] | None) -> Path:

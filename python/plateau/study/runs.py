@@ -76,17 +76,9 @@ def finished(path: Path, progress: bool | None, retry: bool = False, directory: 
 
 
 def make_missing(
-    path: str | os.PathLike[str],
-    progress: bool | None,
-    retry: bool = False,
-    *,
-    directory: str | os.PathLike[str] | None = None,
-    keep_files: bool = False,
-    stacklevel: int = 4,
-    jobs: int | None = None,
-    workers: int | None = None,
-    max_failures: int | None = None,
-) -> None:
+    path: str | os.PathLike[str], progress: bool | None, retry: bool = False, *, directory: str | os.PathLike[str] | None = None,
+    keep_files: bool = False, stacklevel: int = 4, jobs: int | None = None, workers: int | None = None, max_failures: int | None = None,
+) -> None:  # fmt: skip
     """Makes the missing runs of a study file in this process."""
     given = [(jobs, "jobs", 1), (workers, "workers", 1), (max_failures, "failures", 0)]
     counts = [None if number is None else whole(number, what, least) for number, what, least in given]

@@ -1,5 +1,6 @@
-"""Comparison of scenes: the same seeds in all, differences of each response with intervals."""
+"""Comparison of scenes, the same seeds in all: differences of each response with intervals; a study of scenes that are given one by one."""
 
+import csv
 import os
 import re
 import tomllib
@@ -19,6 +20,7 @@ from plateau.errors import InputError, PlateauWarning
 from plateau.output_folder import plain
 from plateau.program import call, file_name
 from plateau.quantities import series_of
+from plateau.scenes import scene_of
 from plateau.study.data import Numbers, Response, Study
 from plateau.study.runs import finished
 from plateau.study.text_tables import listed
@@ -27,18 +29,11 @@ from plateau.toml_text import toml_document, toml_of
 from plateau.units import unit_for, unit_of, with_minus
 
 # What is compared unless asked otherwise: name, dataset with question, table of the scene without which there is no such series.
-USUAL = [
-    ("contact area", "contact_area:mean", ""),
-    ("running-in time", "contact_area:reaches 0.9", ""),
-    ("filled fraction", "filled_fraction:end", ""),
-    ("secondary on the pin", "pin_secondary:mean", ""),
-    ("worn off the pin", "worn_whole_pin:end", ""),
-    ("worn off the disc", "worn_disc:end", ""),
-    ("emitted", "emitted:end", ""),
-    ("friction coefficient", "friction_coefficient:mean", "friction"),
-    ("temperature of the contact", "contact_temperature:mean", "thermal"),
-    ("PM10", "pm10_mass:end", "emission"),
-]
+USUAL = [("contact area", "contact_area:mean", ""), ("running-in time", "contact_area:reaches 0.9", "")]
+USUAL += [("filled fraction", "filled_fraction:end", ""), ("secondary on the pin", "pin_secondary:mean", "")]
+USUAL += [("worn off the pin", "worn_whole_pin:end", ""), ("worn off the disc", "worn_disc:end", ""), ("emitted", "emitted:end", "")]
+USUAL += [("friction coefficient", "friction_coefficient:mean", "friction"), ("temperature of the contact", "contact_temperature:mean", "thermal")]
+USUAL += [("PM10", "pm10_mass:end", "emission")]
 NOTE = (
     "Differences are means over pairs of runs with the same seed, with t intervals ({level}); with more than two scenes, intervals and "
     "sureness hold for all differences of a response together (Bonferroni). Sure at: 1 − p/2, how sure the sign is."
@@ -128,17 +123,10 @@ class Comparison:
 
 
 def compare(
-    scenes: Sequence[str | os.PathLike[str]],
-    seeds: int = 5,
-    *,
-    responses: Sequence[str] = (),
-    set: Mapping[str, Any] | Sequence[str] = (),
-    output: str | os.PathLike[str] = "comparison",
-    confidence: float = 0.95,
-    jobs: int | None = None,
-    workers: int | None = None,
-    progress: bool | None = None,
-) -> Comparison:
+    scenes: Sequence[str | os.PathLike[str]], seeds: int = 5, *, responses: Sequence[str] = (), set: Mapping[str, Any] | Sequence[str] = (),
+    output: str | os.PathLike[str] = "comparison", confidence: float = 0.95,
+    jobs: int | None = None, workers: int | None = None, progress: bool | None = None,
+) -> Comparison:  # fmt: skip
     """Runs scenes with the same seeds and compares their responses; runs that exist are not made again.
 
     Parameters
@@ -181,9 +169,7 @@ def compare(
         keys = _seed_keys(scene)
         fixed = [f"{body}.{part}" for body, part in SURFACES if part in scene.get(body, {}) and "synthetic" not in scene[body][part]]
         if not keys:
-            cautions.append(
-                f"{name} has no synthetic surface and so no seeds: it is one run, and no interval says how other specimens scatter"
-            )
+            cautions.append(f"{name} has no synthetic surface and so no seeds: it is one run, and no interval says how other specimens scatter")
         elif fixed:
             cautions.append(f"{name}: {', '.join(fixed)} is the same in all runs, so intervals say nothing of other specimens of it")
         folder = directory / name
@@ -203,9 +189,7 @@ def compare(
     return _compared(made, dict(zip(names, map(str, files), strict=True)), confidence, cautions, directory, not responses)
 
 
-def _compared(
-    made: dict[str, Study], scenes: dict[str, str], confidence: float, cautions: list[str], directory: Path, are_usual: bool
-) -> Comparison:
+def _compared(made: dict[str, Study], scenes: dict[str, str], confidence: float, cautions: list[str], directory: Path, are_usual: bool) -> Comparison:
     seeds = {scene: study.runs["seed"] if study.factors[0].is_number else [0] for scene, study in made.items()}
     runs = {scene: study.runs.set_index(pandas.Index(seeds[scene], name="seed", dtype=int)) for scene, study in made.items()}
     most = max(runs.values(), key=len).index
@@ -330,6 +314,71 @@ def response_of(name: str, asked: str) -> dict[str, Any]:
     if dataset.startswith("/event"):
         return table | {"event": int(question) if question.isdigit() else question or "mean"}
     return table | {"at": question or "end"}
+
+
+# What tells scenes apart and is no factor.
+NAMES = {"title", "output.file"}
+
+
+def of_scenes(
+    scenes: Sequence[Any], directory: str | os.PathLike[str], responses: str | Sequence[str] = "contact_area:mean", *, force: bool = False
+) -> Path:
+    """Writes a study file whose runs are these scenes; ``plateau.sweep`` makes them.
+
+    Parameters
+    ----------
+    scenes : sequence
+        Two or more, each as for `Scene`, of the same parts of the model. A key in which they differ is a factor, with the name of the key.
+    directory : path
+        Folder of the study, which has the file ``study.toml`` then.
+    responses : str or sequence of str
+        As for `compare`: ``"contact_area:mean"``, ``"worn_pin:end"``.
+    force : bool
+        Write the files of a study that is there anew; its results stay.
+
+    Returns
+    -------
+    Path
+        The study file.
+
+    Raises
+    ------
+    InputError
+        If the scenes do not differ, or a factor would have no single value in each of them, or there is a study in the folder.
+    """
+    made = [scene_of(scene, {}, 2) for scene in scenes]
+    values = [dict(_leaves(scene.tables)) for scene in made]
+    keys = sorted(set().union(*values) - NAMES)
+    factors = [key for key in keys if any(one.get(key) != values[0].get(key) for one in values)]
+    if not factors:
+        raise InputError(f"{len(scenes)} scenes that do not differ: expected two or more, with other values of a key")
+    for key in factors:
+        if any(isinstance(one.get(key), list | type(None)) for one in values):
+            raise InputError(f"{key}: the scenes differ in it, and it is a list or not in all of them, so it is no factor")
+    asked = [responses] if isinstance(responses, str) else responses
+    tables = {"factor": [{"name": key, "key": key} for key in factors], "response": [response_of("", response) for response in asked]}
+    folder = Path(directory)
+    path = folder / "study.toml"
+    if path.exists() and not force:
+        raise InputError(f"{path} exists: take another folder, or force=True to write its files anew")
+    folder.mkdir(parents=True, exist_ok=True)
+    (folder / "scene.toml").write_text(made[0].toml, encoding="utf-8")
+    with (folder / "points.csv").open("w", newline="", encoding="utf-8") as file:
+        lines = csv.writer(file)
+        lines.writerow(factors)
+        lines.writerows([str(value).lower() if isinstance(value := one[key], bool) else str(value) for key in factors] for one in values)
+    study = {"version": 1, "title": str(values[0]["title"]), "base": "scene.toml", "directory": ".", "design": "csv", "file": "points.csv"}
+    path.write_text(toml_document({**study, **tables}), encoding="utf-8")
+    return path
+
+
+def _leaves(table: Mapping[str, Any], above: str = "") -> Any:
+    """Paths of keys and their values."""
+    for name, value in table.items():
+        if isinstance(value, Mapping):
+            yield from _leaves(value, f"{above}{name}.")
+        else:
+            yield f"{above}{name}", value
 
 
 @in_style

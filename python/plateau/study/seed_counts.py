@@ -62,9 +62,7 @@ class SeedsNeeded:
 
 
 def seeds_needed(
-    study: Effects | Study | str | os.PathLike[str],
-    half_width: float | str | dict[str, float | str] | None = None,
-    confidence: float = 0.95,
+    study: Effects | Study | str | os.PathLike[str], half_width: float | str | dict[str, float | str] | None = None, confidence: float = 0.95
 ) -> SeedsNeeded:
     """Tells how many sets of seeds give each effect an interval of a wanted half width.
 

@@ -71,11 +71,8 @@ class Surrogate:
         unit, deviation = unit_for(self.response.unit, float(np.abs(values).max())), values.std()
 
         def shown(error: float) -> str:
-            if np.isnan(error):
-                return "not known"
-            return (
-                f"{with_digits(error * unit.per_si, error * unit.per_si)} {unit.symbol}".strip() + f" (Q² {1 - (error / deviation) ** 2:.3f})"
-            )
+            size = f"{with_digits(error * unit.per_si, error * unit.per_si)} {unit.symbol}".strip()
+            return "not known" if np.isnan(error) else f"{size} (Q² {1 - (error / deviation) ** 2:.3f})"
 
         errors = self._loo_errors if self.process is not None else self._loo_errors[:1]
         said = "leave-one-out error: " + ", ".join(f"{self._words(bool(at))} {shown(error)}" for at, error in enumerate(errors))
@@ -104,20 +101,21 @@ class Surrogate:
     def mean(self, points: pandas.DataFrame) -> Numbers:
         """Expected responses at points (a column for each factor, SI units or words), on the scale of the fit."""
         if self.takes_process and self.process is not None:
-            return self.process.mean(self.rows(points))
+            return np.asarray(self.process.moments(self.rows(points))[0])
         return np.asarray(self._fit.matrix(points) @ self._fit.coefficients)
 
     def deviation(self, points: pandas.DataFrame) -> Numbers:
         """Standard deviations of the mean of many runs, on the scale of the fit; NaN where the runs do not tell it."""
         if self.takes_process and self.process is not None:
-            return self.process.deviation(self.rows(points))
+            _, own, seeds = self.process.moments(self.rows(points))
+            return np.asarray(np.sqrt(own + seeds / self.process.seeds))
         return np.asarray(np.hypot(np.sqrt(self._fit.variances(points)["mean"].to_numpy()), self._apart(points)))
 
     def _apart(self, points: pandas.DataFrame) -> Numbers:
         """Differences of process and polynomial: what of the two is taken by its errors at few points may be wrong by as much."""
         if self.process is None:
             return np.zeros(len(points))
-        return np.abs(self.process.mean(self.rows(points)) - self._fit.matrix(points) @ self._fit.coefficients)
+        return np.asarray(np.abs(self.process.moments(self.rows(points))[0] - self._fit.matrix(points) @ self._fit.coefficients))
 
     @property
     def _fit(self) -> Fitted:
@@ -154,16 +152,14 @@ def fills_ranges(study: Study) -> bool:
     return study.design not in SPARSE and all(count > MOST_FACTORIAL_LEVELS for count in counts)
 
 
-def surrogates(
-    study: Study, model: str | None = None, terms: str = "all", confidence: float = 0.95, of_any_design: bool = False
-) -> list[Surrogate]:
+def surrogates(study: Study, model: str | None = None, confidence: float = 0.95, of_any_design: bool = False) -> list[Surrogate]:
     """What forecasts each response; no process if a model is asked for, or points do not fill ranges, unless `of_any_design`."""
-    return [_surrogate(study, one, model, terms, confidence, of_any_design or fills_ranges(study)) for one in study.responses]
+    return [_surrogate(study, one, model, confidence, of_any_design or fills_ranges(study)) for one in study.responses]
 
 
-def _surrogate(study: Study, response: Response, model: str | None, terms: str, confidence: float, may_be_process: bool) -> Surrogate:
+def _surrogate(study: Study, response: Response, model: str | None, confidence: float, may_be_process: bool) -> Surrogate:
     try:
-        fit = fitted(study, response, model, terms, confidence)
+        fit = fitted(study, response, model, confidence)
     except NothingToFit as error:
         return Surrogate(study, response, None, None, False, str(error))
     process = None

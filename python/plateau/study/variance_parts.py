@@ -149,10 +149,8 @@ def sensitivity(study: Study | str | os.PathLike[str], confidence: float = 0.95)
     two = ", ".join(factor.name for factor in opened.factors if factor.is_number and not factor.is_range and len(factor.levels) == 2)
     ranges = ", ".join(factor.name for factor in opened.factors if factor.is_range)
     if two and ranges and not is_morris:
-        said = (
-            f"{two}: numbers with two levels vary between these alone, which counts three times as much as an even variation over a range, "
-        )
-        cautions.append(said + f"as of {ranges}; give all of them range = [lower, upper] to compare their parts")
+        said = "numbers with two levels vary between these alone, which counts three times as much as an even variation over a range"
+        cautions.append(f"{two}: {said}, as of {ranges}; give all of them range = [lower, upper] to compare their parts")
     for said in cautions:
         warnings.warn(said, PlateauWarning, stacklevel=2)
     tables, variances = [], {}
@@ -163,11 +161,9 @@ def sensitivity(study: Study | str | os.PathLike[str], confidence: float = 0.95)
             table, variance = _indices(opened, one, confidence)
             tables.append(table.assign(response=one.response.name, unit="1"))
             variances[one.response.name] = variance
-            of_one = list(one.cautions)
-            if one.missed > MISSED:
-                said = f"points that were left out are missed by {100 * min(one.missed, 1.0):.0f} % of the variance: intervals hold for smooth"
-                of_one.append(f"{said} responses; if it has a threshold or a kink, they are too short, those of totals most")
-            cautions += [f"{one.response.name}: {caution}" for caution in of_one]
+            said = f"points that were left out are missed by {100 * min(one.missed, 1.0):.0f} % of the variance: intervals hold for smooth"
+            said += " responses; if it has a threshold or a kink, they are too short, those of totals most"
+            cautions += [f"{one.response.name}: {caution}" for caution in [*one.cautions, *([said] if one.missed > MISSED else [])]]
     numbers = ["mean_size", "mean", "deviation", "standard_error", "effects"]
     parts = [f"{name}{end}" for name in ("first_order", "total") for end in ("", "_low", "_high")]
     columns = ["response", "factor", *parts, *numbers, "unit"]
@@ -179,10 +175,8 @@ def _indices(study: Study, one: Surrogate, confidence: float) -> tuple[pandas.Da
     """Indices of what may be true of a response, and the variance of what is expected."""
     count, names = len(study.factors), [factor.name for factor in study.factors]
     even = stats.qmc.Sobol(2 * count, rng=np.random.default_rng(0)).random(ROWS)
-    a, b = (
-        pandas.DataFrame({one.name: _values(one, part[:, at]) for at, one in enumerate(study.factors)})
-        for part in (even[:, :count], even[:, count:])
-    )
+    halves = (even[:, :count], even[:, count:])
+    a, b = (pandas.DataFrame({one.name: _values(one, part[:, at]) for at, one in enumerate(study.factors)}) for part in halves)
     places = pandas.concat([a, b, *(a.assign(**{name: b[name]}) for name in names)], ignore_index=True)
     drawn = _drawn(one, places)
     values = one.response.back(drawn).reshape(-1, count + 2, ROWS)
@@ -255,9 +249,8 @@ def drawn_models(one: Surrogate, fit: Fitted, places: pandas.DataFrame, random: 
         scale = np.sqrt(freedom / random.chisquare(freedom))
         change = fit.fit.root @ random.standard_normal(len(fit.fit.kept)) * np.sqrt(fit.error) * scale
         frequency = random.standard_t(5, (COSINES, where.shape[1])) / np.exp(np.log(2.0) + random.standard_normal(where.shape[1]))
-        result.append(
-            rows @ fit.coefficients + rows[:, fit.fit.kept] @ change + np.sqrt(missed) * scale * _cosines((where,), frequency, random)[0]
-        )
+        beyond = np.sqrt(missed) * scale * _cosines((where,), frequency, random)[0]
+        result.append(rows @ fit.coefficients + rows[:, fit.fit.kept] @ change + beyond)
     return np.array(result)
 
 
@@ -276,12 +269,10 @@ def elementary_effects(study: Study, response: str) -> pandas.DataFrame:
             factor = changed[0]
             step = float(np.diff(factor.coded([before[factor.name], after[factor.name]]))[0]) / 2.0 if factor.is_number else 1.0
             effects[factor.name].append(change / step)
-    rows = []
-    for name, found in effects.items():
-        each = pandas.Series(found, dtype=float)
-        row = {"factor": name, "mean_size": each.abs().mean(), "mean": each.mean(), "deviation": each.std()}
-        rows.append({**row, "standard_error": each.abs().sem(), "effects": len(each)})
-    return pandas.DataFrame(rows)
+    each = pandas.DataFrame({name: pandas.Series(found, dtype=float) for name, found in effects.items()})
+    size = each.abs()
+    table = {"mean_size": size.mean(), "mean": each.mean(), "deviation": each.std(), "standard_error": size.sem(), "effects": each.count()}
+    return pandas.DataFrame(table).rename_axis("factor").reset_index()
 
 
 def _part(row: pandas.Series, name: str) -> str:
@@ -327,17 +318,13 @@ def _drawn_elementary(found: Sensitivity, response: Response, table: pandas.Data
     """Deviations of elementary effects against their mean sizes."""
     unit = unit_of(response.unit, found.study.runs[response.name])
     sizes, errors, deviations = (table[name].to_numpy(float) * unit.per_si for name in ("mean_size", "standard_error", "deviation"))
-    caption = (
-        f"{response.name}: elementary effects over the whole range of each factor; above the line a factor acts unevenly or with others"
-    )
+    caption = f"{response.name}: elementary effects over the whole range of each factor; above the line a factor acts unevenly or with others"
     figure, axes = new(NARROW, 76, caption, note="Bars: standard error; line: deviation = mean size")
     axis = axes[0, 0]
     axis.errorbar(sizes, deviations, xerr=np.nan_to_num(errors), fmt="o", color=LINES[0], capsize=2)
     for name, x, y in zip(table["factor"], sizes, deviations, strict=True):
         axis.annotate(wrapped(str(name)), (x, y), xytext=(3, 3), textcoords="offset points", fontsize=7)
     axis.axline((0.0, 0.0), slope=1.0, color=QUIET, linewidth=0.6)
-    axis.set(
-        xlabel=labelled("mean size of effects, μ*", unit.of_differences), ylabel=labelled("deviation of effects, σ", unit.of_differences)
-    )
+    axis.set(xlabel=labelled("mean size of effects, μ*", unit.of_differences), ylabel=labelled("deviation of effects, σ", unit.of_differences))
     axis.set(xlim=(0.0, 1.15 * np.nanmax(sizes + np.nan_to_num(errors))), ylim=(-0.03 * np.nanmax(deviations, initial=1e-300), None))
     return figure

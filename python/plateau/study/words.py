@@ -30,12 +30,9 @@ def add(words: Words) -> None:
             made.add_argument("--directory", type=Path, metavar="DIR", help="Folder of the results; overrides `directory` of the study")
         return made
 
-    def common(
-        made: Any,
-        *,
-        output: str | None = None,
-        force: str = "Replace the files of an earlier call, and remove those that this call does not write",
-    ) -> None:
+    earlier = "Replace the files of an earlier call, and remove those that this call does not write"
+
+    def common(made: Any, *, output: str | None = None, force: str = earlier) -> None:
         if output is not None:
             made.add_argument("-o", "--output", type=Path, metavar="DIR", help=output)
         made.add_argument("--json", action="store_true", help="Print one JSON document instead of text")
@@ -46,7 +43,6 @@ def add(words: Words) -> None:
 
     def model(made: Any) -> None:
         made.add_argument("--model", choices=MODELS, help="What is fitted; unless given, what the design allows")
-        made.add_argument("--terms", choices=("all", "aicc"), default="all", help="Which terms of it: all, or those that the runs support")
         confidence(made)
 
     def cores(made: Any) -> None:
@@ -72,9 +68,8 @@ def add(words: Words) -> None:
     for flag, example in (("maximize", "contact area=1 mm2..2 mm2"), ("minimize", "worn=0..1 mm3"), ("target", "filled=0.5..0.7..0.8")):
         several(made, f"--{flag}", "RESPONSE", f'A goal, such as "{example}"; may be repeated')
     several(made, "--limit", "RESPONSE<=VALUE", 'Keep a response below or above a value: "filled<=0.9"')
-    made.add_argument(
-        "--limit-on", choices=("mean", "means", "runs"), default="mean", help="What keeps the limits: the mean, its interval, that of a run"
-    )
+    about = "What keeps the limits: the mean, its interval, that of a run"
+    made.add_argument("--limit-on", choices=("mean", "means", "runs"), default="mean", help=about)
     several(made, "--hold", "FACTOR=VALUE", 'Hold a factor at a value, such as load="8 N"')
     several(made, "--importance", "RESPONSE=NUMBER", "How much a goal counts; 1 unless given")
     made.add_argument("--contour", metavar="FACTOR,FACTOR", help="Draw the desirability over two factors")
@@ -89,9 +84,8 @@ def add(words: Words) -> None:
     common(made, output='Folder for table and figures; "sensitivity" in the study\'s own unless given')
 
     made = word(study, "import", "Take in responses that were measured or computed elsewhere", _import, "  plateau sweep import study.toml measured.csv")
-    made.add_argument(
-        "table", type=Path, metavar="TABLE", help="Table (CSV) with a column for each factor and for each response with imported = true"
-    )
+    about = "Table (CSV) with a column for each factor and for each response with imported = true"
+    made.add_argument("table", type=Path, metavar="TABLE", help=about)
     common(made, force="Replace values that were imported before")
 
     made = word(words, "fit", "Find the values of keys with which runs give what was measured", _fit, "  plateau fit data/studies/fit-captured-fraction.toml --plan")
@@ -108,9 +102,6 @@ def add(words: Words) -> None:
     cores(made)
     confidence(made)
     common(made, output='Folder for runs, tables, figures and the page; "comparison" unless given')
-
-
-# Answers ---------------------------------------------------------------------------------------------------------------------------
 
 
 def _told(given: argparse.Namespace, found: Any, folder: Path, files: list[str], title: str = "") -> str:
@@ -134,9 +125,7 @@ def csv_of(table: "pandas.DataFrame") -> bytes:
         value = plain(value)
         return "" if value is None else str(value).lower() if isinstance(value, bool) else str(value)
 
-    return written_table(
-        [list(map(str, table.columns)), *([cell(value) for value in row] for row in table.itertuples(index=False, name=None))]
-    )
+    return written_table([list(map(str, table)), *(list(map(cell, row)) for row in table.itertuples(index=False, name=None))])
 
 
 def _opened(given: argparse.Namespace, name: str, of: str | None = None) -> tuple["Study", Path, str | None]:
@@ -152,7 +141,7 @@ def _opened(given: argparse.Namespace, name: str, of: str | None = None) -> tupl
 
 def _inputs(study: "Study", *others: Path | None) -> tuple[Path, ...]:
     """Files that are never replaced: the study and what it names."""
-    from plateau.study.kept_values import file_of
+    from plateau.study.imports import file_of
 
     here = Path(study.path or ".").parent
     tables = [study.document, *study.document.get("response", [])]
@@ -165,7 +154,7 @@ def _effects(given: argparse.Namespace) -> str:
     from plateau.style import saved
 
     study, folder, _ = _opened(given, "effects")
-    found = effects(study, **options(given, "model", "terms", "confidence"))
+    found = effects(study, **options(given, "model", "confidence"))
     figures = found.figures()
     drawn = saved(figures)
     files = {"effects.csv": csv_of(found.table.drop(columns="factors")), "residuals.csv": csv_of(found.residuals)}
@@ -181,7 +170,7 @@ def _predict(given: argparse.Namespace) -> str:
     inputs = _inputs(study, given.points)
     if given.output is not None:
         refuse_file(given.output, given.force, inputs)
-    asked = options(given, "at", "grid", "points", "extrapolate", "confirm", "model", "terms", "confidence", "jobs", "workers")
+    asked = options(given, "at", "grid", "points", "extrapolate", "confirm", "model", "confidence", "jobs", "workers")
     found = predict(study, **asked, progress=progress(given))
     if given.output is not None:
         refuse_file(given.output, given.force, inputs)
@@ -197,7 +186,7 @@ def _optimize(given: argparse.Namespace) -> str:
     from plateau.style import saved
 
     study, folder, _ = _opened(given, "optimum")
-    asked = options(given, "maximize", "minimize", "target", "limit", "limit_on", "hold", "importance", "model", "terms", "confidence")
+    asked = options(given, "maximize", "minimize", "target", "limit", "limit_on", "hold", "importance", "model", "confidence")
     found = optimize(study, **asked, runs=given.runs or 0, **options(given, "confirm", "jobs", "workers"), progress=progress(given))
     settings = found.settings.set_index("factor")["text"].rename(str.strip)
     files = {"optimum.csv": csv_of(found.table.assign(**settings)), **saved(found.figures(given.contour))}
