@@ -122,7 +122,7 @@ def keys() -> list[str]:
     Full path of every key of scenes.
     """
 
-def make_runs(study: str | PathLike[str], jobs: SupportsIndex | None, workers: SupportsIndex | None, most_failures: SupportsIndex | None, retry: bool, tell: Any) -> None:
+def make_runs(study: str | PathLike[str], directory: str | PathLike[str] | None, jobs: SupportsIndex | None, workers: SupportsIndex | None, most_failures: SupportsIndex | None, retry: bool, keep_files: bool, tell: Any) -> None:
     """
     Makes the runs of a study that are not there yet.
     """
