@@ -18,6 +18,7 @@ fn a_measured_patch_and_the_numbers_of_a_rig_become_a_run() {
     let text = fs::read_to_string(directory.path("mine.toml")).unwrap();
     let own = text.lines().filter(|line| line.contains("# <-")).count();
     assert!((8..15).contains(&own), "{own} keys are the user's:\n{text}");
+    assert!(text.lines().count() <= 60, "more than a page:\n{text}");
     // The scan is smaller than a cell, and nothing offers to read it as larger.
     assert!(text.contains("less than 4 cells") && !text.contains("pixel = "), "{text}");
     directory.plateau(["check", "mine.toml"]).ends(2, &["take smaller cells"]);
