@@ -23,7 +23,7 @@ build() {
     python3 "$root/scripts/notices.py" >"$root/THIRD-PARTY-NOTICES" || die "the notices could not be collected, see above"
     set -- --zig --compatibility "manylinux_$glibc" --target-dir "$target"
     (cd "$root" && python packaging/backend/wheel_backend.py "$@" && maturin build --release --locked "$@" \
-        --sbom-include packaging/wheel/program.cdx.json --out "$folder") ||
+        --sbom-include packaging/program.cdx.json --out "$folder") ||
         die "the wheel could not be built, see above"
 }
 

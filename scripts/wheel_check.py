@@ -26,7 +26,8 @@ def problems(wheel: Path) -> list[str]:
         words = [f"{name}-{version}.data/scripts/{path.name}" for path in (ROOT / "packaging/wheel/scripts").iterdir()]
         texts = [f"{info}/licenses/{text}" for text in ("LICENSE-MIT", "LICENSE-APACHE", "THIRD-PARTY-NOTICES")]
         module = "plateau/_native.abi3.so"
-        wanted = ["plateau/py.typed", "plateau/_native.pyi", *modules, *words, *texts, program, module]
+        components = f"{info}/sboms/program.cdx.json"
+        wanted = ["plateau/py.typed", "plateau/_native.pyi", *modules, *words, *texts, program, module, components]
         found = [f"it has no {file}" for file in wanted if file not in files]
         if found:
             return found

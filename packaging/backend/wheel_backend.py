@@ -23,7 +23,7 @@ ROOT = Path(__file__).resolve().parents[2]
 # Where maturin looks for scripts.
 PROGRAM = ROOT / "packaging" / "wheel" / "scripts" / "plateau"
 # What the program is made of, which is more than the module.
-COMPONENTS = ROOT / "packaging" / "wheel" / "program.cdx.json"
+COMPONENTS = ROOT / "packaging" / "program.cdx.json"
 
 
 def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):

@@ -114,8 +114,8 @@ class Simulation:
             Instead of it, the time to come to, s, or text with a unit; nothing is done where that has passed. The last step ends there or
             up to one step later, of a cycle earlier.
         watch : bool
-            Whether pressures of the last step are kept, which `pressure`, `sample` and `displacement` need. A single step of a small
-            scene takes a fraction of the time without.
+            Whether `pressure`, `sample` and `displacement` of the last step may be asked for. A single step of a small scene takes two
+            thirds of the time without.
 
         Raises
         ------
@@ -134,7 +134,7 @@ class Simulation:
             self._native.advance(steps, watch, progress.steps)
 
     def observe(self, steps: int | None = None, *, time: float | str | None = None, every: int | None = None) -> pandas.DataFrame:
-        """Takes steps as `advance` does, and a sample after each `every` of them.
+        """Takes steps as `advance` does, and a sample after each `every` of them. What Ctrl-C leaves is in `observed`.
 
         Parameters
         ----------
@@ -351,7 +351,7 @@ class Simulation:
         Raises
         ------
         InputError
-            If a shape is wrong, or a height is no finite number, on the wrong side of its substrate, or above the highest initial height
+            If an array is not of real numbers, or masked, a shape is wrong, or a height is no finite number, on the wrong side of its substrate, or above the highest initial height
             of the disc, up to which debris fills it.
         """
         given = (disc_height, disc_substrate, pin_height, pin_substrate)
