@@ -26,7 +26,7 @@ pub const GENERATIONS: &[Generation] = &[
     },
     Generation {
         reason: "pauses cool at the mean speed of the disc, and pooled debris is computed by the plain model",
-        results: "1d96a223341efcd11404c95b249dccf5a7939f88250f614754c2a1c9fb9bb4d6",
+        results: "744b4f7e6d8d3d048171177a0bea1e8c8ad11e4975b83d62566ea0496f34a51c",
     },
 ];
 
