@@ -135,16 +135,31 @@ class SurfaceCommand(InFolder):
         told = next(line for line in table("lay.txt").splitlines() if line.startswith("Str ")).split("< ")[1]
         self.assertTrue(bound <= float(told) < bound + 1e-3, (bound, told))
 
-    def test_the_same_lay_is_told_to_who_begins_a_scene(self):
-        x, y = np.indices((90, 100))
-        for degrees in (0, -50):
-            along = y * math.cos(math.radians(degrees)) - x * math.sin(math.radians(degrees))
-            np.savetxt("lay.txt", np.sin(along / 1.6).T, fmt="%.4f", header="unit: um\npitch: 20 um")
-            said, surface = plateau.command("new", "mine.toml", disc="lay.txt", force=True), described("lay.txt")
-            told = surface["Std"]
-            self.assertLess(abs((told - degrees + 90) % 180 - 90), 1)
-            self.assertIn(f", Std {told + 0.0:.1f}".removesuffix(".0").replace("-", "−"), said)
-            self.assertIn(f"Str < {cell(table('lay.txt'), 'Str')}", said)
+    def test_a_lay_is_told_and_the_rotation_that_turns_it_offered(self):
+        # 100 x 100 points of 20 um: grooves of 1 um, 0.2 mm apart, at an angle to x, and steps of 0.1 um beside them.
+        x, y = np.meshgrid(np.arange(100), np.arange(100))
+        along, across = "along sliding, x of the file", "across sliding, along y of the file"
+        cases = [
+            (90, "90 deg", across, "90 deg)", along),
+            (30, "-30 deg", "oblique to sliding, x of the file", "Std 30", along),
+            (-50, "50 deg", "oblique to sliding, x of the file", "Std \u2212", along),
+            (0, "90 deg", along, "Std 0 deg", across),
+        ]
+        for degrees, rotate, runs, angle, then in cases:
+            turn = math.radians(degrees)
+            heights = np.sin(2 * np.pi / 10 * (y * math.cos(turn) - x * math.sin(turn))) + (x * 7919 + y * 104729 + x * y * 31) % 17 / 170
+            np.savetxt("lay.txt", heights, "%.4f", header="unit: um\npitch: 20 um")
+            said = plateau.command("new", "mine.toml", disc="lay.txt", force=True)
+            text = pathlib.Path("mine.toml").read_text()
+            told = next(line for line in text.splitlines() if line.startswith("# rotate"))
+            self.assertTrue(f'rotate = "{rotate}"' in told and runs in told, told)
+            self.assertTrue(f"its lay runs {runs}" in said and "(Str < " in said and angle in said, said)
+            # Turned so, the patch, read with x for y, has it the other way.
+            pathlib.Path("turned.toml").write_text(text.replace("\n# rotate", "\nrotate"))
+            pathlib.Path("turned").mkdir(exist_ok=True)
+            table(prepare="turned.toml", figure_data="turned")
+            said = plateau.command("new", "again.toml", disc="turned/heights-0.npy", pitch="20 um", force=True)
+            self.assertIn(f"its lay runs {across if then == along else along}", said)
 
     def test_a_converted_surface_is_the_same_surface(self):
         def parameters(*arguments, **options):

@@ -129,45 +129,6 @@ fn spikes_and_a_sliding_speed_are_taken_as_they_are_meant() {
 }
 
 #[test]
-fn a_lay_is_told_and_rotate_offered() {
-    let directory = WorkingDirectory::new();
-    // 100 x 100 points of 20 um: grooves of 1 um, 0.2 mm apart, at an angle a to x, and steps of 0.1 um beside them.
-    let write = |degrees: f64| {
-        let (sine, cosine) = (degrees.to_radians().sin(), degrees.to_radians().cos());
-        let height = |i: u32, j: u32| {
-            let along = f64::from(j) * cosine - f64::from(i) * sine;
-            (along * std::f64::consts::TAU / 10.0).sin()
-                + 0.1 * f64::from((i * 7919 + j * 104_729 + i * j * 31) % 17) / 17.0
-        };
-        let row = |j: u32| (0..100).map(|i| format!("{:.4}", height(i, j))).collect::<Vec<_>>().join("\t") + "\n";
-        directory.write("lay.txt", format!("# unit: um\n# pitch: 20 um\n{}", (0..100).map(row).collect::<String>()));
-    };
-    let (along, across) = ("along sliding, x of the file", "across sliding, along y of the file");
-    directory.write("data/empty", "");
-    for (degrees, rotate, runs, angle, then) in [
-        (90.0, "90 deg", across, "90 deg)", along),
-        (30.0, "-30 deg", "oblique to sliding, x of the file", "Std 30", along),
-        (-50.0, "50 deg", "oblique to sliding", "Std \u{2212}", along),
-        (0.0, "90 deg", along, "Std 0 deg", across),
-    ] {
-        write(degrees);
-        let said = directory.plateau(["new", "mine.toml", "--disc", "lay.txt", "--force"]).quiet_success();
-        let text = fs::read_to_string(directory.path("mine.toml")).unwrap();
-        let told = text.lines().find(|line| line.starts_with("# rotate")).unwrap_or_default();
-        assert!(told.contains(&format!("rotate = \"{rotate}\"")) && told.contains(runs), "{degrees}: {told}");
-        assert!(said.contains(&format!("its lay runs {runs}")) && said.contains("(Str < "), "{degrees}: {said}");
-        assert!(said.contains(angle), "{degrees}: {said}");
-        // Turned so, the patch, read with x for y, has it the other way.
-        fs::write(directory.path("turned.toml"), text.replace("\n# rotate", "\nrotate")).unwrap();
-        directory.plateau(["surface", "--prepare", "turned.toml", "--figure-data", "data"]).ends(0, &[]);
-        let again = ["new", "again.toml", "--disc", "data/heights-0.npy", "--pitch", "20 um", "--force"];
-        let said = directory.plateau(again).quiet_success();
-        let other = if then == along { across } else { along };
-        assert!(said.contains(&format!("its lay runs {other}")), "{degrees}: turned by {rotate}: {said}");
-    }
-}
-
-#[test]
 fn a_distance_of_points_that_nobody_states_is_asked_for() {
     let directory = WorkingDirectory::new();
     let row =
