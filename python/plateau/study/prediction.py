@@ -15,7 +15,7 @@ from plateau.errors import InputError, InputTypeError, PlateauWarning
 from plateau.output_folder import plain
 from plateau.study.analysis import together, usable
 from plateau.study.data import Study
-from plateau.study.imports import factor_value
+from plateau.study.kept_values import factor_value
 from plateau.study.results import analysed
 from plateau.study.runs import made_study
 from plateau.study.settings import SAME, axis_of, beyond_of, factor_named, held_values, joined, no_curve, region_of, value_of

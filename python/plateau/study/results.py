@@ -15,7 +15,7 @@ from plateau.errors import InputError, InputTypeError, MissingFileError
 from plateau.program import call, file_name
 from plateau.run_file import locking
 from plateau.study.data import Factor, Response, Study
-from plateau.study.imports import KeptValues
+from plateau.study.kept_values import KeptValues
 from plateau.units import with_unit
 
 

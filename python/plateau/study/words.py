@@ -141,7 +141,7 @@ def _opened(given: argparse.Namespace, name: str, of: str | None = None) -> tupl
 
 def _inputs(study: "Study", *others: Path | None) -> tuple[Path, ...]:
     """Files that are never replaced: the study and what it names."""
-    from plateau.study.imports import file_of
+    from plateau.study.kept_values import file_of
 
     here = Path(study.path or ".").parent
     tables = [study.document, *study.document.get("response", [])]

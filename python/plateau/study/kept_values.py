@@ -1,0 +1,188 @@
+"""Values of responses from elsewhere, as they are kept beside the results of a study."""
+
+import math
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas
+
+from plateau.errors import InputError
+from plateau.study.data import Factor, Response, Study
+from plateau.study.text_tables import TextTable, read_text_table, written_table
+from plateau.units import in_si, with_unit
+
+REPLICATE = "replicate"
+# Numbers of a table and of the design are the same if they differ by less than this part of the largest one of the factor.
+ROUNDED = 1e-6
+
+
+def file_of(study: Study) -> Path:
+    """The table in which they are kept."""
+    return study.directory / "imported.csv"
+
+
+def _factors(table: TextTable, study: Study) -> dict[int, Factor]:
+    """Columns of factors, in the order of the study."""
+    found = {}
+    for factor in study.factors:
+        column = table.column(factor.names)
+        if column is None:
+            raise table.missing(f'of the factor "{factor.name}"')
+        found[column] = factor
+    return found
+
+
+def imported_columns(table: TextTable, study: Study, *, strict: bool) -> dict[int, Response]:
+    """Columns of imported responses; with `strict` others than these and factors are refused."""
+    imported = [response for response in study.responses if response.asked.get("imported")]
+    responses = {name: response for response in imported for name in (response.asked.get("name", response.name), response.name)}
+    factors, found = _factors(table, study), {}
+    for column, head in enumerate(table.heads):
+        name, unit = table.named(column)
+        response = responses.get(head, responses.get(name))
+        if column in factors or (name, unit) == (REPLICATE, "") or name == "run" or response is None and not strict:
+            continue
+        if response is None:
+            there = f"of these the study has {', '.join(one.name for one in imported) or 'none'}"
+            raise InputError(f'{table.path}: column "{head}" is neither a factor nor a response with imported = true; {there}')
+        try:
+            in_si(1.0, _unit(table, column, response), response.unit)
+        except InputError:
+            wanted = with_unit(response.name, response.unit)
+            raise InputError(f'{table.path}: column "{head}": expected "{wanted}", or another unit that measures the same') from None
+        found[column] = response
+    if strict and not found:
+        raise table.missing("of a response with imported = true")
+    return found
+
+
+def _unit(table: TextTable, column: int, response: Response) -> str:
+    return "1" if table.heads[column] == response.name else table.named(column)[1] or "1"
+
+
+def _numbers(table: TextTable, row: int, columns: dict[int, Response]) -> pandas.Series:
+    """What a line has of the responses, SI, by their names."""
+    found = {}
+    for column, one in columns.items():
+        number, unit = table.number(row, column), _unit(table, column, one)
+        found[one.name] = number if math.isnan(number) or unit == one.unit else in_si(table.rows[row][column], unit, one.unit)
+    return pandas.Series(found, dtype=float).dropna()
+
+
+def factor_value(table: TextTable, row: int, column: int, factor: Factor) -> Any:
+    """What a factor is in a line: a number in SI units, or a word."""
+    cell, unit = table.rows[row][column].replace("\N{MINUS SIGN}", "-"), table.named(column)[1]
+    if not cell:
+        raise InputError(f'{table.place(row)}: "{factor.name}" is empty')
+    if not factor.is_number:
+        return table.rows[row][column].strip('"') if factor.keys else table.rows[row][column]
+    number, _, own = cell.replace("%", " %").partition(" ")
+    unit = own.strip() or unit
+    try:
+        if not math.isfinite(float(number)) or "_" in number:
+            raise ValueError(number)
+        if factor.keys:
+            return in_si(float(number), unit or "1", factor.unit or "1")
+        if unit not in ("", factor.study_unit):
+            raise InputError(f'the study has it in "{factor.study_unit}"')
+        return float(number) * factor.one + factor.zero
+    except (InputError, ValueError) as error:
+        said = f'"{table.heads[column]}" is "{cell}", expected a number such as "{factor.text(factor.levels[0])}"'
+        why = f": {error}" if isinstance(error, InputError) else ""
+        raise InputError(f"{table.place(row)}: {said}{why}") from None
+
+
+class KeptValues:
+    """The table: ``values`` of imported responses by run, ``others`` (cells of columns that the study does not have), and ``idle`` lines."""
+
+    def __init__(self, study: Study) -> None:
+        self.study, self.responses = study, [response for response in study.responses if response.asked.get("imported")]
+        self.values = pandas.DataFrame(math.nan, index=study.runs.index, columns=[response.name for response in self.responses])
+        self.others = pandas.DataFrame(index=study.runs.index)
+        self.idle_lines = pandas.DataFrame(columns=self._heads)
+        if self.responses and file_of(study).exists():
+            self._read(read_text_table(file_of(study)))
+
+    @property
+    def _heads(self) -> list[str]:
+        factors = [with_unit(factor.name, factor.unit) for factor in self.study.factors]
+        return [*factors, REPLICATE, *(with_unit(response.name, response.unit) for response in self.responses)]
+
+    def _read(self, table: TextTable) -> None:
+        factors, columns, replicate = _factors(table, self.study), imported_columns(table, self.study, strict=False), table.column([REPLICATE])
+        others = [column for column in range(len(table.heads)) if column not in factors and column not in columns and column != replicate]
+        self.others = self.others.reindex(columns=[table.heads[column] for column in others], fill_value="")
+        taken, idle = set[int](), []
+        for row, cells in enumerate(table.rows):
+            numbers, own = _numbers(table, row, columns), {table.heads[column]: cells[column] for column in others}
+            try:
+                run = self._run(table, row, factors, taken)
+            except InputError:
+                line = {with_unit(one.name, one.unit): cells[column] for column, one in factors.items()}
+                line |= {} if replicate is None else {REPLICATE: cells[replicate]}
+                idle.append(line | {with_unit(one.name, one.unit): _written(numbers.get(one.name, math.nan)) for one in columns.values()} | own)
+            else:
+                self.values.loc[run, numbers.index] = numbers
+                self.others.loc[run, list(own)] = list(own.values())
+        self.idle_lines = pandas.DataFrame(idle, columns=[*self._heads, *self.others], dtype=object).fillna("")
+
+    def take(self, table: TextTable, force: bool) -> tuple[int, int]:
+        """Takes in a table: how many values are new, and how many have changed."""
+        factors, columns, taken, new, changed = _factors(table, self.study), imported_columns(table, self.study, strict=True), set[int](), 0, 0
+        for row in range(len(table.rows)):
+            run = self._run(table, row, factors, taken)
+            now = _numbers(table, row, columns)
+            before = self.values.loc[run, now.index]
+            differs = before.notna() & (before != now)
+            self.values.loc[run, now.index] = now
+            new, changed = new + int(before.isna().sum()), changed + int(differs.sum())
+            if differs.any() and not force:
+                said = f"{before[differs].iloc[0]} was imported before and {now[differs].iloc[0]} differs; --force replaces it"
+                raise InputError(f"{table.place(row)}: {said}")
+        return new, changed
+
+    def _run(self, table: TextTable, row: int, factors: dict[int, Factor], taken: set[int]) -> int:
+        """The run that a line is of: the first of its point that no line before is of."""
+        runs, cells, place = self.study.runs, table.rows[row], table.place(row)
+        at_point = np.ones(len(runs), bool)
+        for column, factor in factors.items():
+            value, levels = factor_value(table, row, column, factor), runs[factor.name].to_numpy()
+            same = np.abs(levels - value) <= ROUNDED * np.abs(levels).max() if factor.is_number else levels == value
+            if not same.any():
+                different = np.unique(levels).tolist()
+                has = ", ".join(map(factor.text, different[:12])) + (", …" if len(different) > 12 else "")
+                raise InputError(f"{place}: {factor.name} = {cells[column]} is in no point of the design, which has {has}")
+            at_point &= same
+        if not at_point.any():
+            raise InputError(f"{place}: no point of the design has these levels together; `plateau sweep plan --csv` writes all points")
+        replicate = table.column([REPLICATE])
+        number = math.nan if replicate is None else table.number(row, replicate)
+        if not math.isnan(number) and number not in range(1, self.study.seeds + 1):
+            raise InputError(f"{place}: replicate {number:g}, expected a number from 1 to {self.study.seeds}")
+        is_own = at_point if math.isnan(number) else at_point & (runs[REPLICATE] == number).to_numpy()
+        free = [run for run in runs.index[is_own].tolist() if run not in taken]
+        if not free:
+            times = "once" if at_point.sum() == 1 else f"{at_point.sum()} times"
+            advice = 'several specimens of a point: design = "csv" with this table as its file'
+            raise InputError(f"{place}: the design has this point {times}, and lines before have it as often; {advice}")
+        taken.add(free[0])
+        return int(free[0])
+
+    def written(self) -> bytes:
+        """The table as it is kept."""
+        runs = self.study.runs[[*(factor.name for factor in self.study.factors), REPLICATE]]
+        table = pandas.concat([runs, self.values], axis=1).map(_written).set_axis(self._heads, axis=1)
+        table = pandas.concat([table, self.others], axis=1)[self.values.notna().any(axis=1) | self.others.ne("").any(axis=1)]
+        return written_table([list(table), *table.to_numpy().tolist(), *self.idle_lines.to_numpy().tolist()])
+
+    def idle(self) -> list[str]:
+        """What is kept of nothing that the study has now, in words."""
+        heads = self._heads[: len(self.study.factors)]
+        lines = [f"line of {', '.join(f'{head} = {line[head]}' for head in heads)}" for line in self.idle_lines.to_dict("records")]
+        return [*lines, *(f'column "{head}"' for head in self.others if self.others[head].ne("").any())]
+
+
+def _written(value: Any) -> str:
+    """A value with all its digits; nothing of NaN."""
+    return value if isinstance(value, str) else "" if value != value else str(value) if isinstance(value, int) else repr(float(value))
