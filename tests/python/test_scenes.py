@@ -19,7 +19,7 @@ import plateau
 
 PROGRAM = os.environ["PLATEAU_PROGRAM"]
 # What tells when, where and how long.
-OF_THE_MAKING = {"start_time", "end_time", "wall_time", "workers", "execution_sha256"}
+OF_THE_MAKING = {"start_time", "end_time", "wall_time", "workers", "decomposition", "execution_sha256"}
 
 
 def contents(path):
