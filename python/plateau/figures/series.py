@@ -165,14 +165,15 @@ def emission(drawing: Drawing, subjects: list[Subject]) -> list[Any]:
     # Windows of few pulses would beat with them.
     most = MOST_OF_EMISSION // 2 if calm(courses(subjects, "contact_area_mean", MM2)) else MOST_OF_EMISSION
     panels = [(title, *kind, is_road) for is_road in (False, True) if on_road or not is_road for title, kind in AIRBORNE.items()]
-    figure, axes = drawing.panels(len(panels), 50, "Airborne emission of the simulated pin against time")
+    whose = "brake_" if all(subject.has("series/brake_pm10_mass") for subject in subjects) else ""
+    figure, axes = drawing.panels(len(panels), 50, f"Airborne emission of the {'whole brake' if whose else 'simulated pin'} against time")
     for axis, (title, prefix, names, is_road) in zip(axes, panels, strict=True):
         drawn = []
         for subject in on_road if is_road else subjects:
             for place, (name, label) in enumerate(names.items()):
                 paler = {"label": None, "alpha": 0.45} if place else {"label": subject.label}
                 own = look(place) | {"label": label or "PM10"} if drawing.only else paler
-                drawn.append((subject.line | own, per_metre(subject, name) if is_road else rates(subject, name, most)))
+                drawn.append((subject.line | own, per_metre(subject, whose + name) if is_road else rates(subject, whose + name, most)))
         unit = in_powers(prefix + ("m-1" if is_road else "s-1"), np.concatenate([values for _, values in drawn]))
         for line, values in drawn:
             axis.plot(time_of(subjects).value(values.index), unit.value(values), drawstyle="default" if is_road else "steps-post", **line)
@@ -180,11 +181,11 @@ def emission(drawing: Drawing, subjects: list[Subject]) -> list[Any]:
         axis.set_title(title, loc="left")
     time_axis(axes, subjects)
     # The area of the mesh is that in contact over the part that this is of it.
-    areas = [MM2.value(one.values("contact_area").max() / (one.values("contact_ratio").max() or math.nan)) for one in subjects]
+    areas = [] if whose else [MM2.value(one.values("contact_area").max() / (one.values("contact_ratio").max() or math.nan)) for one in subjects]
     spans = [float(np.median(np.diff(rates(one, "pm10_mass", most).index))) for one in subjects]
     area = ", ".join(dict.fromkeys(f"{area:.3g} {MM2.symbol}" for area in areas))
     span = ", ".join(dict.fromkeys(moment(float(f"{span:.2g}")) for span in spans))
-    note = f"Of the simulated pin, {area}, not of a brake; rates: means over {span}"
+    note = f"Of the {'whole brake' if whose else f'simulated pin, {area}, not of a brake'}; rates: means over {span}"
     note += "; emission factors: since the start, without the first twentieth of the way" if on_road else ""
     note += "; lines: PM10; paler: PM2.5" if len(subjects) > 1 else ""
     return drawing.explained(figure, axes[0], note)

@@ -95,7 +95,7 @@ pub(super) fn all() -> Vec<Key> {
         "load and speed over time: .csv whose header has units, such as time [s], normal_force [N], rotational_speed [rpm]",
     );
     for name in CYCLE_COLUMNS {
-        table.key(name, Text, Optional, "header of this column, where the file has another");
+        table.key(name, Text, Optional, "its header in the file");
     }
     table.key("cycle.points", Rows, OneOf, "the same in the scene: rows of time, load and speed");
     table.key(
