@@ -1,28 +1,36 @@
 """A brake in a drive: from what a vehicle's logger, a spreadsheet or a regulation has, to the cycle and the scene of one of its brakes."""
 
-import itertools
 import json
 import math
 import os
 import re
 import tempfile
+import warnings
+import zipfile
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pandas
 
-from plateau.errors import InputError
+from plateau.errors import InputError, PlateauWarning
 from plateau.output_folder import followed, put_together, refuse_file
 from plateau.program import call, listen
-from plateau.units import in_si, quantity
+from plateau.study.text_tables import TextTable, read_text_table
+from plateau.units import NUMBER, in_si, quantity
 
 # What a table may have, with the SI unit; the first two it must have, and at most one of the others.
 COLUMNS = {"time": "s", "road_speed": "m s-1", "deceleration": "m s-2", "brake_torque": "N m", "brake_pressure": "Pa"}
 # As regulations head the speed of the vehicle.
 ALSO = {"speed": "road_speed"}
-CLOCK = re.compile(r"(\d+):([0-5]?\d):([0-5]?\d(?:\.\d+)?)")
+CLOCK = re.compile(r"(\d+):([0-5]?\d):([0-5]?\d(?:[.,]\d+)?)")
+CLOCKS = ("h:mm:ss", "hh:mm:ss")
+# Pressure in the line, Pa, below which no pad is pressed: pistons move against their seals.
+LEAST_PRESSURE = 5e4
+# Acceleration that is taken where brakings of a second would allow none: their part of the wear is small.
+LEAST_ACCELERATION = 3
 # Torque by which a vehicle that stands is held, N m: it has no effect but that the pads touch.
 HOLD = 100.0
 
@@ -31,9 +39,9 @@ SCENE = """
 file = {file}
 
 [brake]                                 # masses and wear of the whole brake are counted for it
-pad_area = "50 cm^2"                    # <- friction material of one of the two pads
-pad_thickness = "10 mm"                 # <- of it, that may wear
-effective_radius = "115 mm"             # <- where the pads' friction acts
+pad_area = {pad_area}
+pad_thickness = {pad_thickness}
+effective_radius = {effective_radius}
 wheel_radius = {wheel_radius}
 {piston}
 [friction]
@@ -44,21 +52,21 @@ maximum = 0.6
 [thermal]
 ambient = "23 degC"
 
-[thermal.disc]                          # <- area x thickness x density is the mass of the disc, here 8 kg
+[thermal.disc]                          # area x thickness x density is the mass of the disc
 conductivity = "50 W/(m K)"
 density = "7200 kg/m^3"
 specific_heat = "500 J/(kg K)"
-area = "1010 cm^2"
-thickness = "11 mm"
+area = "1010 cm^2"                      # <- of both faces
+thickness = {thickness}
 cooling = "9.3 W/K"                     # <- at rest
 cooling_per_speed = "0.16 J/(K rad)"    # <- for each rad/s of the wheel
 
-[thermal.pin]                           # all pads
+[thermal.pin]                           # both pads
 conductivity = "1.5 W/(m K)"
 density = "2600 kg/m^3"
 specific_heat = "900 J/(kg K)"
-area = "100 cm^2"
-length = "12 mm"
+area = {pads_area}
+length = {pad_thickness}
 cooling = "2.5 W/K"
 
 [emission]
@@ -79,16 +87,21 @@ def cycle(
     road_load: Sequence[float] = (130.0, 0.0, 0.0347),
     share: float = 0.7,
     wheel_radius: float | str = "310 mm",
+    pad_area: float | str = "50 cm^2",
+    pad_thickness: float | str = "12 mm",
+    effective_radius: float | str = "115 mm",
     piston_area: float | str | None = None,
+    disc_mass: float | str = "8 kg",
     force: bool = False,
-) -> str:
+) -> "Made":
     """Writes the cycle and the scene of a front brake of a vehicle in a drive.
 
     The brakes give what slows the vehicle down beyond its road load: from the deceleration, or from one row to the next,
 
         F_b = max(0, -m dv/dt - F_0 - F_1 v - F_2 v²),    T_b = s F_b r_w / 2,
 
-    and a row has the mean of the T_b before and after it. A table with the torque or the pressure of the brake needs none of this.
+    with the means of an interval between two rows, so that it has the energy of the vehicle. A table with the torque or the pressure of the
+    brake needs none of this.
 
     Parameters
     ----------
@@ -108,15 +121,26 @@ def cycle(
         s, the front axle's part of the brake force.
     wheel_radius : float or str
         r_w, the rolling radius, m.
+    pad_area, pad_thickness : float or str
+        Friction material of one of the two pads, m² and m.
+    effective_radius : float or str
+        Radius at which the friction of the pads acts, m.
     piston_area : float or str, optional
-        Of the pistons that press one pad, m²; with a ``brake_pressure``.
+        Of the pistons that press one pad, m²; with a ``brake_pressure``, of which less than 0.5 bar is taken as none.
+    disc_mass : float or str
+        Of the disc, kg.
     force : bool
         Replace files that exist.
 
     Returns
     -------
-    str
-        The path of the scene, which is complete; lines with <- are to be looked at.
+    Made
+        The scene, which is complete (lines with <- are to be looked at), and what was read.
+
+    Warns
+    -----
+    PlateauWarning
+        Where the table has a gap, or can hardly be meant: a wrong unit.
 
     Raises
     ------
@@ -129,30 +153,83 @@ def cycle(
     of_cycle = path.with_suffix(".csv")
     for one in (path, of_cycle):
         refuse_file(one, force, (Path(table),), "name another scene with -o")
-    radius = quantity(wheel_radius, "m")
+    sizes = {"mass": (mass, "kg"), "wheel_radius": (wheel_radius, "m"), "pad_area": (pad_area, "m2"), "pad_thickness": (pad_thickness, "m")}
+    sizes |= {"effective_radius": (effective_radius, "m"), "disc_mass": (disc_mass, "kg")}
+    sizes |= {} if piston_area is None else {"piston_area": (piston_area, "m2")}
+    size = {name: quantity(said, si) for name, (said, si) in sizes.items()}
+    wrong = [name for name, value in size.items() if not value > 0.0]
+    if wrong or not (0.0 < share <= 1.0) or len(road_load) != 3 or not np.isfinite(road_load).all():
+        said = f"{wrong[0]}: expected more than 0" if wrong else "expected three numbers as road load, and a share from 0 to 1"
+        raise InputError(said)
     found = _read(Path(table), columns or {})
     if "brake_pressure" in found:
         if piston_area is None:
-            raise InputError("a brake_pressure presses as the pistons are large: give the area of those of one pad, such as piston_area 25 cm^2")
-        load, shown = found["brake_pressure"] * 1e-5, "brake_pressure [bar]"
+            raise InputError('a brake_pressure presses as the pistons are large: give the area of those of one pad, such as --piston-area "25 cm^2"')
+        pressure = found["brake_pressure"]
+        load, shown = (pressure * 1e-5).where(pressure >= LEAST_PRESSURE, 0.0), "brake_pressure [bar]"
     elif "brake_torque" in found:
         load, shown = found["brake_torque"], "brake_torque [N m]"
     else:
-        if not (len(road_load) == 3 and 0.0 < share <= 1.0 and radius > 0.0 and quantity(mass, "kg") > 0.0):
-            raise InputError("expected a mass and a wheel radius above 0, three numbers as road load, and a share from 0 to 1")
-        forces = _brake_force(found, quantity(mass, "kg"), road_load)
-        load, shown = share * forces * radius / 2.0, "brake_torque [N m]"
-        # One row beside it is still of a drive.
-        moves = found["road_speed"].rolling(3, center=True, min_periods=1).max() > 0.0
-        load = load.where(moves, HOLD)
+        if "deceleration" in found:
+            found["force"] = _beyond_road(size["mass"], found["deceleration"], found["road_speed"], road_load)
+        else:
+            found = _intervals(found, size["mass"], road_load)
+        load, shown = share * found["force"] * size["wheel_radius"] / 2.0, "brake_torque [N m]"
+        stands = found["road_speed"].rolling(3, center=True, min_periods=1).max() == 0.0
+        load = load.where(~stands, HOLD)
+    made = Made(str(path), *_told(found, load, shown))
+    for warned in made.warnings:
+        warnings.warn(f"{table}: {warned}", PlateauWarning, stacklevel=2)
     lines = [f"time [s],road_speed [km/h],{shown}"]
     lines += [f"{time:.10g},{3.6 * speed:.6g},{value:.7g}" for time, speed, value in zip(found["time"], found["road_speed"], load, strict=True)]
     csv = ("\n".join(lines) + "\n").encode()
-    area = quantity(piston_area, "m2") if piston_area is not None else 0.0
-    piston = f'piston_area = "{area * 1e4:.6g} cm^2"\n' if area else ""
-    tables = SCENE.format(file=_toml(of_cycle.name), wheel_radius=_toml(f"{radius * 1e3:.6g} mm"), piston=piston)
+
+    def length(name: str, factor: float, unit: str) -> str:
+        return _toml(f"{size[name] * factor:.6g} {unit}")
+
+    piston = f"piston_area = {length('piston_area', 1e4, 'cm^2')}\n" if piston_area is not None else ""
+    millimetres = {name: length(name, 1e3, "mm") for name in ("pad_thickness", "effective_radius", "wheel_radius")}
+    areas = {"pad_area": length("pad_area", 1e4, "cm^2"), "pads_area": length("pad_area", 2e4, "cm^2")}
+    thickness = _toml(f"{size['disc_mass'] / (7200.0 * 0.101) * 1e3:.3g} mm")
+    tables = SCENE.format(file=_toml(of_cycle.name), piston=piston, thickness=thickness, **millimetres, **areas)
     put_together(path.parent, {of_cycle.name: csv, path.name: _scene(path, csv, tables, float(found["time"].iloc[-1])).encode()}, force)
-    return str(path)
+    return made
+
+
+@dataclass(frozen=True)
+class Made(os.PathLike[str]):
+    """A scene that was made, and what was read for it; it can be used as the path of the scene."""
+
+    path: str
+    # What was read, in words.
+    told: str
+    warnings: list[str]
+
+    def __fspath__(self) -> str:
+        return self.path
+
+
+def _told(found: pandas.DataFrame, load: "pandas.Series[float]", shown: str) -> tuple[str, list[str]]:
+    """What a table has, in words, and what of it can hardly be meant."""
+    time, speed = found["time"].to_numpy(), found["road_speed"].to_numpy()
+    spans = np.diff(time)
+    way = float(np.sum(spans * (speed[1:] + speed[:-1]) / 2.0))
+    slowing = found["deceleration"].to_numpy() if "deceleration" in found else np.divide(-np.diff(speed), spans, out=np.zeros_like(spans), where=spans > 0)
+    brakes = ((load > 0.0) & (found["road_speed"] > 0.0)).to_numpy()
+    brakings = int(np.count_nonzero(brakes & ~np.concatenate([[False], brakes[:-1]])))
+    largest, unit = float(load.max()), shown.split("[")[1].rstrip("]")
+    told = f"{len(time)} rows, {time[-1]:g} s, {way / 1e3:.3g} km; at most {3.6 * speed.max():.3g} km/h, slows down by at most {slowing.max():.2g} m/s²"
+    told += f", at most {largest:.3g} {unit}; {brakings} brakings"
+    warned = []
+    usual = float(np.median(spans)) if len(spans) else 0.0
+    wide = int(np.argmax(spans))
+    if len(spans) > 4 and spans[wide] > 5.0 * usual > 0.0 and (speed[wide] > 0.0 or speed[wide + 1] > 0.0):
+        warned.append(f"between the rows at {time[wide]:g} and {time[wide + 1]:g} s there are {spans[wide]:g} s, else about {usual:g} s: a straight line is taken")
+    limits = [(3.6 * speed.max(), 300.0, "km/h"), (slowing.max(), 15.0, "m/s²"), (largest if unit == "bar" else 0.0, 250.0, "bar")]
+    warned += [f"{value:.3g} {unit} is more than {most:g} {unit}: check the unit of the column" for value, most, unit in limits if value > most]
+    if brakes.mean() > 0.7 * np.count_nonzero(speed > 0.0) / len(speed):
+        warned.append("the brake is on in most of the rows in which the vehicle moves: is that noise of a sensor?")
+    return told, warned
 
 
 def _toml(text: str) -> str:
@@ -169,89 +246,109 @@ def _scene(path: Path, csv: bytes, tables: str, duration: float) -> str:
         first = re.sub(r"(?m)^time_acceleration = .*$", "time_acceleration = 1", text)
         made.write_text(first, encoding="utf-8")
         made.with_suffix(".csv").write_bytes(csv)
-        largest = call(["-q", "check", made])["cycle"]["largest_acceleration_without_warning"]
-        line = f"time_acceleration = {max(math.floor(min(largest, 100.0)), 1):<19} # so every braking has ten simulated revolutions; 1 is the model itself"
+        try:
+            largest = call(["-q", "check", made])["cycle"]["largest_acceleration_without_warning"]
+        except InputError as error:
+            raise InputError(str(error).replace(str(made), str(path)).replace(str(made.with_suffix(".csv")), str(path.with_suffix(".csv")))) from None
+        remark = "every braking has ten simulated revolutions" if largest >= LEAST_ACCELERATION else "short brakings have less than ten simulated revolutions"
+        line = f"time_acceleration = {max(math.floor(min(largest, 100.0)), LEAST_ACCELERATION):<19} # 1 is the model itself; {remark}"
         return re.sub(r"(?m)^time_acceleration = .*$", line, text)
 
 
-def _brake_force(found: pandas.DataFrame, mass: float, road_load: Sequence[float]) -> "pandas.Series[float]":
-    """What the brakes of the vehicle give at every row, N."""
+def _intervals(found: pandas.DataFrame, mass: float, road_load: Sequence[float]) -> pandas.DataFrame:
+    """The table with the ends of its intervals, each with the mean force of the brakes in it, N: they have its energy for any spacing."""
     time, speed = (found[name].to_numpy() for name in ("time", "road_speed"))
+    keep = np.flatnonzero(np.diff(time) > 0.0)
+    spans, mean = np.diff(time)[keep], (speed[1:] + speed[:-1])[keep] / 2.0
+    force = _beyond_road(mass, -np.diff(speed)[keep] / spans, mean, road_load)
+    ends = {"time": np.ravel(np.column_stack([time[keep], time[keep + 1]])), "road_speed": np.ravel(np.column_stack([speed[keep], speed[keep + 1]]))}
+    rows = pandas.DataFrame(ends | {"force": np.repeat(force, 2)})
+    # Of two equal rows one suffices.
+    return rows[(rows.diff() != 0.0).any(axis=1)].reset_index(drop=True)
 
-    def beyond_road(deceleration: Any, speed: Any) -> Any:
-        kmh = 3.6 * speed
-        return np.maximum(mass * deceleration - road_load[0] - road_load[1] * kmh - road_load[2] * kmh**2, 0.0)
 
-    if "deceleration" in found:
-        return beyond_road(found["deceleration"], found["road_speed"])
-    span = np.diff(time)
-    # Nothing brakes in a jump, nor before the first row and after the last.
-    slope = np.divide(-np.diff(speed), span, out=np.zeros_like(span), where=span > 0.0)
-    between = np.concatenate([[0.0], beyond_road(slope, (speed[1:] + speed[:-1]) / 2.0), [0.0]])
-    return pandas.Series((between[1:] + between[:-1]) / 2.0, found.index)
+def _beyond_road(mass: float, slowing: Any, speed: Any, road_load: Sequence[float]) -> Any:
+    """What the brakes of the vehicle give beyond its road load, N."""
+    kmh = 3.6 * speed
+    return np.maximum(mass * slowing - road_load[0] - road_load[1] * kmh - road_load[2] * kmh**2, 0.0)
 
 
 def _read(path: Path, columns: Mapping[str, str]) -> pandas.DataFrame:
     """What the table has, by name, SI, from time 0."""
-    unknown = [name for name in columns if name not in COLUMNS]
-    if unknown:
+    if unknown := [name for name in columns if name not in COLUMNS]:
         raise InputError(f"column {unknown[0]!r} is unknown, expected some of {', '.join(COLUMNS)}")
-    try:
-        if path.suffix.lower() in (".xlsx", ".ods", ".xls"):
-            table = pandas.read_excel(path, dtype=str)
-        else:
-            text = path.read_bytes().decode("utf-8-sig", errors="replace")
-            lines = [line for line in text.splitlines() if line.strip() and not line.startswith("#")]
-            separator = max("\t;,", key=(lines or [""])[0].count)
-            cells = [[cell.strip().strip('"') for cell in line.split(separator)] for line in lines]
-            if len(cells) < 2 or any(len(row) != len(cells[0]) for row in cells):
-                raise ValueError(f"expected a header and rows of as many fields, parted by {separator!r}")
-            table = pandas.DataFrame(cells[1:], columns=cells[0])
-            if separator != ",":
-                table = table.map(lambda cell: cell.replace(",", "."))
-    except (OSError, ValueError) as error:
-        raise InputError(f"{path}: cannot read it: {getattr(error, 'strerror', None) or error}") from error
-    found = pandas.DataFrame(dict(_columns(path, table, columns)))
-    if found["time"].diff().min() < 0.0:
-        row = int(found["time"].diff().idxmin())
-        raise InputError(f"{path}: row {row + 1}: its time is before that of the row above, expected times that do not go back")
+    if path.suffix.lower() == ".xlsx":
+        try:
+            sheet = pandas.read_excel(path, dtype=str)
+        except (OSError, ValueError, KeyError, ImportError, zipfile.BadZipFile) as error:
+            raise InputError(f"{path}: cannot read it: {error}; save the sheet as CSV") from None
+        cells = sheet.fillna("").to_numpy().tolist()
+        table = TextTable(path, [str(head).strip() for head in sheet], cells, list(range(2, len(cells) + 2)))
+    else:
+        table = read_text_table(path)
+    found = pandas.DataFrame(dict(_columns(table, columns)))
+    steps = found["time"].diff()
+    if steps.min() < 0.0:
+        row = int(steps.idxmin())
+        raise InputError(f"{table.place(row)}: its time is before that of the row above, expected times that do not go back, also at midnight")
+    if not steps.max() > 0.0:
+        raise InputError(f"{path}: expected two rows or more, with times that go on")
     found["time"] -= found["time"].iloc[0]
     return found
 
 
-def _columns(path: Path, table: pandas.DataFrame, columns: Mapping[str, str]) -> Iterator[tuple[str, "pandas.Series[float]"]]:
+HEAD = re.compile(r"(.*?)\s*[\[(]([^\[(]*)[\])]\s*")
+
+
+def _columns(table: TextTable, columns: Mapping[str, str]) -> Iterator[tuple[str, "pandas.Series[float]"]]:
     """Columns by name, SI."""
-    heads = {str(head): re.fullmatch(r"(.*?)\s*[\[(](.*)[\])]\s*", str(head)) for head in table}
-    names = {head: (found[1].strip() if found else head.strip()) for head, found in heads.items()}
-    loads = []
+    parts = [found.groups() if (found := HEAD.fullmatch(head)) else (head, "") for head in table.heads]
+    missing, loads = [], []
     for name, si in COLUMNS.items():
-        wanted = re.fullmatch(r"(.*?)\s*(?:[\[(](.*)[\])])?\s*", columns.get(name, name))
-        assert wanted is not None
-        same = [head for head, own in names.items() if own == wanted[1] or name not in columns and ALSO.get(own.lower(), own.lower().replace(" ", "_")) == name]
+        wanted = columns.get(name, name)
+        # The whole header first, then its name, then what else it is called.
+        own = (found.groups() if (found := HEAD.fullmatch(wanted)) else (wanted, ""))[0]
+        plain = [part[0].lower().replace(" ", "_") for part in parts]
+        ways = [[head == wanted for head in table.heads], [part[0] == own for part in parts]]
+        ways += [] if name in columns else [[one == name for one in plain], [ALSO.get(one) == name for one in plain]]
+        same = next((which for way in ways if (which := [at for at, is_it in enumerate(way) if is_it])), [])
+        if len(same) > 1:
+            raise InputError(f'{table.path}: columns "{table.heads[same[0]]}" and "{table.heads[same[1]]}" are both {name}: give the whole header')
         if not same:
-            if name in columns or name in ("time", "road_speed"):
-                there = ", ".join(f'"{head}"' for head in names)
-                raise InputError(f'{path}: no column "{columns.get(name, name)}"; there are {there}: name it by --column {name}=HEADER')
+            missing += [name] if name in columns or name in ("time", "road_speed") else []
             continue
-        unit = (found[2] if (found := heads[same[0]]) else None) or wanted[2] or ""
-        yield name, table[same[0]].map(lambda cell, name=name, unit=unit, si=si, head=same[0]: _number(path, head, str(cell), unit, si))
+        told = found[2] if (found := HEAD.fullmatch(wanted)) else ""
+        if told and parts[same[0]][1] and told != parts[same[0]][1]:
+            raise InputError(f'{table.path}: column "{table.heads[same[0]]}" is in {parts[same[0]][1]}, not in {told}')
+        unit = parts[same[0]][1] or told
+        scale = _scale(table, same[0], unit, si)
+        yield name, pandas.Series([_number(table, row, same[0], scale, si) for row in range(len(table.rows))], dtype=float)
         loads += [name] if si not in ("s", "m s-1") else []
+    if missing:
+        there = ", ".join(f'"{head}"' for head in table.heads)
+        said = " and ".join(f'"{columns.get(name, name)}"' for name in missing)
+        raise InputError(f"{table.path}: no column {said}; there are {there}: name {'it' if len(missing) == 1 else 'them'} by --column {missing[0]}=HEADER")
     if len(loads) > 1:
-        raise InputError(f"{path}: it has {' and '.join(loads)}, expected one of them: name the others otherwise")
+        raise InputError(f"{table.path}: it has {' and '.join(loads)}, expected one of them: give the others another header")
 
 
-def _number(path: Path, head: str, cell: str, unit: str, si: str) -> float:
+def _scale(table: TextTable, column: int, unit: str, si: str) -> float:
+    """How many SI units one of a column is; NaN of a column without a unit, which may have times of a clock."""
+    if unit:
+        return 1.0 if si == "s" and unit in CLOCKS else in_si(1.0, unit, si)
+    if si == "s":
+        return math.nan
+    raise InputError(f'{table.path}: "{table.heads[column]}" has no unit: give it in brackets behind the header, such as {table.heads[column]} [{si}]')
+
+
+def _number(table: TextTable, row: int, column: int, scale: float, si: str) -> float:
     """The value of a cell, SI."""
-    clock = CLOCK.fullmatch(cell.strip()) if si == "s" else None
-    try:
-        if clock:
-            return 3600.0 * int(clock[1]) + 60.0 * int(clock[2]) + float(clock[3])
-        if not unit:
-            raise InputError(f"it has no unit: give it in brackets behind the header, such as {head} [{si}]")
-        value = in_si(str(float(cell)), unit, si)
-    except ValueError as error:
-        said = error if isinstance(error, InputError) else f'found "{cell}", expected a number'
-        raise InputError(f"{path}: {head}: {said}") from None
-    if value < 0.0 and si != "m s-2":
-        raise InputError(f"{path}: {head}: found {cell}, expected 0 or more")
-    return value
+    cell = table.rows[row][column].replace("\N{MINUS SIGN}", "-")
+    if si == "s" and (clock := CLOCK.fullmatch(cell)):
+        return 3600.0 * int(clock[1]) + 60.0 * int(clock[2]) + float(clock[3].replace(",", "."))
+    expected = "a number of seconds with a unit in the header, or h:mm:ss" if math.isnan(scale) else "a number"
+    if math.isnan(scale) or not re.fullmatch(NUMBER, cell) or not math.isfinite(float(cell)):
+        raise InputError(f'{table.place(row)}: "{table.heads[column]}" is "{cell}", expected {expected}')
+    if float(cell) < 0.0 and si != "m s-2":
+        raise InputError(f'{table.place(row)}: "{table.heads[column]}" is {cell}, expected 0 or more')
+    return float(cell) * scale

@@ -88,6 +88,33 @@ class Tables(InFolder):
         # (1000 kg 2.5 m/s² - 200 N) 0.5 0.3 m / 2; what speeds the car up brakes nothing.
         self.assertEqual(found["brake_torque [N m]"].tolist(), [0.0, 172.5, 172.5])
 
+    def test_rows_of_any_spacing_have_the_energy_of_the_vehicle(self):
+        rows = [(0.0, 50.0), (10.0, 50.0), (15.0, 0.0), (16.0, 0.0), (40.0, 0.0), (40.0, 30.0), (41.0, 10.0)]
+        text = "time [s],road_speed [km/h]\n" + "".join(f"{time},{speed}\n" for time, speed in rows)
+        found = self.cycle(text)
+        time, torque = found["time [s]"].to_numpy(), found["brake_torque [N m]"].to_numpy()
+        wheel = found["road_speed [km/h]"].to_numpy() / 3.6 / 0.31
+        # ∫T ω dt of straight lines between the rows.
+        parts = 2 * torque[:-1] * wheel[:-1] + 2 * torque[1:] * wheel[1:] + torque[:-1] * wheel[1:] + torque[1:] * wheel[:-1]
+        written = float(np.sum(np.diff(time) * parts) / 6)
+        # The road load is that of the mean speed of a row, not the mean over it: less than a hundredth apart here.
+        of_car = sum(braking_energy([(a, b / 3.6), (c, d / 3.6)], CAR) for (a, b), (c, d) in itertools.pairwise(rows) if c > a)
+        self.assertLess(abs(written / (ONE_WHEEL * of_car) - 1.0), 0.01)
+
+    def test_what_was_read_is_told_and_what_can_hardly_be_meant(self):
+        rows = "".join(f"{time},{50 if time < 30 else 0},{0.2 if time < 25 else 10}\n" for time in range(40) if not 5 < time < 20)
+        Path("log.csv").write_text(f"time [s],road_speed [km/h],brake_pressure [MPa]\n{rows}")
+        with self.assertWarns(plateau.PlateauWarning) as caught:
+            made = plateau.cycle("log.csv", "made.toml", piston_area="25 cm^2", force=True)
+        said = " ".join(made.warnings)
+        self.assertIn("between the rows at 5 and 20 s there are 15 s, else about 1 s", said)
+        self.assertIn("100 bar", made.told)
+        self.assertIn("the brake is on in most of the rows", said)
+        self.assertIn("log.csv: between", str(caught.warning))
+        # Less than half a bar presses no pad.
+        quiet = self.cycle("time [s],road_speed [km/h],brake_pressure [bar]\n0,50,0.4\n9,50,0.4\n10,40,5\n", piston_area="25 cm^2")
+        self.assertEqual(quiet["brake_pressure [bar]"].tolist(), [0.0, 0.0, 5.0])
+
     def test_pressure_and_torque_are_taken_as_they_are(self):
         rows = "0,36,0\n2,36,10\n4,0,20\n"
         found = self.cycle(f"time [s],road_speed [km/h],brake_pressure [bar]\n{rows}", piston_area="25 cm^2")
@@ -105,16 +132,21 @@ class Tables(InFolder):
     def test_what_is_wrong_is_said_with_what_to_do(self):
         for text, options, said in [
             ("time [s],v [km/h]\n0,1\n1,0\n", {}, 'no column "road_speed"; there are "time [s]", "v [km/h]": name it by --column road_speed=HEADER'),
-            ("time [s],road_speed\n0,1\n1,0\n", {}, "road_speed: it has no unit: give it in brackets behind the header, such as road_speed [m s-1]"),
-            ("time [s],road_speed [km/h]\n0,1\n1,x\n", {}, 'road_speed [km/h]: found "x", expected a number'),
-            ("time [s],road_speed [km/h]\n0,1\n1,-3\n", {}, "road_speed [km/h]: found -3, expected 0 or more"),
+            ("time [s],road_speed\n0,1\n1,0\n", {}, '"road_speed" has no unit: give it in brackets behind the header, such as road_speed [m s-1]'),
+            ("time [s],road_speed [km/h]\n0,1\n1,x\n", {}, 'log.csv:3: "road_speed [km/h]" is "x", expected a number'),
+            ("time [s],road_speed [km/h]\n0,1\n1,-3\n", {}, '"road_speed [km/h]" is -3, expected 0 or more'),
             ("time [s],road_speed [kg]\n0,1\n1,3\n", {}, '"kg" measures something else than m s-1'),
-            ("time [s],road_speed [km/h]\n5,1\n1,0\n", {}, "row 2: its time is before that of the row above"),
+            ("time [s],road_speed [km/h]\n5,1\n1,0\n", {}, "log.csv:3: its time is before that of the row above"),
             ("time [s],road_speed [km/h],brake_torque [N m],brake_pressure [bar]\n0,1,2,3\n1,0,2,3\n", {}, "expected one of them"),
             ("time [s],road_speed [km/h],brake_pressure [bar]\n0,1,2\n1,0,2\n", {}, "give the area of those of one pad"),
             ("time [s],road_speed [km/h]\n0,50\n1,50\n", {}, "nowhere between two rows is there load and speed"),
             ("time [s],road_speed [km/h]\n0,50\n9,0\n", {"share": 2.0}, "a share from 0 to 1"),
-            ("", {}, "cannot read it"),
+            ("", {}, "no points, expected a line"),
+            ("time [s],road_speed [km/h]\n0,1\n", {}, "expected two rows or more, with times that go on"),
+            ("time [s],v [m/s],v [km/h]\n0,1,3.6\n1,0,0\n", {"columns": {"road_speed": "v"}}, "are both road_speed: give the whole header"),
+            ("time [s],v [m/s]\n0,1\n1,0\n", {"columns": {"road_speed": "v [km/h]"}}, 'column "v [m/s]" is in m/s, not in km/h'),
+            ("time [s],road_speed [km/h]\n0,nan\n1,0\n", {}, 'is "nan", expected a number'),
+            ("time [s],road_speed [km/h]\n0,50\n9,0\n", {"wheel_radius": "0 m"}, "wheel_radius: expected more than 0"),
         ]:
             Path("made.toml").unlink(missing_ok=True)
             with self.subTest(said), self.assertRaises(plateau.InputError) as caught:

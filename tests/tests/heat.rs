@@ -169,9 +169,16 @@ fn a_brake_is_its_pin_in_the_ratio_of_areas_and_radii() {
         same("pad_wear", &whole.floats("/series/pad_wear"), &wear);
         let life: Vec<f64> = wear.iter().zip(&road).map(|(wear, road)| 0.01 / (wear / road)).collect();
         same("pad_life", &whole.floats("/series/pad_life"), &life);
-        let lifted = series("normal_force");
-        let torque: Vec<f64> = (series("friction_coefficient").iter().zip(&lifted))
-            .map(|(friction, force)| if *force == 0.0 { 0.0 } else { friction * force / share * 0.115 })
+        let (forces, speeds) = (series("normal_force"), series("rotational_speed"));
+        // Nothing where nothing presses, and not known where the disc stands.
+        let torque = |friction: f64, force: f64, speed: f64| match (force, speed) {
+            (0.0, _) => 0.0,
+            (_, 0.0) => f64::NAN,
+            _ => friction * force / share * 0.115,
+        };
+        let pairs = forces.iter().zip(&speeds);
+        let torque: Vec<f64> = (series("friction_coefficient").iter().zip(pairs))
+            .map(|(friction, (force, speed))| torque(*friction, *force, *speed))
             .collect();
         same("brake_torque", &whole.floats("/series/brake_torque"), &torque);
         assert!(pin.content().keys().all(|path| !path.contains("brake") && !path.contains("pad_")));

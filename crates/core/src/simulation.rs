@@ -13,8 +13,6 @@ use crate::engine::comm::Communicator as _;
 use crate::engine::comm::mpi::Mpi;
 pub use crate::engine::execution::{Decomposition, Engine, Execution};
 #[cfg(feature = "mpi")]
-use crate::engine::kernel::InstructionSet;
-#[cfg(feature = "mpi")]
 use crate::engine::parts::Needs;
 use crate::model::accounts::{AccountsReport, Resting};
 use crate::model::clock::{Clock, Operation};
@@ -104,7 +102,8 @@ impl Simulation {
         Ok(Self::of(parameters, pin_base, execution, workers, reference_height))
     }
 
-    /// The same as [`Simulation::new`] on the ranks of an MPI job, of which this process is one (feature `mpi`).
+    /// The same as [`Simulation::new`] on the ranks of an MPI job, of which this process is one (feature `mpi`),
+    /// carried out in a certain way: `workers` are the ranks.
     ///
     /// All ranks must make the same calls in the same order, and get the same answers. Where there are more ranks than
     /// sectors, the last ones have no cells and only keep pace.
@@ -115,7 +114,7 @@ impl Simulation {
     pub fn on_ranks(
         parameters: Parameters,
         surfaces: InitialSurfaces,
-        instructions: InstructionSet,
+        execution: Execution,
         communicator: Mpi,
     ) -> Result<Self, SimulationError> {
         check(&parameters.mesh, &surfaces)?;
@@ -123,7 +122,7 @@ impl Simulation {
             return Err(SimulationError::PlainOnRanks { ranks: communicator.size() });
         }
         let parameters = Arc::new(parameters);
-        let execution = Execution { workers: communicator.size(), instructions, ..Execution::default() };
+        let execution = Execution { engine: Engine::Fast, workers: communicator.size(), ..execution };
         let workers = Workers::on_ranks(&parameters, &surfaces, execution, communicator);
         let reference_height = surfaces.reference_height();
         Ok(Self::of(parameters, surfaces.pin_base, execution, workers, reference_height))

@@ -336,8 +336,13 @@ fn heat_capacity(scene: &Scene) -> Option<Finding> {
     let disc = &thermal(scene)?.disc;
     let capacity = disc.substance.density * disc.substance.specific_heat * disc.area * disc.thickness;
     let per_area = capacity / scene.parameters.mesh.pin_area();
-    let advice = "it would stay cold, or glow: give area and cooling of the disc as much smaller as the simulated pin is than \
-                  pin or pads, or the whole brake with [brake]";
+    let advice = if scene.brake.is_some() {
+        "it would stay cold, or glow: check area, thickness and density in [thermal.disc], which make the mass of the whole disc, and \
+         pad_area in [brake]"
+    } else {
+        "it would stay cold, or glow: give area and cooling of the disc as much smaller as the simulated pin is than pin or pads, or \
+         the whole brake with [brake]"
+    };
     let what = "a disc whose heat capacity over the area of the simulated pin is";
     outside(
         per_area * 1e-6,

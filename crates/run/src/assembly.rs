@@ -232,19 +232,20 @@ impl Assembly {
     fn sample(&mut self, moment: &Moment) -> Result<Sample, SimulationError> {
         let mut sample = self.simulation.sample_at(moment, &self.output.extras)?;
         let parameters = self.simulation.parameters();
-        let (mut force, mut distance) = (self.simulation.course().load, f64::NAN);
+        let (mut force, mut turning, mut distance) =
+            (self.simulation.course().load, self.simulation.last_speed(), f64::NAN);
         if let Some(cycle) = &self.cycle {
             let [load, speed] = cycle.operation_at(moment.step, parameters.step_angle(), moment.time, moment.pause);
             // How hard a braking torque presses, the steps alone know.
             force = if parameters.by_torque && load > 0.0 { force } else { load };
-            distance = cycle.road_distance_at(moment.time);
+            (turning, distance) = (speed, cycle.road_distance_at(moment.time));
             CYCLE.record(&mut sample, [force, speed, cycle.contact_time_until(moment.time)]);
             ROAD.record(&mut sample, [distance]);
         } else if parameters.by_torque {
             CYCLE.record(&mut sample, [force, self.simulation.last_speed(), moment.time]);
         }
         if let Some(brake) = &self.brake {
-            brake::record(brake, &parameters.mesh, force, distance, &mut sample);
+            brake::record(brake, &parameters.mesh, [force, turning], distance, &mut sample);
         }
         if let Some(choice) = self.scout.as_ref().map(Scout::choice) {
             ACCELERATION.record(&mut sample, [choice.acceleration(), choice.error()]);

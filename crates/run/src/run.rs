@@ -143,15 +143,29 @@ impl Prepared {
         let report = close(result, writer, &assembly, &path)?;
         checkpointer.write(&mut assembly, true, Some(Synced::already()), observer)?;
         checkpointer.wait(observer);
-        let contact_area = RunFile::open(&path).and_then(|run| run.contact_area()).map_err(RunFailure::Read)?;
+        let made = RunFile::open(&path).map_err(RunFailure::Read)?;
+        let contact_area = made.contact_area().map_err(RunFailure::Read)?;
+        let disc_temperatures = made.values("disc_temperature").map_err(RunFailure::Read)?;
+        drop(made);
         let implausible = recorded.warnings(&scene);
         warn_of_scene(&mut scene, implausible, observer);
         let last = checkpointer.last_sample.clone().unwrap_or_default();
         let course = assembly.simulation.course();
         let wall_time = start.elapsed().as_secs_f64();
         let chosen = assembly.chosen_acceleration();
-        let summary =
-            RunSummary::new(&scene, header.surfaces, path, &last, contact_area, chosen, course, report, wall_time);
+        let (surfaces, temperatures) = (header.surfaces, disc_temperatures);
+        let summary = RunSummary::new(
+            &scene,
+            surfaces,
+            path,
+            &last,
+            contact_area,
+            temperatures,
+            chosen,
+            course,
+            report,
+            wall_time,
+        );
         summary.inexact_load().iter().for_each(|warning| observer.warning(warning));
         // Why there was no scout from the start is said already.
         let idle = assembly.idle().filter(|_| assembly.chooses_acceleration());

@@ -114,6 +114,9 @@ pub struct PartsSummary {
     /// Mean temperature of the disc, K.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub disc_temperature: Option<f64>,
+    /// The largest of them in the run, at its samples, K.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub largest_disc_temperature: Option<f64>,
     /// Mean temperature of the pin, K.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub pin_temperature: Option<f64>,
@@ -132,13 +135,14 @@ pub struct PartsSummary {
 }
 
 impl PartsSummary {
-    fn of(last: &Sample) -> Self {
+    fn of(last: &Sample, disc_temperatures: Option<Vec<f64>>) -> Self {
         let AccountsReport { friction, heat, emission } = last.accounts;
         Self {
             friction_coefficient_mean: friction.map(|friction| friction.coefficient_mean),
             friction_work: friction.map(|friction| friction.work),
             contact_temperature: heat.map(|heat| heat.contact),
             disc_temperature: heat.map(|heat| heat.disc),
+            largest_disc_temperature: disc_temperatures.and_then(|values| values.into_iter().reduce(f64::max)),
             pin_temperature: heat.map(|heat| heat.pin),
             heat_residual: heat.map(|heat| heat.residual),
             pm10_mass: emission.map(|emission| emission.pm10),
@@ -163,6 +167,7 @@ impl RunSummary {
         file: PathBuf,
         last: &Sample,
         ended: ContactArea,
+        disc_temperatures: Option<Vec<f64>>,
         chosen: Option<Chosen>,
         course: Course,
         report: WriterReport,
@@ -207,7 +212,7 @@ impl RunSummary {
             lost_pin: last.lost_pin(),
             specific_wear_rate_whole_pin: (work > 0.0).then(|| last.lost_pin() / work),
             emitted: last.emitted,
-            parts: PartsSummary::of(last),
+            parts: PartsSummary::of(last, disc_temperatures),
             brake: of_brake(&scene.extras(false), last),
             load_residual: course.largest_load_residual,
             load_tolerance: scene.load_tolerance,

@@ -291,9 +291,10 @@ def _curves(made: dict[str, Study], asked: Sequence[Response], confidence: float
 
 
 def _seed_keys(table: Mapping[str, Any], path: str = "") -> list[str]:
-    """The keys of a resolved scene that are seeds of synthetic surfaces."""
+    """The keys of a resolved scene that are seeds of surfaces: of synthetic ones, and of those that are extended by their statistics."""
     deeper = [key for name, value in table.items() if isinstance(value, Mapping) for key in _seed_keys(value, f"{path}{name}.")]
-    return deeper + ([f"{path}seed"] if path.endswith("synthetic.") and "seed" in table else [])
+    own = [name for name in ("seed" if path.endswith("synthetic.") else "", "extend_seed") if name in table]
+    return deeper + [f"{path}{name}" for name in own]
 
 
 def response_of(name: str, asked: str) -> dict[str, Any]:

@@ -210,6 +210,13 @@ fn one_run_is_made_again_by_itself_or_from_its_scene() {
     assert_eq!(directory.plateau(["sweep", "run", "study.toml", "-o", "r.h5"]).status, Some(2));
     // Without a name, in the working directory.
     directory.plateau(["sweep", "run", "study.toml", "--run", "1"]).quiet_success();
+    // Never over the study, whatever is said.
+    let study = std::fs::read(directory.path("study.toml")).unwrap();
+    let over = ["sweep", "run", "study.toml", "--run", "1", "-o", "study.toml", "--force"];
+    directory.plateau(over).ends(2, &["study.toml", "is an input and is not replaced"]);
+    assert_eq!(std::fs::read(directory.path("study.toml")).unwrap(), study);
+    let no_folder = ["sweep", "run", "study.toml", "--directory", "study.toml"];
+    directory.plateau(no_folder).ends(2, &["study.toml: this is no folder, expected one for the results of the study"]);
     assert!(directory.path("run-0001.h5").exists());
 }
 

@@ -208,7 +208,10 @@ fn parts(summary: &RunSummary) -> Vec<(&'static str, String)> {
     {
         let celsius = |kelvin: f64| format!("{:.1} °C", kelvin - 273.15);
         let contact = if contact.is_nan() { "lifted".to_owned() } else { celsius(contact) };
-        rows.push(("temperature", format!("contact {contact}, disc {}, pin {}", celsius(disc), celsius(pin))));
+        let largest =
+            parts.largest_disc_temperature.map_or(String::new(), |most| format!(" (at most {})", celsius(most)));
+        let text = format!("contact {contact}, disc {}{largest}, pin {}", celsius(disc), celsius(pin));
+        rows.push(("temperature", text));
     }
     if let (Some(pm10), Some(pm25), Some(number)) = (parts.pm10_mass, parts.pm25_mass, parts.particle_number) {
         let microgram = |mass: f64| format!("{} µg", number::short(mass * 1e9));
@@ -242,7 +245,7 @@ fn brake(summary: &RunSummary) -> Vec<(&'static str, String)> {
             value("pad_wear_per_distance").zip(value("pad_life")).filter(|(_, life)| *life > 0.0 && life.is_finite())
         {
             let [rate, life] = [number::short(rate * 1e9), number::grouped((life * 1e-3).round() as u64)];
-            text += &format!(", {rate} mm in 1000 km: they last {life} km");
+            text += &format!(", {rate} mm in 1000 km: at this rate they last {life} km");
         }
         rows.push(("pads", text));
     }

@@ -5,14 +5,12 @@ use super::sample::{Quantity, Sample};
 use crate::model::brake::Brake;
 use crate::model::mesh::Mesh;
 
-const NEEDS: &str = "a brake, table [brake]";
-
 /// With `[brake]`.
 pub const PADS: Extra = Extra {
     name: "pads",
     quantities: &[Quantity::extra("pad_wear", "m", "thickness that the pads have lost, mean over their area")],
     request: None,
-    needs: NEEDS,
+    needs: "a brake, table [brake]",
 };
 
 /// With `[brake]` and `[friction]`.
@@ -87,16 +85,20 @@ pub const EMISSION_ON_ROAD: Extra = Extra {
 /// All of them.
 pub const OF_BRAKES: &[&Extra] = &[&PADS, &PADS_ON_ROAD, &BRAKE_TORQUE, &BRAKE_EMISSION, &EMISSION_ON_ROAD];
 
-/// Adds the values of all of these to a sample of the pin of a mesh, which is pressed with a force (N) and whose vehicle has come a
-/// distance (m); what the scene does not have is NaN.
-pub fn record(brake: &Brake, mesh: &Mesh, force: f64, distance: f64, sample: &mut Sample) {
+/// Adds the values of all of these to a sample of the pin of a mesh, which is pressed with a force (N) at a rotational speed (rad/s),
+/// and whose vehicle has come a distance (m). What the scene does not have is NaN, as is the torque that holds a disc at rest.
+pub fn record(brake: &Brake, mesh: &Mesh, [force, speed]: [f64; 2], distance: f64, sample: &mut Sample) {
     let pad_wear = sample.lost_pin() / mesh.pin_area();
     let per_distance = |total: f64| total / distance;
     PADS.record(sample, [pad_wear]);
     PADS_ON_ROAD.record(sample, [per_distance(pad_wear), brake.pad_thickness / per_distance(pad_wear)]);
     if let Some(friction) = sample.accounts.friction {
-        // Before the first step nothing presses, and there is no coefficient.
-        let friction_force = if force == 0.0 { 0.0 } else { friction.coefficient * force };
+        let friction_force = match (force, speed) {
+            // Where nothing presses, there is no coefficient.
+            (0.0, _) => 0.0,
+            (_, 0.0) => f64::NAN,
+            _ => friction.coefficient * force,
+        };
         BRAKE_TORQUE.record(sample, [brake.torque(friction_force, mesh)]);
     }
     if let Some(emission) = sample.accounts.emission {

@@ -77,7 +77,8 @@ fn the_number_of_workers_changes_no_bit() {
             let execution = Execution { workers, ..Execution::default() };
             run(&mut start(&parameters, seed, execution), &schedule, (0, 0.0), |_, _| {})
         });
-        assert!(one.len() > 20 && one == three, "seed {seed}");
+        // A ring of two columns has 19.
+        assert!(one.len() > 18 && one == three, "seed {seed}");
     }
 }
 

@@ -204,7 +204,7 @@ pub(super) fn road_alone(settings: &Settings, operation: &OperationCycle) -> Opt
         key,
         found: "road_speed changes while the disc turns at one speed, that of [operation]".to_owned(),
         bound: "and nothing follows from road_speed but the road distance".to_owned(),
-        advice: "give the speed of the disc, too: sliding_speed is road_speed times mean radius over the rolling radius of the wheel"
+        advice: "give the speed of the disc, too, or the wheel in [brake]: sliding_speed is road_speed times mean radius over its rolling radius"
             .to_owned(),
     })
 }

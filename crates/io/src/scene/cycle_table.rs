@@ -147,7 +147,10 @@ fn header(line: &Line<'_>, headers: &[(&str, &str)]) -> Result<Vec<Column>, Wron
         let wrong = |message: String| Err((Some(header.to_owned()), line.fault(place, message)));
         let (mut name, mut unit) = name_and_unit(header);
         if !headers.is_empty() {
-            let is_of = |other: &str| other.trim() == header.trim() || name_and_unit(other).0 == name;
+            // The whole header first: there may be several of a name.
+            let whole = |other: &str| other.trim() == header.trim();
+            let is_whole = |other: &str| line.cells.iter().any(|cell| cell.text.trim() == other.trim());
+            let is_of = |other: &str| whole(other) || !is_whole(other) && name_and_unit(other).0 == name;
             let Some(which) = headers.iter().position(|(_, other)| is_of(other)) else { continue };
             found[which] = true;
             let told = name_and_unit(headers[which].1).1;
@@ -191,10 +194,11 @@ fn header(line: &Line<'_>, headers: &[(&str, &str)]) -> Result<Vec<Column>, Wron
 /// A time of a clock, h:mm:ss, in s.
 fn clock(field: &str) -> Option<f64> {
     let [hours, minutes, seconds] = field.split(':').collect::<Vec<_>>().try_into().ok()?;
-    let is_number = |part: &str| part.starts_with(|first: char| first.is_ascii_digit());
-    let value = |part: &str| part.replace(',', ".").parse::<f64>().ok().filter(|value| is_number(part) && value.is_finite());
-    let (minutes, seconds) = (value(minutes)?, value(seconds)?);
-    (minutes < 60.0 && seconds < 60.0).then_some(value(hours)? * 3600.0 + minutes * 60.0 + seconds)
+    let whole = |part: &str| part.bytes().all(|byte| byte.is_ascii_digit()).then(|| part.parse::<u32>().ok()).flatten();
+    let is_number = seconds.starts_with(|first: char| first.is_ascii_digit());
+    let seconds = seconds.replace(',', ".").parse::<f64>().ok().filter(|value| is_number && *value < 60.0)?;
+    let minutes = whole(minutes).filter(|minutes| *minutes < 60)?;
+    Some(f64::from(whole(hours)?) * 3600.0 + f64::from(minutes) * 60.0 + seconds)
 }
 
 /// Takes in a row of at most so many fields, or tells what is wrong with it, in which column.

@@ -51,7 +51,7 @@ impl Job {
         if self.ranks() == 1 {
             return Simulation::with_execution(parameters, surfaces, execution);
         }
-        Simulation::on_ranks(parameters, surfaces, execution.instructions, self.session.communicator())
+        Simulation::on_ranks(parameters, surfaces, execution, self.session.communicator())
     }
 
     /// Agrees with all ranks: they stop and save if any was asked to, and take as many steps as the first, for clocks

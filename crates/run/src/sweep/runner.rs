@@ -137,6 +137,11 @@ pub struct SweepSummary {
 pub fn load(path: &Path, directory: Option<&Path>) -> Result<Plan, SweepError> {
     let mut study = Study::load(path)?;
     if let Some(directory) = directory {
+        if directory.exists() && !directory.is_dir() {
+            let message =
+                format!("{}: this is no folder, expected one for the results of the study", directory.display());
+            return Err(SweepError::Input(message));
+        }
         (study.directory, study.is_elsewhere) = (directory.to_owned(), true);
     }
     Ok(Plan::new(study)?)

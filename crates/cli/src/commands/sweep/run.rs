@@ -32,9 +32,11 @@ pub fn run(arguments: &SweepRunArguments) -> Result<(), Failure> {
 
 /// Makes one run, as `plateau run` makes that of a scene.
 fn run_alone(arguments: &SweepRunArguments, number: usize, job: &mut Job) -> Result<(), Failure> {
-    let mut scene = scene_of_run(&arguments.study.load()?, number).map_err(Failure::of_sweep)?;
+    let plan = arguments.study.load()?;
+    let mut scene = scene_of_run(&plan, number).map_err(Failure::of_sweep)?;
     scene.workers = Workers::Count(arguments.cores.workers());
     let output = arguments.output.clone().unwrap_or_else(|| PathBuf::from(format!("run-{number:04}.h5")));
+    output::check(&output, arguments.force, &plan.study().inputs())?;
     let options = RunOptions {
         output: Some(output),
         replace: arguments.force,

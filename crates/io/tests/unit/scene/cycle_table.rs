@@ -108,6 +108,10 @@ fn a_logger_has_headers_and_times_of_its_own() {
         error(&[("time", "Uhrzeit"), ("road_speed", "Tempo [m/s]")]),
         "stops.csv:1:9: Tempo (km/h): in km/h, and the scene says m/s: expected one unit"
     );
+    // Of two columns of a name the whole header chooses.
+    let twice = "t [s],v [rpm],v [km/h]\n0,1,36\n1,1,0\n";
+    let chosen = read_with(twice, &[("time", "t"), ("road_speed", "v [km/h]")]).unwrap();
+    assert_eq!(chosen.road_speeds, Some(vec![10.0, 0.0]));
     assert!(error(&[("time", "Uhrzeit"), ("brake_torque", "Druck")]).contains("Druck: \"1\" has no unit"));
 }
 
@@ -115,7 +119,9 @@ fn a_logger_has_headers_and_times_of_its_own() {
 fn times_of_a_clock_have_hours_minutes_and_seconds() {
     let times = |rows: &str| read_text(&format!("time [h:mm:ss],normal_force [N]\n{rows}")).map(|table| table.times);
     assert_eq!(times("0:00:00,1\n0:01:30.25,1\n100:00:00,1\n"), Ok(vec![0.0, 90.25, 360_000.0]));
-    for wrong in ["0:60:00", "0:00:60", "1:30", "0:-1:00", "0:00:nan", "a:00:00", "::", "90"] {
+    for wrong in
+        ["1e308:00:00", "1.5:00:00", "0:60:00", "0:00:60", "1:30", "0:-1:00", "0:00:nan", "a:00:00", "::", "90"]
+    {
         let error = times(&format!("{wrong},1\n")).unwrap_err();
         assert!(error.contains("expected a header such as time [s], or times as h:mm:ss"), "{wrong}: {error}");
     }
