@@ -327,7 +327,10 @@ fn what_is_wrong_with_a_cycle_is_said_with_its_place() {
         assert!(found.contains(expected), "{found}\nexpected {expected}");
     }
     let found = refused(file, "time,normal_force [N]\n0,1\n");
-    assert!(found.contains("stops.csv:2:1: time: found \"0\" without a unit, expected a header such as time [s]"), "{found}");
+    assert!(
+        found.contains("stops.csv:2:1: time: found \"0\" without a unit, expected a header such as time [s]"),
+        "{found}"
+    );
     let found = refused(file, "time [s],normal_force [N]\n0,1\n2,1\n");
     assert!(
         found.contains("there is no column of speed, and no rotational_speed or sliding_speed in [operation]"),

@@ -192,7 +192,8 @@ fn header(line: &Line<'_>, headers: &[(&str, &str)]) -> Result<Vec<Column>, Wron
 fn clock(field: &str) -> Option<f64> {
     let [hours, minutes, seconds] = field.split(':').collect::<Vec<_>>().try_into().ok()?;
     let is_number = |part: &str| part.starts_with(|first: char| first.is_ascii_digit());
-    let value = |part: &str| part.replace(',', ".").parse::<f64>().ok().filter(|value| is_number(part) && value.is_finite());
+    let value =
+        |part: &str| part.replace(',', ".").parse::<f64>().ok().filter(|value| is_number(part) && value.is_finite());
     let (minutes, seconds) = (value(minutes)?, value(seconds)?);
     (minutes < 60.0 && seconds < 60.0).then_some(value(hours)? * 3600.0 + minutes * 60.0 + seconds)
 }
