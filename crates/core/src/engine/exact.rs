@@ -86,11 +86,6 @@ impl Quantum {
         self.anchor
     }
 
-    /// A term in quanta.
-    pub fn count(self, term: f64) -> i64 {
-        self.count_difference(term, 0.0)
-    }
-
     /// The difference to a multiple of the quantum, in quanta, with one rounding.
     pub fn count_difference(self, multiple: f64, other: f64) -> i64 {
         let anchored = (self.anchor + multiple) - other;

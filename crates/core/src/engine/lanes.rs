@@ -58,6 +58,12 @@ pub(crate) trait Integers: Copy {
 
 /// Eight double-precision numbers.
 pub(crate) trait Lanes: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> {
+    /// Which of eight rows they are, one bit each.
+    const ROWS: u8 = u8::MAX;
+    /// The first half of them, the others being left alone, where two halves are two registers.
+    type First: Lanes;
+    /// The second half.
+    type Second: Lanes;
     /// Which of them are meant.
     type Mask: Mask;
     /// Their bits.
@@ -183,6 +189,8 @@ impl Integers for Words {
 }
 
 impl Lanes for Portable {
+    type First = Self;
+    type Second = Self;
     type Mask = Answers;
     type Integers = Words;
 

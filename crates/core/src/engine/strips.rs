@@ -229,12 +229,6 @@ impl PinStrips {
         &self.resin[strip * self.columns..][..self.columns]
     }
 
-    /// Which rows of a strip touch in the coming step, column by column.
-    #[inline]
-    pub fn touches(&self, strip: usize) -> &[u8] {
-        &self.touches[strip * self.columns..][..self.columns]
-    }
-
     /// Notes that a cell touches in the coming step.
     pub fn note_touch(&mut self, row: usize, column: usize) {
         self.touches[row / LANES * self.columns + column] |= 1 << (row % LANES);

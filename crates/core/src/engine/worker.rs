@@ -20,8 +20,7 @@ use crate::engine::execution::Execution;
 use crate::engine::filling::{Filling, relief};
 use crate::engine::forecast::Forecast;
 use crate::engine::kernel::{
-    Bracket, Edge, InstructionSet, Moved, NearPair, Pass, ReachOf, Read, Reading, Rules, WearColumn, pass, reach_of,
-    read, wear_column,
+    Bracket, Edge, EdgeOf, InstructionSet, Moved, NearPair, Pass, Read, Reading, Rules, edge_of, pass, read,
 };
 use crate::engine::parts::Needs;
 use crate::engine::sector::Partition;
@@ -54,8 +53,7 @@ pub(crate) struct Worker<C> {
     needs: Needs,
     pass: Pass,
     read: Read,
-    wear_column: WearColumn,
-    reach_of: ReachOf,
+    edge_of: EdgeOf,
     rules: Rules,
     coefficients: Coefficients,
     /// Of which the overlaps of the coming steps are counted as multiples, by the largest of the last step; of the first,
@@ -139,8 +137,7 @@ impl<C: Communicator> Worker<C> {
             needs,
             pass: pass(needs),
             read: read(needs),
-            wear_column: wear_column(needs),
-            reach_of: reach_of(needs),
+            edge_of: edge_of(needs),
             rules: Rules::new(&parameters, &coefficients, filling.reference_height(), execution.shortcut),
             contact: Contact::new(&weights, by_status),
             overlap_quantum: quantum,

@@ -40,10 +40,15 @@ impl Width {
             #[cfg(target_arch = "x86_64")]
             Self::Sse2 => true,
             #[cfg(target_arch = "x86_64")]
-            Self::Avx2 => is_x86_feature_detected!("avx2"),
+            Self::Avx2 => {
+                is_x86_feature_detected!("avx2")
+                    && is_x86_feature_detected!("bmi1")
+                    && is_x86_feature_detected!("popcnt")
+            }
             #[cfg(target_arch = "x86_64")]
             Self::Avx512 => {
-                is_x86_feature_detected!("avx512f")
+                Self::Avx2.is_available()
+                    && is_x86_feature_detected!("avx512f")
                     && is_x86_feature_detected!("avx512vl")
                     && is_x86_feature_detected!("avx512dq")
                     && is_x86_feature_detected!("avx512bw")
@@ -94,13 +99,13 @@ macro_rules! kernel {
         #[allow(clippy::too_many_arguments, reason = "the body's own")]
         pub fn $name<$(const $flag: $type),*>(set: $crate::engine::kernel::InstructionSet, $($argument: $kind),*) {
             #[cfg(target_arch = "x86_64")]
-            #[target_feature(enable = "avx2")]
+            #[target_feature(enable = "avx2,bmi1,popcnt")]
             #[allow(clippy::too_many_arguments, reason = "the body's own")]
             fn avx2<$(const $flag: $type),*>($($argument: $kind),*) {
                 $body::<$crate::engine::lanes::Avx2, $($flag),*>($($argument),*)
             }
             #[cfg(target_arch = "x86_64")]
-            #[target_feature(enable = "avx512f,avx512vl,avx512dq,avx512bw")]
+            #[target_feature(enable = "avx512f,avx512vl,avx512dq,avx512bw,bmi1,popcnt")]
             #[allow(clippy::too_many_arguments, reason = "the body's own")]
             fn avx512<$(const $flag: $type),*>($($argument: $kind),*) {
                 $body::<$crate::engine::lanes::Avx512, $($flag),*>($($argument),*)
@@ -131,14 +136,14 @@ pub(super) use kernel;
 
 /// The instance of a function that does what a scene in which plateaus form needs and nothing else.
 macro_rules! with_build_up {
-    ($needs:expr, $function:ident) => {
+    ($needs:expr, $function:ident $(, $flag:literal)?) => {
         match ($needs.build_up(), $needs.disc_wears) {
-            (build_up::DISTINCT, false) => $function::<{ build_up::DISTINCT }, false>,
-            (build_up::DISTINCT, true) => $function::<{ build_up::DISTINCT }, true>,
-            (build_up::BRITTLE, false) => $function::<{ build_up::BRITTLE }, false>,
-            (build_up::BRITTLE, true) => $function::<{ build_up::BRITTLE }, true>,
-            (_, false) => $function::<{ build_up::ALIKE }, false>,
-            (_, true) => $function::<{ build_up::ALIKE }, true>,
+            (build_up::DISTINCT, false) => $function::<{ build_up::DISTINCT }, false $(, $flag)?>,
+            (build_up::DISTINCT, true) => $function::<{ build_up::DISTINCT }, true $(, $flag)?>,
+            (build_up::BRITTLE, false) => $function::<{ build_up::BRITTLE }, false $(, $flag)?>,
+            (build_up::BRITTLE, true) => $function::<{ build_up::BRITTLE }, true $(, $flag)?>,
+            (_, false) => $function::<{ build_up::ALIKE }, false $(, $flag)?>,
+            (_, true) => $function::<{ build_up::ALIKE }, true $(, $flag)?>,
         }
     };
 }

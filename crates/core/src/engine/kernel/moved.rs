@@ -1,5 +1,6 @@
 //! What a pass moved, row by row.
 
+use super::deposit::Edges;
 use super::pairs::lanes_of;
 use super::rules::StripRules;
 use crate::engine::exact::RowIntegers;
@@ -20,10 +21,8 @@ pub struct Moved {
     pub lost_disc: [RowIntegers; 2],
     /// What happened in few cells.
     pub seldom: Vec<SeldomEvent>,
-    /// With a transport length: v of the columns of the strip that is being scanned, m.
-    pub(super) lost: Vec<Chunk>,
-    /// … and which of their cells touch, one bit each.
-    pub(super) touches: Vec<u8>,
+    /// Edges of the strip that is being filled.
+    pub(super) edges: Edges,
 }
 
 /// What happened to the build-up of one cell on resin, or behind one of resin.
@@ -63,8 +62,7 @@ impl Moved {
             lost_pin: [rows(distinct), rows(distinct)],
             lost_disc: [rows(distinct), rows(distinct)],
             seldom: Vec::new(),
-            lost: Vec::new(),
-            touches: Vec::new(),
+            edges: Edges::default(),
         }
     }
 

@@ -15,12 +15,6 @@ impl ChunkTable {
         Self(table.each_ref().map(|rows| chunks(&rows.iter().map(|entry| entry * factor).collect::<Vec<_>>(), 0.0)))
     }
 
-    /// A pair's entry in a row.
-    #[inline(always)]
-    pub(super) fn entry(&self, pair: usize, row: usize) -> f64 {
-        self.0[pair][row / LANES].0[row % LANES]
-    }
-
     /// Each pair's entries in a strip.
     #[inline(always)]
     pub(super) fn strip<L: Lanes>(&self, strip: usize) -> Entries<L> {

@@ -2,16 +2,14 @@
 //! 4.1 of the next step).
 //!
 //! In the next step the disc column under pin column j lies under column j + 1. So when column j + 1 has been updated, the
-//! new heights of that pair are at hand, and are read on the way. Which pairs touch is known from the reading. Some columns
-//! of a strip at a time, debris first comes upon open cells, as [`super::deposit`] has it; that leaves what touches as it is
-//! at the start of the step, and then that wears.
+//! new heights of that pair are at hand, and are read on the way. Which pairs touch is known from the reading. Debris first
+//! comes upon the open cells of a strip, as [`super::deposit`] has it; that leaves what touches as it is at the start of the
+//! step, and then that wears.
 //!
 //! In most steps nothing out of the ordinary happens to most cells. Eight such cells at a time are done with few
 //! instructions ([`super::ordinary`]), which also show where something else happens; those eight are then done by all rules.
-//! Where debris has a transport length, [`super::transport`] does all of this, from the last column to the first.
 
-use super::deposit::{COLUMNS, deposit};
-use super::edge::Edge;
+use super::deposit::deposit;
 use super::instructions::{InstructionSet, kernel, with_build_up};
 use super::moved::{Moved, SeldomEvent, StripMoved};
 use super::ordinary::pass_over_ordinary;
@@ -20,7 +18,6 @@ use super::read::Span;
 use super::reading::{Reading, StripReading};
 use super::rules::{Conditions, Rules, StripRules};
 use super::strip::{Behind, Strip};
-use super::transport::pass_against_sliding;
 use super::worn_column::{wear_and_note, wear_any_and_note};
 use crate::engine::lanes::{Lanes, Mask};
 use crate::engine::parts::{Needs, build_up};
@@ -37,30 +34,17 @@ pub type Pass =
 /// The pass that does what a scene needs and nothing else; chosen once per run.
 pub fn pass(needs: Needs) -> Pass {
     match (needs.build_up(), needs.disc_wears) {
-        _ if needs.transport.is_some() => with_build_up!(needs, pass_against_sliding),
-        (build_up::NONE, false) => pass_over_span::<{ build_up::NONE }, false>,
-        (build_up::NONE, true) => pass_over_span::<{ build_up::NONE }, true>,
-        _ => with_build_up!(needs, pass_over_span),
+        (build_up::NONE, false) => pass_over_span::<{ build_up::NONE }, false, false>,
+        (build_up::NONE, true) => pass_over_span::<{ build_up::NONE }, true, false>,
+        _ if needs.transport.is_some() => with_build_up!(needs, pass_over_span, true),
+        _ => with_build_up!(needs, pass_over_span, false),
     }
 }
 
-kernel! {
-    /// Passes over a span.
-    pub fn pass_over_span<const BUILD_UP: u8, const DISC_WEARS: bool>(
-        rules: &Rules,
-        conditions: &Conditions,
-        pin: &mut PinStrips,
-        disc: &mut DiscSector,
-        span: Span,
-        joined: bool,
-        moved: &mut Moved,
-        reading: &mut Reading,
-    ) = pass_over_strips
-}
-
-#[inline(always)]
+/// Passes over a span.
 #[expect(clippy::too_many_arguments, reason = "the kernel's own")]
-fn pass_over_strips<L: Lanes, const BUILD_UP: u8, const DISC_WEARS: bool>(
+fn pass_over_span<const BUILD_UP: u8, const DISC_WEARS: bool, const TRANSPORT: bool>(
+    set: InstructionSet,
     rules: &Rules,
     conditions: &Conditions,
     pin: &mut PinStrips,
@@ -70,53 +54,78 @@ fn pass_over_strips<L: Lanes, const BUILD_UP: u8, const DISC_WEARS: bool>(
     moved: &mut Moved,
     reading: &mut Reading,
 ) {
-    for index in 0..pin.height.strips() {
-        let mut strip = Strip::new::<L, BUILD_UP>(index, pin, disc, span, joined);
-        let strip_rules = StripRules::<L>::new(rules, conditions, index);
-        let (mut strip_moved, mut next) = (StripMoved::<L>::new(), StripReading::<L, BUILD_UP>::new());
-        let deposits = BUILD_UP != build_up::NONE;
-        let edge = Edge::strip(conditions.ahead.filter(|_| deposits), index);
-        if deposits {
-            strip.pin.touches[span.columns] = edge.touches;
+    // A strip stays near the processor in between.
+    for strip in 0..pin.height.strips() {
+        if BUILD_UP != build_up::NONE {
+            deposit::<BUILD_UP, DISC_WEARS, TRANSPORT>(set, rules, conditions, pin, disc, span, strip, moved);
         }
-        let some = strip.extent.clone();
-        let mut behind = strip.behind::<L, BUILD_UP>(some.start);
-        let mut unusual = 0;
-        for first in some.clone().step_by(COLUMNS) {
-            if deposits {
-                deposit::<BUILD_UP, DISC_WEARS>(rules, conditions, &edge, &mut strip, first, moved);
-            }
-            let (mut column, end) = (first, some.end.min(first + COLUMNS));
-            while column < end {
-                if BUILD_UP != build_up::DISTINCT && rules.shortcut && unusual <= MOST_UNUSUAL {
-                    column = pass_over_ordinary::<L, BUILD_UP, DISC_WEARS>(
-                        &strip_rules,
-                        &mut strip,
-                        column..end,
-                        &mut behind,
-                        &mut next,
-                    );
-                    if column == end {
-                        break;
-                    }
-                    unusual += 1;
-                }
-                behind = update::<L, BUILD_UP, DISC_WEARS>(
-                    &strip_rules,
-                    &mut strip,
-                    column,
-                    behind,
-                    &mut strip_moved,
-                    &mut moved.seldom,
-                    &mut next,
-                    reading,
-                );
-                column += 1;
-            }
-        }
-        strip_moved.store::<BUILD_UP, DISC_WEARS>(&strip_rules, index, some.len(), moved);
-        next.store(index, reading);
+        wear_strip::<BUILD_UP, DISC_WEARS>(set, rules, conditions, pin, disc, span, strip, joined, moved, reading);
     }
+}
+
+kernel! {
+    /// Wears a strip of a span, and reads its pairs of the next step.
+    pub fn wear_strip<const BUILD_UP: u8, const DISC_WEARS: bool>(
+        rules: &Rules,
+        conditions: &Conditions,
+        pin: &mut PinStrips,
+        disc: &mut DiscSector,
+        span: Span,
+        index: usize,
+        joined: bool,
+        moved: &mut Moved,
+        reading: &mut Reading,
+    ) = pass_over_strip
+}
+
+#[inline(always)]
+#[expect(clippy::too_many_arguments, reason = "the kernel's own")]
+fn pass_over_strip<L: Lanes, const BUILD_UP: u8, const DISC_WEARS: bool>(
+    rules: &Rules,
+    conditions: &Conditions,
+    pin: &mut PinStrips,
+    disc: &mut DiscSector,
+    span: Span,
+    index: usize,
+    joined: bool,
+    moved: &mut Moved,
+    reading: &mut Reading,
+) {
+    let mut strip = Strip::new::<L, BUILD_UP>(index, pin, disc, span, joined);
+    let strip_rules = StripRules::<L>::new(rules, conditions, index);
+    let (mut strip_moved, mut next) = (StripMoved::<L>::new(), StripReading::<L, BUILD_UP>::new());
+    let some = strip.extent.clone();
+    let mut behind = strip.behind::<L, BUILD_UP>(some.start);
+    let mut unusual = 0;
+    let mut column = some.start;
+    while column < some.end {
+        if BUILD_UP != build_up::DISTINCT && rules.shortcut && unusual <= MOST_UNUSUAL {
+            column = pass_over_ordinary::<L, BUILD_UP, DISC_WEARS>(
+                &strip_rules,
+                &mut strip,
+                column..some.end,
+                &mut behind,
+                &mut next,
+            );
+            if column == some.end {
+                break;
+            }
+            unusual += 1;
+        }
+        behind = update::<L, BUILD_UP, DISC_WEARS>(
+            &strip_rules,
+            &mut strip,
+            column,
+            behind,
+            &mut strip_moved,
+            &mut moved.seldom,
+            &mut next,
+            reading,
+        );
+        column += 1;
+    }
+    strip_moved.store::<BUILD_UP, DISC_WEARS>(&strip_rules, index, some.len(), moved);
+    next.store(index, reading);
 }
 
 /// Wears the eight cells of a column, and reads what they do with what lies behind; returns what lies behind the next.

@@ -1,6 +1,6 @@
 //! What the kernels must know of a scene and of a step.
 
-use super::edge::Edge;
+use super::edge::{Edge, Reach};
 use super::pairs::{ChunkTable, Entries};
 use super::reading::{Bracket, BracketLanes};
 use crate::engine::coefficients::Coefficients;
@@ -31,6 +31,10 @@ pub struct Rules {
     captured_resin_fraction: f64,
     /// [`Needs::transport`].
     pub transport: Option<usize>,
+    /// L, or 1 without.
+    pub(super) reach: usize,
+    /// What lies ahead where nothing is.
+    pub(super) nothing_ahead: Reach,
     /// η/L; 0 without L.
     pub(super) transport_part: f64,
     /// Whether cells to which nothing out of the ordinary happens are done with few instructions; the results are the same.
@@ -40,7 +44,9 @@ pub struct Rules {
 impl Rules {
     /// The rules of a scene whose disc was at most `reference_height` (m) high at the start.
     pub fn new(parameters: &Parameters, coefficients: &Coefficients, reference_height: f64, shortcut: bool) -> Self {
-        let materials = &parameters.materials;
+        let (materials, plateaus) = (&parameters.materials, &parameters.plateaus);
+        let transport = Needs::of(parameters).transport;
+        let reach = transport.unwrap_or(1);
         Self {
             pin_loss: ChunkTable::new(&coefficients.pin, -1.0),
             disc_loss: ChunkTable::new(&coefficients.disc, -1.0),
@@ -54,26 +60,16 @@ impl Rules {
                 })
             }),
             reference_height,
-            captured_fraction: parameters.plateaus.captured_fraction,
-            captured_resin_fraction: parameters.plateaus.captured_of_resin(),
-            transport: Needs::of(parameters).transport,
+            captured_fraction: plateaus.captured_fraction,
+            captured_resin_fraction: plateaus.captured_of_resin(),
+            transport,
+            reach,
+            nothing_ahead: Reach::none(reach),
             transport_part: parameters
                 .transport_columns()
-                .map_or(0.0, |columns| parameters.plateaus.captured_fraction / columns as f64),
+                .map_or(0.0, |columns| plateaus.captured_fraction / columns as f64),
             shortcut,
         }
-    }
-
-    /// Whether build-up on resin breaks away with this clearance, m.
-    #[inline(always)]
-    pub(super) fn breaks(&self, clearance: f64, on_secondary: bool) -> bool {
-        self.strength.is_some_and(|strength| clearance < strength[usize::from(on_secondary)])
-    }
-
-    /// What of the losses of a pair may be compacted behind it, m.
-    #[inline(always)]
-    pub(super) fn captured(&self, of_plateaus: f64, of_resin: f64) -> f64 {
-        of_plateaus * self.captured_fraction + of_resin * self.captured_resin_fraction
     }
 }
 
@@ -153,6 +149,18 @@ impl<'a, L: Lanes> StripRules<'a, L> {
     #[inline(always)]
     pub fn wear_height(&self) -> L {
         L::splat(self.rules.wear_height)
+    }
+
+    /// What of losses may be compacted behind, m.
+    #[inline(always)]
+    pub fn captured(&self, lost: L) -> L {
+        lost * L::splat(self.rules.captured_fraction)
+    }
+
+    /// What of the wear height of resin may be, m.
+    #[inline(always)]
+    pub fn captured_of_resin(&self) -> L {
+        self.wear_height() * L::splat(self.rules.captured_resin_fraction)
     }
 
     /// A sum of anchored deposits, with another.

@@ -24,8 +24,6 @@ pub(super) struct Worn<L: Lanes> {
     pub b_p: L,
     pub z_d: L,
     pub b_d: L,
-    /// z_p − z_d − δ before wear, m.
-    pub clearance: L,
     pub on_resin: L::Mask,
     /// Resin without build-up before wear.
     pub resin: L::Mask,
@@ -45,10 +43,14 @@ impl<L: Lanes> Worn<L> {
         L::select(self.worn_through | self.broken, self.b_p, self.z_p)
     }
 
-    /// What plateaus and the disc under them really lost, m (v of model 4L).
+    /// What plateaus and the disc really lost, m; the disc only under plateaus if that is asked for (v of model 4L).
     #[inline(always)]
-    pub fn lost<const DISC_WEARS: bool>(&self) -> L {
-        if DISC_WEARS { self.lost_pin + self.lost_disc.only(!self.resin) } else { self.lost_pin }
+    pub fn lost<const DISC_WEARS: bool>(&self, under_plateaus: bool) -> L {
+        match (DISC_WEARS, under_plateaus) {
+            (false, _) => self.lost_pin,
+            (true, false) => self.lost_pin + self.lost_disc,
+            (true, true) => self.lost_pin + self.lost_disc.only(!self.resin),
+        }
     }
 }
 
@@ -111,7 +113,7 @@ pub(super) fn wear<L: Lanes, const BUILD_UP: u8, const DISC_WEARS: bool>(
         let least = L::select(pairs.disc_secondary, L::splat(on_secondary), L::splat(on_coating));
         broken = on_resin & pairs.pin_secondary & clearance.below(least) & !worn_through;
     }
-    Worn { z_p, b_p, z_d, b_d, clearance, on_resin, resin: pairs.resin(), worn_through, broken, lost_pin, lost_disc }
+    Worn { z_p, b_p, z_d, b_d, on_resin, resin: pairs.resin(), worn_through, broken, lost_pin, lost_disc }
 }
 
 /// Wears eight pairs by [`wear`]'s rules, with fewer instructions; none where one of them is bare resin that touches, or loses
@@ -161,7 +163,6 @@ pub(super) fn wear_ordinary<L: Lanes, const BUILD_UP: u8, const DISC_WEARS: bool
         b_p,
         z_d,
         b_d,
-        clearance,
         on_resin,
         resin: L::Mask::of_byte(!plateau),
         worn_through: nothing,

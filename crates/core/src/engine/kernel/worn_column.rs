@@ -17,9 +17,7 @@ pub fn wear_and_note<L: Lanes, const BUILD_UP: u8, const DISC_WEARS: bool>(
     moved: &mut StripMoved<L>,
     seldom: &mut Vec<SeldomEvent>,
 ) -> Worn<L> {
-    let bytes = [strip.pin.touches[column], strip.pin.plateau[column], strip.pin.resin[column]];
-    let cells = strip.cells::<L, BUILD_UP, DISC_WEARS>(column);
-    let worn = match wear_ordinary::<L, BUILD_UP, DISC_WEARS>(rules, cells, bytes) {
+    let worn = match wear_ordinary_column::<L, BUILD_UP, DISC_WEARS>(rules, strip, column) {
         Some(worn) => worn,
         None => wear_any_and_note::<L, BUILD_UP, DISC_WEARS>(rules, strip, column, seldom),
     };
@@ -54,4 +52,15 @@ pub fn wear_any_and_note<L: Lanes, const BUILD_UP: u8, const DISC_WEARS: bool>(
         note_broken(seldom, &heights, worn.broken.byte(), rules.strip);
     }
     worn
+}
+
+/// Wears the eight cells of a column, if nothing out of the ordinary happens to any.
+#[inline(always)]
+pub fn wear_ordinary_column<L: Lanes, const BUILD_UP: u8, const DISC_WEARS: bool>(
+    rules: &StripRules<L>,
+    strip: &Strip,
+    column: usize,
+) -> Option<Worn<L>> {
+    let bytes = [strip.pin.touches[column], strip.pin.plateau[column], strip.pin.resin[column]];
+    wear_ordinary::<L, BUILD_UP, DISC_WEARS>(rules, strip.cells::<L, BUILD_UP, DISC_WEARS>(column), bytes)
 }

@@ -17,12 +17,13 @@ macro_rules! call {
     }};
 }
 
-/// Implements [`Lanes`] by registers of `$lanes` lanes each.
+/// Implements [`Lanes`] by registers of `$lanes` lanes each, from row `$from` on.
 ///
 /// Every operation is written out for each register: a closure would be compiled without the instruction set.
 macro_rules! split {
     (
-        $name:ident, $mask:ident, $integers:ident: registers [$($part:literal),*] of $lanes:literal lanes,
+        $name:ident, $mask:ident, $integers:ident: $count:literal registers [$($part:literal),*] of $lanes:literal lanes from $from:literal,
+        halves $first_half:ty, $second_half:ty,
         floats $register:ident, words $words:ident,
         add $add:ident, sub $sub:ident, mul $mul:ident, min $min:ident, max $max:ident, below $below:ident, below_or_equal $below_or_equal:ident,
         and $and:ident, andnot $andnot:ident, or $or:ident, select $select:ident, movemask $movemask:ident,
@@ -33,15 +34,15 @@ macro_rules! split {
     ) => {
         /// Eight numbers.
         #[derive(Clone, Copy)]
-        pub struct $name([$register; 8 / $lanes]);
+        pub struct $name([$register; $count]);
 
         /// Eight answers, each all ones or all zeros.
         #[derive(Clone, Copy)]
-        pub struct $mask([$register; 8 / $lanes]);
+        pub struct $mask([$register; $count]);
 
         /// Eight integers.
         #[derive(Clone, Copy)]
-        pub struct $integers([$words; 8 / $lanes]);
+        pub struct $integers([$words; $count]);
 
         split!(@operator $name, Add, add, $add, [$($part),*]);
         split!(@operator $name, Sub, sub, $sub, [$($part),*]);
@@ -68,7 +69,7 @@ macro_rules! split {
 
             #[inline(always)]
             fn byte(self) -> u8 {
-                0 $(| (call!($movemask(self.0[$part])) as u8) << ($part * $lanes))*
+                0 $(| (call!($movemask(self.0[$part])) as u8) << ($from + $part * $lanes))*
             }
 
             #[inline(always)]
@@ -77,7 +78,7 @@ macro_rules! split {
                 const BITS: [i32; 16] = [1, 1, 2, 2, 4, 4, 8, 8, 16, 16, 32, 32, 64, 64, 128, 128];
                 let byte = call!($splat_32(i32::from(byte)));
                 $mask([$({
-                    let bits = call!($load_words(BITS[$part * $lanes * 2..][..$lanes * 2].as_ptr().cast()));
+                    let bits = call!($load_words(BITS[($from + $part * $lanes) * 2..][..$lanes * 2].as_ptr().cast()));
                     call!($to_floats($equal_32($and_words(byte, bits), bits)))
                 }),*])
             }
@@ -88,17 +89,17 @@ macro_rules! split {
 
             #[inline(always)]
             fn splat(value: i64) -> Self {
-                Self([call!($splat_words(value)); 8 / $lanes])
+                Self([call!($splat_words(value)); $count])
             }
 
             #[inline(always)]
             fn load(chunk: &IntegerChunk) -> Self {
-                Self([$(call!($load_words(chunk[$part * $lanes..][..$lanes].as_ptr().cast()))),*])
+                Self([$(call!($load_words(chunk[$from + $part * $lanes..][..$lanes].as_ptr().cast()))),*])
             }
 
             #[inline(always)]
             fn store(self, chunk: &mut IntegerChunk) {
-                $(call!($store_words(chunk[$part * $lanes..][..$lanes].as_mut_ptr().cast(), self.0[$part]));)*
+                $(call!($store_words(chunk[$from + $part * $lanes..][..$lanes].as_mut_ptr().cast(), self.0[$part]));)*
             }
 
             #[inline(always)]
@@ -121,22 +122,25 @@ macro_rules! split {
         }
 
         impl Lanes for $name {
+            const ROWS: u8 = (((1_u16 << ($count * $lanes)) - 1) << $from) as u8;
+            type First = $first_half;
+            type Second = $second_half;
             type Mask = $mask;
             type Integers = $integers;
 
             #[inline(always)]
             fn splat(value: f64) -> Self {
-                Self([call!($splat(value)); 8 / $lanes])
+                Self([call!($splat(value)); $count])
             }
 
             #[inline(always)]
             fn load(chunk: &Chunk) -> Self {
-                Self([$(call!($load(chunk.0[$part * $lanes..][..$lanes].as_ptr()))),*])
+                Self([$(call!($load(chunk.0[$from + $part * $lanes..][..$lanes].as_ptr()))),*])
             }
 
             #[inline(always)]
             fn store(self, chunk: &mut Chunk) {
-                $(call!($store(chunk.0[$part * $lanes..][..$lanes].as_mut_ptr(), self.0[$part]));)*
+                $(call!($store(chunk.0[$from + $part * $lanes..][..$lanes].as_mut_ptr(), self.0[$part]));)*
             }
 
             #[inline(always)]
@@ -207,20 +211,29 @@ fn select_sse2(no: __m128d, yes: __m128d, mask: __m128d) -> __m128d {
     _mm_or_pd(_mm_and_pd(mask, yes), _mm_andnot_pd(mask, no))
 }
 
-split! {
-    Avx2, Mask256, Integers256: registers [0, 1] of 4 lanes,
-    floats __m256d, words __m256i,
-    add _mm256_add_pd, sub _mm256_sub_pd, mul _mm256_mul_pd, min _mm256_min_pd, max _mm256_max_pd, below below_avx2,
-    below_or_equal below_or_equal_avx2,
-    and _mm256_and_pd, andnot _mm256_andnot_pd, or _mm256_or_pd, select _mm256_blendv_pd, movemask _mm256_movemask_pd,
-    splat _mm256_set1_pd, load _mm256_loadu_pd, store _mm256_storeu_pd,
-    to_words _mm256_castpd_si256, to_floats _mm256_castsi256_pd, splat_words _mm256_set1_epi64x,
-    splat_32 _mm256_set1_epi32, equal_32 _mm256_cmpeq_epi32, add_words _mm256_add_epi64, sub_words _mm256_sub_epi64,
-    and_words _mm256_and_si256, load_words _mm256_loadu_si256, store_words _mm256_storeu_si256
+/// Implements [`Lanes`] by instructions of AVX2.
+macro_rules! split_avx2 {
+    ($($kind:tt)*) => {
+        split! {
+            $($kind)*
+            floats __m256d, words __m256i,
+            add _mm256_add_pd, sub _mm256_sub_pd, mul _mm256_mul_pd, min _mm256_min_pd, max _mm256_max_pd, below below_avx2,
+            below_or_equal below_or_equal_avx2,
+            and _mm256_and_pd, andnot _mm256_andnot_pd, or _mm256_or_pd, select _mm256_blendv_pd, movemask _mm256_movemask_pd,
+            splat _mm256_set1_pd, load _mm256_loadu_pd, store _mm256_storeu_pd,
+            to_words _mm256_castpd_si256, to_floats _mm256_castsi256_pd, splat_words _mm256_set1_epi64x,
+            splat_32 _mm256_set1_epi32, equal_32 _mm256_cmpeq_epi32, add_words _mm256_add_epi64, sub_words _mm256_sub_epi64,
+            and_words _mm256_and_si256, load_words _mm256_loadu_si256, store_words _mm256_storeu_si256
+        }
+    };
 }
 
+split_avx2! { Avx2, Mask256, Integers256: 2 registers [0, 1] of 4 lanes from 0, halves Avx2First, Avx2Second, }
+split_avx2! { Avx2First, Mask256First, Integers256First: 1 registers [0] of 4 lanes from 0, halves Self, Self, }
+split_avx2! { Avx2Second, Mask256Second, Integers256Second: 1 registers [0] of 4 lanes from 4, halves Self, Self, }
+
 split! {
-    Sse2, Mask128, Integers128: registers [0, 1, 2, 3] of 2 lanes,
+    Sse2, Mask128, Integers128: 4 registers [0, 1, 2, 3] of 2 lanes from 0, halves Self, Self,
     floats __m128d, words __m128i,
     add _mm_add_pd, sub _mm_sub_pd, mul _mm_mul_pd, min _mm_min_pd, max _mm_max_pd, below _mm_cmplt_pd,
     below_or_equal _mm_cmple_pd,

@@ -120,6 +120,8 @@ impl Integers for Integers512 {
 }
 
 impl Lanes for Avx512 {
+    type First = Self;
+    type Second = Self;
     type Mask = Mask512;
     type Integers = Integers512;
 

@@ -15,7 +15,8 @@ use crate::model::error::SimulationError;
 
 /// Words of a pin column of so many rows on its way to another worker, with what it loses where plateaus form.
 pub(crate) fn halo_words(rows: usize, needs: Needs) -> usize {
-    PinStrips::crossing_words(rows) + if needs.forms { Edge::words(strips(rows), needs.transport) } else { 0 }
+    PinStrips::crossing_words(rows)
+        + if needs.forms { Edge::words(strips(rows), needs.transport.unwrap_or(1)) } else { 0 }
 }
 
 /// Columns at the end of a segment that depend on the next segment: a cell takes of an edge up to L columns ahead what up to L
@@ -116,15 +117,11 @@ impl<C: Communicator> Worker<C> {
         let columns = segment.pin.len().checked_sub(column).filter(|columns| *columns > 0)?;
         let sector = self.sectors[segment.sector].as_mut().filter(|_| self.needs.forms)?;
         let mut edge = Edge::default();
-        let columns = columns.min(self.needs.transport.map_or(1, |columns| 2 * columns));
+        let columns = columns.min(2 * self.needs.transport.unwrap_or(1));
         let span = Span { first: segment.pin.start + column, over: segment.over + column, columns };
         let conditions = conditions(&self.contact, &self.debris, bracket, self.rows.start, None);
-        if self.needs.transport.is_some() {
-            let Self { instructions, rules, pin, moved, .. } = self;
-            (self.reach_of)(*instructions, rules, &conditions, pin, sector, span, moved, &mut edge);
-        } else {
-            (self.wear_column)(&self.rules, &conditions, &self.pin, sector, span, &mut edge);
-        }
+        let Self { instructions, rules, pin, moved, .. } = self;
+        (self.edge_of)(*instructions, rules, &conditions, pin, sector, span, moved, &mut edge);
         Some(edge)
     }
 
@@ -186,7 +183,7 @@ impl<C: Communicator> Worker<C> {
         self.communicator.receive_halo(boundary, owner, &mut self.halo)?;
         self.pin.read_crossing(column, &self.halo[..crossing]);
         if let Some(edge) = self.edges.get_mut(from) {
-            edge.read(self.needs.transport, &self.halo[crossing..]);
+            edge.read(self.needs.transport.unwrap_or(1), &self.halo[crossing..]);
         }
         Ok(())
     }

@@ -5,7 +5,7 @@ fn terms_are_whole_quanta() {
     for bound in [1e-3, 1.0, 3.7e-9, 4e5] {
         let quantum = Quantum::of(bound, (1 << 13) - 1);
         for term in [0.0, bound, bound / 3.0, -bound / 7.0, quantum.value(), 0.4 * quantum.value()] {
-            let quanta = quantum.count(term);
+            let quanta = quantum.count_difference(term, 0.0);
             assert_eq!(quanta as f64, (term / quantum.value()).round_ties_even(), "{term} of {bound}");
             assert_eq!(quantum.nearest(term), quanta as f64 * quantum.value());
             assert!(quanta.abs() <= 1 << 50);
