@@ -9,8 +9,8 @@ mod units;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
-use plateau_core::observe::brake::OF_BRAKES;
 use plateau_core::observe::event::EVENT_QUANTITIES;
+use plateau_core::observe::extra::OF_BRAKES;
 use plateau_core::observe::{EXTRAS, Map, QUANTITIES, Quantity, TOTALS, quantities};
 use plateau_io::scene::schema::{self, Key, Kind, Need, Range};
 

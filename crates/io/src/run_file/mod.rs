@@ -39,5 +39,6 @@ pub use output::{KeepError, check_output, keep, resolve};
 pub use reader::{ContactArea, NoDrift};
 pub use reader::{RunFile, Series};
 pub use repair::{LeftOut, Repair, RepairError, is_healthy, last_writer, repair};
+pub use store::WriterReport;
 pub use store::close_abandoned;
-pub use writer::{RunWriter, Synced, WriterReport};
+pub use writer::{RunWriter, Synced};

@@ -18,12 +18,24 @@ use super::error::{failed, hdf5_reason, not_anew};
 use super::image::{Image, MARK, Values};
 use super::layout::{MAP_TIME, Statuses, TIME, map_path, series_path};
 use super::output::Output;
-use super::writer::WriterReport;
 use super::{Earlier, End, Header, ReadError, RunFile, RunFileError, State};
 use crate::hdf5_file::{EMPTY_FILE, open_for_writing, write_text};
 use crate::input::sha256_of;
 use crate::process::written_here;
 use crate::temporary::{self, Temporary};
+
+/// Content of a finished run file, and the cost of writing it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct WriterReport {
+    /// Time for which the simulation waited for the queue, in all.
+    pub waited: Duration,
+    /// Samples in the file.
+    pub samples: usize,
+    /// Moments of which there are maps in the file.
+    pub snapshots: usize,
+    /// Size of the file.
+    pub bytes: u64,
+}
 
 /// The datasets that grow, and the digests of what they hold.
 pub(super) struct Datasets {

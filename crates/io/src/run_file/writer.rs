@@ -10,7 +10,7 @@ use plateau_core::model::mesh::Mesh;
 use plateau_core::observe::event::EventRecord;
 use plateau_core::observe::{Map, MapValues, Sample, Snapshot};
 
-use super::store::Store;
+use super::store::{Store, WriterReport};
 use super::{Earlier, End, Header, Image, RunFileError};
 
 /// Samples in the queue, at most: 3 MB, as many as come while a batch is written.
@@ -30,19 +30,6 @@ pub struct RunWriter {
     thread: Option<JoinHandle<Result<Store, RunFileError>>>,
     failure: Option<RunFileError>,
     waited: Duration,
-}
-
-/// Content of a finished run file, and the cost of writing it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct WriterReport {
-    /// Time for which the simulation waited for the queue, in all.
-    pub waited: Duration,
-    /// Samples in the file.
-    pub samples: usize,
-    /// Moments of which there are maps in the file.
-    pub snapshots: usize,
-    /// Size of the file.
-    pub bytes: u64,
 }
 
 impl RunWriter {

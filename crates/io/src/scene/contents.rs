@@ -8,8 +8,9 @@ use plateau_core::acceleration::Adaptive;
 use plateau_core::model::brake::Brake;
 use plateau_core::model::cycle::Cycle;
 use plateau_core::model::parameters::Parameters;
-use plateau_core::observe::brake::{BRAKE_EMISSION, BRAKE_TORQUE, EMISSION_ON_ROAD, PADS, PADS_ON_ROAD};
-use plateau_core::observe::extra::{EMISSION, Extra, FRICTION, HEAT};
+use plateau_core::observe::extra::{
+    BRAKE_EMISSION, BRAKE_TORQUE, EMISSION, EMISSION_ON_ROAD, Extra, FRICTION, HEAT, PADS, PADS_ON_ROAD,
+};
 use plateau_core::observe::schedule::{End, SampleEvery, Schedule};
 use plateau_core::observe::{ACCELERATION, CYCLE, Map, ROAD};
 use plateau_core::simulation::Decomposition;

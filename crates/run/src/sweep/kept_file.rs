@@ -8,34 +8,14 @@ use std::time::{Duration, Instant};
 use plateau_core::observe::Snapshot;
 use plateau_io::claim::{Claim, ClaimError};
 use plateau_io::number;
-use plateau_io::run_file::{Earlier, End, Header, Image, RunFile, RunFileError, RunWriter, State, size_estimate};
-use plateau_io::scene::Scene;
+use plateau_io::run_file::{Earlier, End, Header, RunFile, RunFileError, RunWriter, State};
 use plateau_io::study::Study;
-use plateau_io::study::record::Identity;
 use plateau_io::temporary::Temporary;
-use serde::{Deserialize, Serialize};
 
-use super::resolved::Resolved;
-use super::under_way::{self, UnderWay};
+use super::resolved::{RUN_FILES, Resolved};
+use super::under_way::{self, Ended, FileState, UnderWay};
 use crate::assembly::Assembly;
-use crate::sweep::make::Ended;
 use crate::sweep::warnings::SweepObserver;
-
-/// Folder of run files, in that of the results.
-const FOLDER: &str = "runs";
-
-/// Path of the run file of a run.
-pub fn path(study: &Study, of: &Identity, number: usize, scene: &Scene) -> PathBuf {
-    study.directory.join(FOLDER).join(of.run_file(number, scene))
-}
-
-/// Bytes of the run file of a scene, at most.
-pub fn size(scene: &Scene) -> u64 {
-    let (schedule, maps) = (scene.schedule(), &scene.output.maps);
-    let moments = if maps.is_empty() { 0 } else { schedule.maps() };
-    let extras = scene.extras(scene.adaptive.is_some());
-    size_estimate(&scene.parameters.mesh, maps, &extras, schedule.samples(), moments as u64)
-}
 
 /// Tells whether there is a run file to whose end its run has come.
 pub fn is_finished(path: &Path) -> bool {
@@ -45,7 +25,7 @@ pub fn is_finished(path: &Path) -> bool {
 /// The run files that are there and have the name of none of these runs.
 fn strange(study: &Study, resolved: &Resolved) -> Vec<PathBuf> {
     let own: HashSet<&Path> = resolved.runs.values().map(|run| run.file.as_path()).collect();
-    let there = fs::read_dir(study.directory.join(FOLDER)).into_iter().flatten().flatten();
+    let there = fs::read_dir(study.directory.join(RUN_FILES)).into_iter().flatten().flatten();
     let is_run_file = |name: &str| name.starts_with("run-") && name.ends_with(".h5");
     let run_files = there.filter(|entry| entry.file_name().to_str().is_some_and(is_run_file)).map(|entry| entry.path());
     run_files.filter(|path| !own.contains(&**path)).collect()
@@ -76,21 +56,10 @@ pub fn say_strange(study: &Study, resolved: &Resolved, observer: &dyn SweepObser
     if strange > 0 {
         observer.note(&format_args!(
             "{}: {} of runs that the study no longer has, with other maps, or of another generation of the program; nothing needs them",
-            study.directory.join(FOLDER).display(),
+            study.directory.join(RUN_FILES).display(),
             number::count(strange, "run file")
         ));
     }
-}
-
-/// Content of a run file between two steps.
-#[derive(Debug, Clone, Serialize, Deserialize)]
-pub struct FileState {
-    /// Moments of which it has maps.
-    snapshots: usize,
-    /// Wall time of the run so far, s.
-    wall_time: f64,
-    /// The file as it is on the disk.
-    images: Vec<Image>,
 }
 
 /// The run file of a run that is being made.

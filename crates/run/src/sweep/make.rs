@@ -9,18 +9,17 @@ use std::time::Duration;
 use plateau_core::observe::event::event_quantities;
 use plateau_core::observe::running_in::pulse_time;
 use plateau_core::observe::{Quantity, Sample, Snapshot, quantities};
-use plateau_core::simulation::{Execution, Simulation, SimulationError};
-use plateau_io::run_file::RunFileError;
+use plateau_core::simulation::{Execution, Simulation};
 use plateau_io::scene::Scene;
 use plateau_io::study::Study;
 use plateau_io::study::record::{CONTACT_TIME, Identity, Outcome, REVOLUTIONS, Series};
 use plateau_io::study::response::Response;
 use plateau_io::surface::{self, Loaded, SurfaceError};
 
-use super::kept_file::{self, KeptFile};
-use super::under_way::{State, UnderWay};
+use super::kept_file::KeptFile;
+use super::resolved::file_of;
+use super::under_way::{Ended, State, UnderWay};
 use crate::assembly::{Assembly, Sink};
-use crate::error::RunError;
 use crate::options::Program;
 use crate::recorder::header;
 
@@ -34,34 +33,6 @@ pub trait Watcher: Sync {
 
     /// Told when a run does not begin at its beginning.
     fn goes_on(&self, steps: u64);
-}
-
-/// Reason why a run did not finish.
-pub enum Ended {
-    /// A signal came.
-    Stopped,
-    /// The problem.
-    Failed(String),
-    /// Problem with its run file, which is not one of the run.
-    Unkept(String),
-}
-
-impl From<SimulationError> for Ended {
-    fn from(error: SimulationError) -> Self {
-        Self::Failed(error.to_string())
-    }
-}
-
-impl From<RunFileError> for Ended {
-    fn from(error: RunFileError) -> Self {
-        Self::Unkept(error.to_string())
-    }
-}
-
-impl From<RunError> for Ended {
-    fn from(error: RunError) -> Self {
-        Self::Failed(error.to_string())
-    }
 }
 
 /// A run that has ended.
@@ -120,7 +91,7 @@ impl Request<'_> {
             under_way.is_another();
         }
         // Of what was read, which may not be what was expected.
-        let file = self.keeps_file.then(|| kept_file::path(self.study, read, self.number, self.scene));
+        let file = self.keeps_file.then(|| file_of(self.study, read, self.number, self.scene));
         let Loaded { surfaces, inputs, report, .. } = loaded;
         let mut scene = self.scene.clone();
         if file.is_none() {

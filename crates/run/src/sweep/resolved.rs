@@ -7,6 +7,7 @@ use std::time::Duration;
 
 use plateau_core::observe::window_mean::LEAST_REVOLUTIONS;
 use plateau_core::simulation::{Execution, Simulation};
+use plateau_io::run_file::size_estimate;
 use plateau_io::scene::{Scene, memory_estimate};
 use plateau_io::study::Study;
 use plateau_io::study::plan::Plan;
@@ -17,11 +18,26 @@ use rayon::prelude::*;
 
 use crate::error::SweepError;
 use crate::execution::time_per_step;
-use crate::sweep::kept_file;
 use crate::sweep::warnings::{Found, SceneWarnings, SweepObserver, of_scene, of_surfaces};
 
 /// Problems that are shown.
 const SHOWN: usize = 10;
+
+/// Folder of run files, in that of the results.
+pub const RUN_FILES: &str = "runs";
+
+/// Path of the run file of a run.
+pub fn file_of(study: &Study, of: &Identity, number: usize, scene: &Scene) -> PathBuf {
+    study.directory.join(RUN_FILES).join(of.run_file(number, scene))
+}
+
+/// Bytes of the run file of a scene, at most.
+pub fn file_size(scene: &Scene) -> u64 {
+    let (schedule, maps) = (scene.schedule(), &scene.output.maps);
+    let moments = if maps.is_empty() { 0 } else { schedule.maps() };
+    let extras = scene.extras(scene.adaptive.is_some());
+    size_estimate(&scene.parameters.mesh, maps, &extras, schedule.samples(), moments as u64)
+}
 
 /// A run before it is made.
 #[derive(Debug, Clone)]
@@ -143,7 +159,7 @@ impl Resolved {
             })?;
             let run = ResolvedRun {
                 identity: of.name(),
-                file: kept_file::path(study, &of, number, &scene),
+                file: file_of(study, &of, number, &scene),
                 of,
                 steps: scene.steps,
                 length: RunLength::of(&scene),
@@ -325,7 +341,7 @@ impl Estimate {
         for number in spread(plan.runs(), COUNTED) {
             let scene = scene(plan, number)?;
             memory = memory.max(memory_estimate(&scene));
-            file_sizes += kept_file::size(&scene);
+            file_sizes += file_size(&scene);
             times.push(scene.steps as f64 * scene.parameters.mesh.pin_cells() as f64 * per_cell);
         }
         let mean_time = times.iter().sum::<f64>() / times.len().max(1) as f64;

@@ -26,9 +26,9 @@ use crate::job::{Agreement, Job, PieceEnd};
 use crate::options::Program;
 use crate::sweep::earlier::{is_whole, journal, journal_folder, refuse_unwritable, say_left_out, say_unkept};
 use crate::sweep::kept_file;
-use crate::sweep::make::{Ended, MadeRun, Request, Watcher, make};
-use crate::sweep::resolved::{Resolved, needed, note_short_tenths};
-use crate::sweep::under_way::{self, Others, UnderWay};
+use crate::sweep::make::{MadeRun, Request, Watcher, make};
+use crate::sweep::resolved::{Resolved, file_of, needed, note_short_tenths};
+use crate::sweep::under_way::{self, Ended, Others, UnderWay};
 use crate::sweep::warnings::{SceneWarnings, SweepObserver, of_questions, of_surfaces};
 
 /// Files that are no part of a journal, of which the names are told.
@@ -460,7 +460,7 @@ impl<'a> Runner<'a> {
             }
         };
         let (identity, needed) = (expected.name(), needed(study, &scene));
-        let file = self.options.keep_files.then(|| kept_file::path(study, &expected, number, &scene));
+        let file = self.options.keep_files.then(|| file_of(study, &expected, number, &scene));
         let ended_elsewhere = || self.ended_elsewhere(&identity, &needed, file.as_deref());
         if lock(&self.waiting).contains(&number) {
             thread::sleep(LOOK);

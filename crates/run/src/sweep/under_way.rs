@@ -8,12 +8,14 @@ use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 use plateau_core::model::mesh::Mesh;
+use plateau_core::simulation::SimulationError;
 use plateau_io::claim::{Claim, ClaimError, Seen};
 use plateau_io::run_file::checkpoint::{self, SimulationState};
+use plateau_io::run_file::{Image, RunFileError};
 use plateau_io::temporary::Temporary;
 use serde::{Deserialize, Serialize};
 
-use crate::sweep::kept_file::FileState;
+use crate::error::RunError;
 use crate::sweep::warnings::SweepObserver;
 
 /// Folder of locks and states, in that of the results.
@@ -25,6 +27,45 @@ const IDENTITY: usize = 64;
 const TOUCH: Duration = Duration::from_secs(10);
 /// For how long nobody must have touched a run that a process of another machine had, before it counts as ended.
 const SILENCE: Duration = Duration::from_secs(180);
+
+/// Reason why a run did not finish.
+pub enum Ended {
+    /// A signal came.
+    Stopped,
+    /// The problem.
+    Failed(String),
+    /// Problem with its run file, which is not one of the run.
+    Unkept(String),
+}
+
+impl From<SimulationError> for Ended {
+    fn from(error: SimulationError) -> Self {
+        Self::Failed(error.to_string())
+    }
+}
+
+impl From<RunFileError> for Ended {
+    fn from(error: RunFileError) -> Self {
+        Self::Unkept(error.to_string())
+    }
+}
+
+impl From<RunError> for Ended {
+    fn from(error: RunError) -> Self {
+        Self::Failed(error.to_string())
+    }
+}
+
+/// Content of a run file between two steps.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub struct FileState {
+    /// Moments of which it has maps.
+    pub snapshots: usize,
+    /// Wall time of the run so far, s.
+    pub wall_time: f64,
+    /// The file as it is on the disk.
+    pub images: Vec<Image>,
+}
 
 /// The state of one run between two steps.
 #[derive(Debug, Serialize, Deserialize)]

@@ -5,8 +5,8 @@
 //! the columns ahead of edges are worn in passing. From the bytes that tell which cells touch, columns with something to do are
 //! listed first: a branch that goes either way costs more.
 
-use super::edge::Reach;
-use super::instructions::kernel;
+use super::edge::{Edge, Edges, Reach};
+use super::instructions::{InstructionSet, kernel, with_build_up};
 use super::moved::{Moved, SeldomEvent, add};
 use super::pairs::lanes_of;
 use super::read::Span;
@@ -15,6 +15,7 @@ use super::strip::Strip;
 use super::worn::wear;
 use super::worn_column::wear_ordinary_column;
 use crate::engine::lanes::{Chunk, Integers, LANES, Lanes, Mask};
+use crate::engine::parts::{Needs, build_up};
 use crate::engine::strips::{DiscSector, PinStrips};
 
 /// Columns that are looked up at a time: a word of bytes.
@@ -22,26 +23,6 @@ const COLUMNS: usize = 8;
 
 /// Columns ahead of an edge that are looked at whether their cells touch or not.
 const NEAR: usize = 4;
-
-/// What is found of the edges of a strip; the next strip overwrites it.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub(super) struct Edges {
-    /// Which cells touch in each column of the strip and in L columns ahead of it, one bit each.
-    touches: Vec<u8>,
-    /// Which cells of these columns are the open ones of an edge.
-    open: Vec<u8>,
-    /// Which an edge feeds: those with a cell that touches within L columns ahead.
-    fed: Vec<u8>,
-    /// v of each of these columns, m; of no meaning where nothing touches.
-    lost: Vec<Chunk>,
-    /// z_p of each column of the strip and of the next after wear and before any deposit, m, out of reach where there is no
-    /// plateau; of no meaning in a column of the strip in which nothing touches.
-    height: Vec<Chunk>,
-    /// v̄ of the edge that a cell is fed from, m.
-    share: Vec<Chunk>,
-    /// Columns of the strip with something to do.
-    listed: Vec<u32>,
-}
 
 kernel! {
     /// Fills the gaps of a strip of a span, of which no column has been worn.
@@ -418,4 +399,48 @@ fn lesser(a: f64, b: f64) -> f64 {
 #[inline(always)]
 fn greater(a: f64, b: f64) -> f64 {
     if a > b { a } else { b }
+}
+
+/// Finds what the first column of a span means to the one behind it, from the state at the start of the step.
+pub type EdgeOf = fn(InstructionSet, &Rules, &Conditions, &mut PinStrips, &mut DiscSector, Span, &mut Moved, &mut Edge);
+
+/// The one that does what a scene needs and nothing else; chosen once per run.
+pub fn edge_of(needs: Needs) -> EdgeOf {
+    with_build_up!(needs, edge_of_span)
+}
+
+kernel! {
+    /// Finds what the first column of a span means to the one behind it.
+    pub fn edge_of_span<const BUILD_UP: u8, const DISC_WEARS: bool>(
+        rules: &Rules,
+        conditions: &Conditions,
+        pin: &mut PinStrips,
+        disc: &mut DiscSector,
+        span: Span,
+        moved: &mut Moved,
+        edge: &mut Edge,
+    ) = edge_of_strips
+}
+
+#[inline(always)]
+fn edge_of_strips<L: Lanes, const BUILD_UP: u8, const DISC_WEARS: bool>(
+    rules: &Rules,
+    conditions: &Conditions,
+    pin: &mut PinStrips,
+    disc: &mut DiscSector,
+    span: Span,
+    moved: &mut Moved,
+    edge: &mut Edge,
+) {
+    edge.strips.clear();
+    for index in 0..pin.height.strips() {
+        let strip = Strip::new::<L, BUILD_UP>(index, pin, disc, span, false);
+        let strip_rules = StripRules::<L>::new(rules, conditions, index);
+        let edges = &mut moved.edges;
+        edges.take_touches(&strip, &rules.nothing_ahead);
+        if rules.transport.is_some() {
+            edges.wear::<L, BUILD_UP, DISC_WEARS>(&strip_rules, &strip, &rules.nothing_ahead);
+        }
+        edge.strips.push(edges.reach::<L, BUILD_UP, DISC_WEARS>(&strip_rules, &strip));
+    }
 }

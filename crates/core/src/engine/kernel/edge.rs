@@ -1,13 +1,6 @@
-//! What lies ahead of a span, for the cells behind it (model 4.2 and 4L), and how that crosses to another worker.
+//! What lies ahead of a span, for the cells behind it (model 4.2 and 4L), and how that crosses to another worker; and what is found on the way.
 
-use super::instructions::{InstructionSet, kernel, with_build_up};
-use super::moved::Moved;
-use super::read::Span;
-use super::rules::{Conditions, Rules, StripRules};
-use super::strip::Strip;
-use crate::engine::lanes::{Chunk, LANES, Lanes};
-use crate::engine::parts::{Needs, build_up};
-use crate::engine::strips::{DiscSector, PinStrips};
+use crate::engine::lanes::{Chunk, LANES};
 
 /// What the columns ahead of a span mean to it, strip by strip.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -26,6 +19,26 @@ pub(super) struct Reach {
     pub touches: Vec<u8>,
     /// v of each of these columns, m.
     pub lost: Vec<Chunk>,
+}
+
+/// What is found of the edges of a strip; the next strip overwrites it.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(super) struct Edges {
+    /// Which cells touch in each column of the strip and in L columns ahead of it, one bit each.
+    pub touches: Vec<u8>,
+    /// Which cells of these columns are the open ones of an edge.
+    pub open: Vec<u8>,
+    /// Which an edge feeds: those with a cell that touches within L columns ahead.
+    pub fed: Vec<u8>,
+    /// v of each of these columns, m; of no meaning where nothing touches.
+    pub lost: Vec<Chunk>,
+    /// z_p of each column of the strip and of the next after wear and before any deposit, m, out of reach where there is no
+    /// plateau; of no meaning in a column of the strip in which nothing touches.
+    pub height: Vec<Chunk>,
+    /// v̄ of the edge that a cell is fed from, m.
+    pub share: Vec<Chunk>,
+    /// Columns of the strip with something to do.
+    pub listed: Vec<u32>,
 }
 
 impl Edge {
@@ -85,49 +98,5 @@ impl Reach {
             touches: bytes.iter().map(|word| *word as u8).collect(),
             lost: (0..columns).map(|_| next()).collect(),
         }
-    }
-}
-
-/// Finds what the first column of a span means to the one behind it, from the state at the start of the step.
-pub type EdgeOf = fn(InstructionSet, &Rules, &Conditions, &mut PinStrips, &mut DiscSector, Span, &mut Moved, &mut Edge);
-
-/// The one that does what a scene needs and nothing else; chosen once per run.
-pub fn edge_of(needs: Needs) -> EdgeOf {
-    with_build_up!(needs, edge_of_span)
-}
-
-kernel! {
-    /// Finds what the first column of a span means to the one behind it.
-    pub fn edge_of_span<const BUILD_UP: u8, const DISC_WEARS: bool>(
-        rules: &Rules,
-        conditions: &Conditions,
-        pin: &mut PinStrips,
-        disc: &mut DiscSector,
-        span: Span,
-        moved: &mut Moved,
-        edge: &mut Edge,
-    ) = edge_of_strips
-}
-
-#[inline(always)]
-fn edge_of_strips<L: Lanes, const BUILD_UP: u8, const DISC_WEARS: bool>(
-    rules: &Rules,
-    conditions: &Conditions,
-    pin: &mut PinStrips,
-    disc: &mut DiscSector,
-    span: Span,
-    moved: &mut Moved,
-    edge: &mut Edge,
-) {
-    edge.strips.clear();
-    for index in 0..pin.height.strips() {
-        let strip = Strip::new::<L, BUILD_UP>(index, pin, disc, span, false);
-        let strip_rules = StripRules::<L>::new(rules, conditions, index);
-        let edges = &mut moved.edges;
-        edges.take_touches(&strip, &rules.nothing_ahead);
-        if rules.transport.is_some() {
-            edges.wear::<L, BUILD_UP, DISC_WEARS>(&strip_rules, &strip, &rules.nothing_ahead);
-        }
-        edge.strips.push(edges.reach::<L, BUILD_UP, DISC_WEARS>(&strip_rules, &strip));
     }
 }

@@ -17,7 +17,8 @@ mod strip;
 mod worn;
 mod worn_column;
 
-pub(crate) use edge::{Edge, EdgeOf, edge_of};
+pub(crate) use deposit::{EdgeOf, edge_of};
+pub(crate) use edge::Edge;
 pub use instructions::InstructionSet;
 pub(crate) use moved::Moved;
 pub(crate) use pairs::PLATEAU;

@@ -1,6 +1,6 @@
 //! What a pass moved, row by row.
 
-use super::deposit::Edges;
+use super::edge::Edges;
 use super::pairs::lanes_of;
 use super::rules::StripRules;
 use crate::engine::exact::RowIntegers;

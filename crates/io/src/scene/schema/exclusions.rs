@@ -2,7 +2,7 @@
 //! table.
 
 use super::key::{Choose, Key, Need, join};
-use super::keys::{self, BRAKING_TORQUE, CYCLE, DEBRIS_IS_LOCAL};
+use super::keys::{self, BRAKING_TORQUE, CYCLE, CYCLE_COLUMNS, DEBRIS_IS_LOCAL};
 use super::lookup::find;
 
 /// Keys of which a scene gives exactly one, or at most one.
@@ -44,18 +44,6 @@ impl Group {
 
 const HEIGHT_SOURCES: &[(&str, &[&str])] = &[("file", FILE), ("synthetic", &[]), ("flat", &[])];
 const FILE: &[&str] = &["dataset", "at", "unit", "pitch", "height_range", "decimal", "skip", "profile_lay"];
-/// Keys that name the columns of a cycle in a file with headers of its own.
-pub(crate) const CYCLE_COLUMNS: &[&str] = &[
-    "cycle.columns.time",
-    "cycle.columns.normal_force",
-    "cycle.columns.nominal_pressure",
-    "cycle.columns.braking_torque",
-    "cycle.columns.brake_torque",
-    "cycle.columns.brake_pressure",
-    "cycle.columns.rotational_speed",
-    "cycle.columns.sliding_speed",
-    "cycle.columns.road_speed",
-];
 const IMAGE: &[&str] =
     &["threshold", "pixel", "smooth", "despeckle", "rotate", "fibres", "repeat", "extend", "extend_seed"];
 

@@ -6,7 +6,6 @@
 use plateau_core::observe::EXTRAS;
 
 use super::choices::{self, words};
-use super::exclusions::CYCLE_COLUMNS;
 use super::key::{Choose, Key, Kind, Need, Range, Role};
 use crate::units::Dimension::{
     Angle, Area, Cooling, CoolingPerSpeed, Density, Force, Length, NumberPerMass, Pressure, RotationalSpeed,
@@ -49,6 +48,19 @@ pub(crate) const BRAKING_TORQUE: &str = "braking_torque";
 const AGAINST_SECONDARY: &str = "wear_rate_against_secondary";
 /// Full path of the table of the cycle.
 pub(crate) const CYCLE: &str = "operation.cycle";
+
+/// Keys that name the columns of a cycle in a file with headers of its own.
+pub(crate) const CYCLE_COLUMNS: &[&str] = &[
+    "cycle.columns.time",
+    "cycle.columns.normal_force",
+    "cycle.columns.nominal_pressure",
+    "cycle.columns.braking_torque",
+    "cycle.columns.brake_torque",
+    "cycle.columns.brake_pressure",
+    "cycle.columns.rotational_speed",
+    "cycle.columns.sliding_speed",
+    "cycle.columns.road_speed",
+];
 
 /// Debris goes into the gap behind the cell that wears, and there is no pool.
 pub(super) const DEBRIS_IS_LOCAL: Choose = Choose { key: "plateaus.debris", value: "local" };

@@ -9,10 +9,9 @@ mod key;
 mod keys;
 mod lookup;
 
-pub(crate) use exclusions::CYCLE_COLUMNS;
 pub use exclusions::{GROUPS, Group, MEANINGLESS, Meaningless, WAYS, Ways};
 pub use key::{Choose, Key, Kind, Need, Range, Role};
 pub use key::{is_below, join};
-pub(crate) use keys::{ACCELERATION, BRAKING_TORQUE, CYCLE};
+pub(crate) use keys::{ACCELERATION, BRAKING_TORQUE, CYCLE, CYCLE_COLUMNS};
 pub use lookup::{children, find, is_input, is_table, keys, may_be_none, optional_table, role};
 pub(crate) use lookup::{sections, unknown};
