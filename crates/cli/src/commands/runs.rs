@@ -91,10 +91,11 @@ struct Document {
 pub fn summary(arguments: &SummaryArguments) -> Result<(), Failure> {
     let run = open_run(&arguments.run)?;
     let found = run.contact_area().map_err(Failure::input)?;
+    let filled = run.values("filled_fraction").map_err(Failure::input)?.and_then(|values| values.last().copied());
     let document = Document {
         state: run.state().name(),
         contact_area_last_tenth: found.last_tenth,
-        running_in: running_in(&found.drift),
+        running_in: running_in(&found.drift, filled.unwrap_or_default()),
         running_in_time: running_in_time(&found.running_in),
         time_acceleration: run
             .chosen_acceleration()
@@ -136,7 +137,10 @@ pub fn text(summary: &RunSummary) -> String {
     ];
     rows.extend(summary.time_acceleration.as_ref().map(|chosen| ("time acceleration", acceleration(chosen))));
     let (drift, time) = &summary.running_in;
-    rows.extend([("running in", running_in(drift)), ("running-in time", running_in_time(time))]);
+    rows.extend([
+        ("running in", running_in(drift, summary.filled_fraction)),
+        ("running-in time", running_in_time(time)),
+    ]);
     rows.extend([
         (
             "contact pressure",
@@ -268,7 +272,7 @@ fn contact_area(window: &WindowMean) -> String {
 }
 
 /// Tells whether the mean contact area still changes, in words, or why that cannot be told.
-fn running_in(found: &Result<Drift, NoDrift>) -> String {
+fn running_in(found: &Result<Drift, NoDrift>, filled: f64) -> String {
     let drift = match found {
         Ok(drift) => drift,
         Err(reason) => return reason.to_string(),
@@ -290,8 +294,21 @@ fn running_in(found: &Result<Drift, NoDrift>) -> String {
         Trend::Steady => "contact area is steady",
         Trend::Unknown | Trend::TooShort => "cannot be told from a run of this length",
     };
-    format!("{found}: {sign}{percent} % from {start} … {middle} s to {middle} … {end} s")
+    // It falls at first, where the highest points of the disc are worn to, and rises as long as the disc fills.
+    let fills_on = drift.trend() == Trend::Steady && HARDLY_FILLED.contains(&filled);
+    let caution = if fills_on {
+        format!(
+            "; the disc is filled by {} %, and as it fills on the area may rise",
+            number::rounded(100.0 * filled, 2)
+        )
+    } else {
+        String::new()
+    };
+    format!("{found}: {sign}{percent} % from {start} … {middle} s to {middle} … {end} s{caution}")
 }
+
+/// Filled fractions of a disc that fills and is far from full.
+const HARDLY_FILLED: std::ops::Range<f64> = 0.001..0.8;
 
 /// Time at which the contact area had come to its value at the end, in words.
 fn running_in_time(found: &Result<f64, NotDefined>) -> String {

@@ -10,15 +10,17 @@ fn the_change_in_the_second_half_is_told_with_its_error() {
         mean,
         standard_error: Some(0.02e-6),
     };
-    let with = |change: f64, standard_error: f64, pulses: Option<f64>| {
-        running_in(&Ok(Drift {
+    let filled_by = |filled: f64, change: f64, standard_error: f64, pulses: Option<f64>| {
+        let drift = Drift {
             third_quarter: quarter(30.0, 45.0, 1e-6),
             last_quarter: quarter(45.0, 60.0, (1.0 + change) * 1e-6),
             change,
             standard_error,
             pulses,
-        }))
+        };
+        running_in(&Ok(drift), filled)
     };
+    let with = |change: f64, standard_error: f64, pulses: Option<f64>| filled_by(0.9, change, standard_error, pulses);
     let of = |change: f64, standard_error: f64| with(change, standard_error, Some(3.0));
     assert_eq!(
         with(0.12, 0.03, Some(0.6)),
@@ -29,10 +31,15 @@ fn the_change_in_the_second_half_is_told_with_its_error() {
     assert_eq!(of(-0.12, 0.03), "contact area still falls: -12.0 ± 3.0 % from 30 … 45 s to 45 … 60 s");
     assert_eq!(of(0.05, 0.03), "cannot be told from a run of this length: +5.0 ± 3.0 % from 30 … 45 s to 45 … 60 s");
     assert_eq!(
-        running_in(&Err(NoDrift::Cycle)),
+        running_in(&Err(NoDrift::Cycle), 0.1),
         "cannot be told: with a cycle the contact area follows load and speed"
     );
-    assert_eq!(of(0.01, 0.01), "contact area is steady: +1.0 ± 1.0 % from 30 … 45 s to 45 … 60 s");
+    let steady = "contact area is steady: +1.0 ± 1.0 % from 30 … 45 s to 45 … 60 s";
+    assert_eq!(of(0.01, 0.01), steady);
+    let fills_on = "; the disc is filled by 7.1 %, and as it fills on the area may rise";
+    assert_eq!(filled_by(0.0712, 0.01, 0.01, Some(3.0)), format!("{steady}{fills_on}"));
+    // Nothing fills a flat disc.
+    assert_eq!(filled_by(0.0, 0.01, 0.01, Some(3.0)), steady);
 }
 
 #[test]
