@@ -26,7 +26,7 @@ pub const GENERATIONS: &[Generation] = &[
     },
     Generation {
         reason: "pauses cool at the mean speed of the disc, and pooled debris is computed by the plain model",
-        results: "744b4f7e6d8d3d048171177a0bea1e8c8ad11e4975b83d62566ea0496f34a51c",
+        results: "4ab752198c78208fe29ddf81fdf8e8c00e8475cf5dedb75cc0ef65fc821b5a83",
     },
 ];
 
