@@ -336,7 +336,9 @@ def _compared(told: Sequence[Told]) -> tuple[list[str], str]:
     of_scenes = table(["run", *told[0].five], [[one.label, *one.five.values()] for one in told])
     of_runs = table(["run", *texts], [[one.label, *row] for one, row in zip(told, zip(*texts.values()), strict=True)])
     areas = [told[0].area.text, *(one.area.compared(told[0].area) for one in told[1:])]
-    return [of_scenes, of_runs], "The contact area is: " + "; ".join(f"{one.label} {area}" for one, area in zip(told, areas, strict=True))
+    said = "The contact area is: " + "; ".join(f"{one.label} {area}" for one, area in zip(told, areas, strict=True))
+    runs_in = "; ".join(f"{one.label}: {with_minus(one.summary['running_in'])}" for one in told if one.summary.get("running_in"))
+    return [of_scenes, of_runs], said + (f". Running in: {runs_in}" if runs_in else "")
 
 
 def _by_run(told: Sequence[Told], rows: dict[str, list[str]], head: str, kind: str = "words") -> str:
