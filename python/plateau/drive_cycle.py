@@ -161,7 +161,7 @@ def cycle(
     if wrong or not (0.0 < share <= 1.0) or len(road_load) != 3 or not np.isfinite(road_load).all():
         said = f"{wrong[0]}: expected more than 0" if wrong else "expected three numbers as road load, and a share from 0 to 1"
         raise InputError(said)
-    found = _read(Path(table), columns or {})
+    read = found = _read(Path(table), columns or {})
     if "brake_pressure" in found:
         if piston_area is None:
             raise InputError('a brake_pressure presses as the pistons are large: give the area of those of one pad, such as --piston-area "25 cm^2"')
@@ -177,7 +177,7 @@ def cycle(
         load, shown = share * found["force"] * size["wheel_radius"] / 2.0, "brake_torque [N m]"
         stands = found["road_speed"].rolling(3, center=True, min_periods=1).max() == 0.0
         load = load.where(~stands, HOLD)
-    made = Made(str(path), *_told(found, load, shown))
+    made = Made(str(path), *_told(read, found["road_speed"], load, shown))
     for warned in made.warnings:
         warnings.warn(f"{table}: {warned}", PlateauWarning, stacklevel=2)
     lines = [f"time [s],road_speed [km/h],{shown}"]
@@ -209,13 +209,13 @@ class Made(os.PathLike[str]):
         return self.path
 
 
-def _told(found: pandas.DataFrame, load: "pandas.Series[float]", shown: str) -> tuple[str, list[str]]:
-    """What a table has, in words, and what of it can hardly be meant."""
-    time, speed = found["time"].to_numpy(), found["road_speed"].to_numpy()
+def _told(read: pandas.DataFrame, of_load: "pandas.Series[float]", load: "pandas.Series[float]", shown: str) -> tuple[str, list[str]]:
+    """What a table has, and the load that is made of it at these speeds, in words, and what of it can hardly be meant."""
+    time, speed = read["time"].to_numpy(), read["road_speed"].to_numpy()
     spans = np.diff(time)
     way = float(np.sum(spans * (speed[1:] + speed[:-1]) / 2.0))
-    slowing = found["deceleration"].to_numpy() if "deceleration" in found else np.divide(-np.diff(speed), spans, out=np.zeros_like(spans), where=spans > 0)
-    brakes = ((load > 0.0) & (found["road_speed"] > 0.0)).to_numpy()
+    slowing = read["deceleration"].to_numpy() if "deceleration" in read else np.divide(-np.diff(speed), spans, out=np.zeros_like(spans), where=spans > 0)
+    brakes = ((load > 0.0) & (of_load > 0.0)).to_numpy()
     brakings = int(np.count_nonzero(brakes & ~np.concatenate([[False], brakes[:-1]])))
     largest, unit = float(load.max()), shown.split("[")[1].rstrip("]")
     told = f"{len(time)} rows, {time[-1]:g} s, {way / 1e3:.3g} km; at most {3.6 * speed.max():.3g} km/h, slows down by at most {slowing.max():.2g} m/s²"
@@ -227,7 +227,7 @@ def _told(found: pandas.DataFrame, load: "pandas.Series[float]", shown: str) -> 
         warned.append(f"between the rows at {time[wide]:g} and {time[wide + 1]:g} s there are {spans[wide]:g} s, else about {usual:g} s: a straight line is taken")
     limits = [(3.6 * speed.max(), 300.0, "km/h"), (slowing.max(), 15.0, "m/s²"), (largest if unit == "bar" else 0.0, 250.0, "bar")]
     warned += [f"{value:.3g} {unit} is more than {most:g} {unit}: check the unit of the column" for value, most, unit in limits if value > most]
-    if brakes.mean() > 0.7 * np.count_nonzero(speed > 0.0) / len(speed):
+    if np.count_nonzero(brakes) > 0.7 * np.count_nonzero(of_load > 0.0):
         warned.append("the brake is on in most of the rows in which the vehicle moves: is that noise of a sensor?")
     return told, warned
 

@@ -111,6 +111,12 @@ class Tables(InFolder):
         self.assertIn("100 bar", made.told)
         self.assertIn("the brake is on in most of the rows", said)
         self.assertIn("log.csv: between", str(caught.warning))
+        # The same of the speed alone, whose brakings are put between the rows.
+        Path("speed.csv").write_text("time [s],road_speed [km/h]\n" + "".join(f"{time},50\n" for time in (0, 1, 2, 3, 4, 5, 30, 31)) + "35,0\n")
+        with self.assertWarns(plateau.PlateauWarning):
+            made = plateau.cycle("speed.csv", "made.toml", force=True)
+        self.assertIn("between the rows at 5 and 30 s there are 25 s", " ".join(made.warnings))
+        self.assertIn("9 rows, 35 s", made.told)
         # Less than half a bar presses no pad.
         quiet = self.cycle("time [s],road_speed [km/h],brake_pressure [bar]\n0,50,0.4\n9,50,0.4\n10,40,5\n", piston_area="25 cm^2")
         self.assertEqual(quiet["brake_pressure [bar]"].tolist(), [0.0, 0.0, 5.0])
