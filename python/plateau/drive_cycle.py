@@ -16,6 +16,7 @@ import numpy as np
 import pandas
 
 from plateau.errors import InputError, PlateauWarning
+from plateau.opened_runs import counted
 from plateau.output_folder import followed, put_together, refuse_file
 from plateau.program import call, listen
 from plateau.study.text_tables import TextTable, read_text_table
@@ -219,7 +220,7 @@ def _told(read: pandas.DataFrame, of_load: "pandas.Series[float]", load: "pandas
     brakings = int(np.count_nonzero(brakes & ~np.concatenate([[False], brakes[:-1]])))
     largest, unit = float(load.max()), shown.split("[")[1].rstrip("]")
     told = f"{len(time)} rows, {time[-1]:g} s, {way / 1e3:.3g} km; at most {3.6 * speed.max():.3g} km/h, slows down by at most {slowing.max():.2g} m/s²"
-    told += f", at most {largest:.3g} {unit}; {brakings} brakings"
+    told += f", at most {largest:.3g} {unit}; {counted(brakings, 'braking')}"
     warned = []
     usual = float(np.median(spans)) if len(spans) else 0.0
     wide = int(np.argmax(spans))
