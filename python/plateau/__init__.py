@@ -32,6 +32,7 @@ except ModuleNotFoundError as error:
 
 from plateau import study
 from plateau.commands import check, collect, command
+from plateau.drive_cycle import cycle
 from plateau.errors import (
     InputError,
     InputTypeError,
@@ -42,7 +43,6 @@ from plateau.errors import (
     RunStopped,
     UnknownNameError,
 )
-from plateau.drive_cycle import cycle
 from plateau.exports import export
 from plateau.figures import plot
 from plateau.figures.accuracy import plot_accuracy

@@ -347,16 +347,20 @@ class Processes(InFolder):
         with self.assertRaisesRegex(TypeError, "save its state"):
             pickle.dumps(plateau.Simulation(QUICK))
 
+    def expect_after_interrupt(self, process, seconds, expected):
+        """What a process says that is interrupted so long after it has begun."""
+        self.assertEqual(process.stdout.readline(), "begun\n")
+        time.sleep(seconds)
+        process.send_signal(signal.SIGINT)
+        out, err = process.communicate(timeout=120)
+        self.assertEqual(out, expected, err)
+
     def test_an_interrupt_stops_between_two_steps(self):
         process = python(
             f"s = plateau.Simulation({str(QUICK)!r}, workers=2)\nprint('begun', flush=True)\n"
             "try:\n    s.advance(10**12)\nexcept KeyboardInterrupt:\n    n = s.steps\n    s.sample(); s.advance(1)\n    print(s.steps - n, n > 0)"
         )
-        self.assertEqual(process.stdout.readline(), "begun\n")
-        time.sleep(0.5)
-        process.send_signal(signal.SIGINT)
-        out, err = process.communicate(timeout=120)
-        self.assertEqual(out, "1 True\n", err)
+        self.expect_after_interrupt(process, 0.5, "1 True\n")
 
     def test_samples_before_an_interrupt_are_kept(self):
         process = python(
@@ -364,11 +368,7 @@ class Processes(InFolder):
             "try:\n    s.observe(10**12, every=10)\nexcept KeyboardInterrupt:\n"
             "    print(list(s.observed.index) == list(range(10, 10 * len(s.observed) + 1, 10)), 0 <= s.steps - s.observed.index[-1] <= 10)"
         )
-        self.assertEqual(process.stdout.readline(), "begun\n")
-        time.sleep(1.0)
-        process.send_signal(signal.SIGINT)
-        out, err = process.communicate(timeout=120)
-        self.assertEqual(out, "True True\n", err)
+        self.expect_after_interrupt(process, 1.0, "True True\n")
 
     def test_a_run_that_could_not_be_written_lets_go_of_its_file(self):
         limits = resource.getrlimit(resource.RLIMIT_FSIZE)

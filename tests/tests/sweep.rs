@@ -58,6 +58,15 @@ mean = "last tenth"
 }
 
 const RUNS: usize = 27;
+/// Changes of `quick.toml` that make run 15 by hand: point 5 (10 N, 0.3) with the third set of surfaces.
+const RUN_15: [&str; 6] = [
+    "operation.duration=3 s",
+    "output.sample_every=0.5 s",
+    "operation.normal_force=10 N",
+    "pin.base.synthetic.fibre_fraction=0.3",
+    "disc.surface.synthetic.seed=9",
+    "pin.base.synthetic.seed=9",
+];
 
 fn directory() -> WorkingDirectory {
     let directory = WorkingDirectory::new();
@@ -145,17 +154,9 @@ fn a_study_is_planned_run_and_collected() {
     assert_eq!(file.shape("/contact_area"), [RUNS, 6]);
     assert_eq!(file.floats("/load")[..4], [5.0, 5.0, 5.0, 10.0]);
 
-    // Run 15 is point 5 (10 N, 0.3) with the third set of surfaces: the same by hand.
-    let sets = [
-        "operation.duration=3 s",
-        "output.sample_every=0.5 s",
-        "operation.normal_force=10 N",
-        "pin.base.synthetic.fibre_fraction=0.3",
-        "disc.surface.synthetic.seed=9",
-        "pin.base.synthetic.seed=9",
-    ];
+    // The same by hand.
     let mut arguments = vec!["run".to_owned(), scene("quick.toml"), "-o".into(), "alone.h5".into()];
-    arguments.extend(sets.iter().flat_map(|set| ["--set".to_owned(), (*set).to_owned()]));
+    arguments.extend(RUN_15.iter().flat_map(|set| ["--set".to_owned(), (*set).to_owned()]));
     directory.plateau(arguments).quiet_success();
     let alone = RunFile::open(directory.path("alone.h5"));
     for series in ["contact_area", "pool", "worn_resin", "displacement", "filled_fraction"] {

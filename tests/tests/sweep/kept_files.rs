@@ -8,7 +8,7 @@ use plateau_tests::program::{Outcome, WorkingDirectory, scene, wait_until};
 use plateau_tests::run_file::{RunFile, differences};
 use serde_json::Value;
 
-use super::{RUNS, directory, json, records, results, study, sweep};
+use super::{RUN_15, RUNS, directory, json, records, results, study, sweep};
 
 /// The run files that are kept, by their names.
 fn kept(directory: &WorkingDirectory) -> Vec<PathBuf> {
@@ -47,15 +47,7 @@ fn run_files_are_kept_and_nothing_else_changes() {
     assert_eq!(kept(&keeping).len(), RUNS, "nothing but run files: {:?}", kept(&keeping));
     assert_eq!(results(&keeping), results(&plain));
     // Run 15 by hand, with its maps.
-    let sets = [
-        "operation.duration=3 s",
-        "output.sample_every=0.5 s",
-        "operation.normal_force=10 N",
-        "pin.base.synthetic.fibre_fraction=0.3",
-        "disc.surface.synthetic.seed=9",
-        "pin.base.synthetic.seed=9",
-    ];
-    let (quick, sets) = (scene("quick.toml"), sets.iter().flat_map(|set| ["--set", set]));
+    let (quick, sets) = (scene("quick.toml"), RUN_15.iter().flat_map(|set| ["--set", set]));
     plain.plateau(["run", &quick, "-o", "alone.h5"].into_iter().chain(sets)).quiet_success();
     assert_eq!(content_differs(plain.path("alone.h5"), of_run(&keeping, 15)), [""; 0]);
     assert!(RunFile::open(of_run(&keeping, 15)).shape("/pin/height")[0] > 1);

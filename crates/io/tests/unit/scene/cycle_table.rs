@@ -90,6 +90,12 @@ fn what_is_wrong_is_said_with_its_place() {
 }
 
 #[test]
+fn every_column_has_a_key_for_its_header() {
+    let keys = crate::scene::schema::CYCLE_COLUMNS.iter().map(|key| key.trim_start_matches("cycle.columns."));
+    assert_eq!(keys.collect::<Vec<_>>(), COLUMNS.map(|(name, ..)| name));
+}
+
+#[test]
 fn a_logger_has_headers_and_times_of_its_own() {
     let text = "Uhrzeit;Tempo (km/h);Druck;Temp [degC]\n12:00:05,5;36;0,5;kalt\n12:01:00;18;10;warm\n";
     let headers = [("time", "Uhrzeit"), ("road_speed", "Tempo"), ("brake_pressure", "Druck [bar]")];
