@@ -172,6 +172,19 @@ fn images_that_promise_more_than_they_hold() {
     fs::write(&path, &content).unwrap();
     let found = message(&path, &black_to_white(1.0));
     assert!(found.starts_with("the image has 8192 x 8192 pixels, which a file of 79 bytes"), "{found}");
+    // A tag of 2^23 values, for which the decoder would ask for 256 MiB; the name ends in .png, the content decides.
+    for (name, first, width) in [("grey8.tif", 10, 4), ("grey16be.tif", 10, 4), ("grey16big.tif", 24, 8)] {
+        let mut content = fs::read(corpus(name)).unwrap();
+        let count = &mut content[first + 4..first + 4 + width];
+        if name == "grey16be.tif" {
+            count.copy_from_slice(&(1_u32 << 23).to_be_bytes());
+        } else {
+            count.copy_from_slice(&(1_u64 << 23).to_le_bytes()[..width]);
+        }
+        fs::write(&path, &content).unwrap();
+        let expected = format!("the image has a tag of 8388608 values, which a file of {} bytes does not hold", content.len());
+        assert_eq!(message(&path, &black_to_white(1.0)), expected, "{name}");
+    }
 }
 
 /// ISO 3309, the checksum of PNG chunks.

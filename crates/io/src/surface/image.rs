@@ -39,6 +39,8 @@ pub enum ImageError {
         "the image has {width} x {height} pixels, which a file of {bytes} bytes does not hold or memory should not"
     )]
     TooLarge { width: u64, height: u64, bytes: usize },
+    #[error("the image has a tag of {values} values, which a file of {bytes} bytes does not hold")]
+    Tag { values: u64, bytes: usize },
     #[error("{width} x {height} pixels need {no_room}")]
     Memory { width: u64, height: u64, no_room: NoRoom },
     #[error(
@@ -137,6 +139,7 @@ impl Raster {
     /// Decodes the first image of a TIFF file.
     fn tiff(content: &[u8]) -> Result<Self, ImageError> {
         let bytes = content.len();
+        refuse_tags(content)?;
         let mut limits = Limits::default();
         limits.ifd_value_size = bytes;
         let mut decoder = Decoder::new(Cursor::new(content))?.with_limits(limits.clone());
@@ -188,6 +191,27 @@ impl Raster {
         } else {
             Err(ImageError::Pixels { found: format!("{found} samples"), expected: "as many as its size says" })
         }
+    }
+}
+
+/// Refuses a first image of a TIFF file with a tag of more values than the file has bytes: the decoder would ask for their memory,
+/// and does not come back where there is none. What else is wrong, it tells itself.
+fn refuse_tags(content: &[u8]) -> Result<(), ImageError> {
+    let number = |at: u64, count: usize| {
+        let digits = content.get(usize::try_from(at).ok()?..)?.get(..count)?.iter();
+        let joined = |number: u64, digit: &u8| number << 8 | u64::from(*digit);
+        Some(if content.starts_with(b"MM") { digits.fold(0, joined) } else { digits.rev().fold(0, joined) })
+    };
+    // BigTIFF has wider numbers.
+    let (directory, tags_bytes, tag_bytes, count_bytes) =
+        if number(2, 2) == Some(43) { (number(8, 8), 8, 20, 8) } else { (number(4, 4), 2, 12, 4) };
+    let Some((directory, tags)) = directory.and_then(|at| Some((at, number(at, tags_bytes)?))) else {
+        return Ok(());
+    };
+    let counts = (0..tags).map_while(|tag| number(directory + tags_bytes as u64 + tag * tag_bytes + 4, count_bytes));
+    match counts.max() {
+        Some(values) if values > content.len() as u64 => Err(ImageError::Tag { values, bytes: content.len() }),
+        _ => Ok(()),
     }
 }
 
