@@ -20,7 +20,11 @@ provide() {
         echo "$what is not installed, and only root may install it"
         exit 77
     fi
-    if ! { apt-get update && apt-get install -y --no-install-recommends "$@" && "$is_there"; }; then
+    # One at a time: checks that need packages run side by side, and one may have waited for the packages of another.
+    if ! (
+        flock 9
+        "$is_there" || { apt-get update && apt-get install -y --no-install-recommends "$@" && "$is_there"; }
+    ) 9>>"${TMPDIR:-/tmp}/plateau-packages.lock"; then
         echo "$what is not installed, and apt-get could not install it"
         exit 77
     fi
