@@ -182,7 +182,8 @@ fn images_that_promise_more_than_they_hold() {
             count.copy_from_slice(&(1_u64 << 23).to_le_bytes()[..width]);
         }
         fs::write(&path, &content).unwrap();
-        let expected = format!("the image has a tag of 8388608 values, which a file of {} bytes does not hold", content.len());
+        let expected =
+            format!("the image has a tag of 8388608 values, which a file of {} bytes does not hold", content.len());
         assert_eq!(message(&path, &black_to_white(1.0)), expected, "{name}");
     }
 }

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeSet;
 use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::Arc;
 use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::thread;
 use std::time::Duration;
@@ -18,6 +19,7 @@ use plateau_io::surface::{self, Loaded, SurfaceError};
 
 use super::kept_file::KeptFile;
 use super::resolved::file_of;
+use super::shared_surfaces::SharedSurfaces;
 use super::under_way::{Ended, State, UnderWay};
 use crate::assembly::{Assembly, Sink};
 use crate::options::Program;
@@ -75,6 +77,8 @@ pub struct Request<'a> {
     pub number: usize,
     /// Tells whether its run file is kept.
     pub keeps_file: bool,
+    /// Surfaces of other runs.
+    pub shared: &'a SharedSurfaces,
 }
 
 impl Request<'_> {
@@ -84,15 +88,20 @@ impl Request<'_> {
         under_way: &mut UnderWay<'_>,
         of: &mut Option<Identity>,
     ) -> Result<Outcome, Ended> {
-        let loaded = surfaces(self.scene, watcher, under_way)?;
+        let found = self.shared.find(self.scene, self.expected);
+        let is_found = found.is_some();
+        let loaded = found.map_or_else(|| surfaces(self.scene, watcher, under_way).map(Arc::new), Ok)?;
         watcher.surfaces(self.scene, &loaded);
         let read = of.insert(Identity::of(self.scene, &loaded.inputs));
+        if !is_found {
+            self.shared.keep(self.scene, read, &loaded);
+        }
         if read != self.expected {
             under_way.is_another();
         }
         // Of what was read, which may not be what was expected.
         let file = self.keeps_file.then(|| file_of(self.study, read, self.number, self.scene));
-        let Loaded { surfaces, inputs, report, .. } = loaded;
+        let Loaded { surfaces, inputs, report, .. } = Arc::unwrap_or_clone(loaded);
         let mut scene = self.scene.clone();
         if file.is_none() {
             // A journal keeps no maps.

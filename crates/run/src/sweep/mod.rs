@@ -19,6 +19,7 @@
 //! | `resolved.rs` | scenes of the runs, built before any run is made, their length and cost |
 //! | `earlier.rs` | the journal: results of before, those that are left out, series that were not kept |
 //! | `under_way.rs` | runs that are under way: one process makes each, and keeps the state from which it continues |
+//! | `shared_surfaces.rs` | surfaces that several runs have in common |
 //! | `make.rs` | one run, from its scene to its record |
 //! | `kept_file.rs` | the run file of a run, where the study keeps those |
 //! | `runner.rs` | which runs are to be made, and several at a time |
@@ -28,6 +29,7 @@ mod kept_file;
 mod make;
 mod resolved;
 mod runner;
+mod shared_surfaces;
 mod under_way;
 mod warnings;
 

@@ -28,6 +28,7 @@ use crate::sweep::earlier::{is_whole, journal, journal_folder, refuse_unwritable
 use crate::sweep::kept_file;
 use crate::sweep::make::{MadeRun, Request, Watcher, make};
 use crate::sweep::resolved::{Resolved, file_of, needed, note_short_tenths};
+use crate::sweep::shared_surfaces::SharedSurfaces;
 use crate::sweep::under_way::{self, Ended, Others, UnderWay};
 use crate::sweep::warnings::{SceneWarnings, SweepObserver, of_questions, of_surfaces};
 
@@ -317,6 +318,7 @@ pub struct Runner<'a> {
     /// Time at which runs ended that failed before, by their identities; as far as is known of a process that decides nothing, none did.
     failed_before: HashMap<String, String>,
     digests: Digests,
+    surfaces: SharedSurfaces,
     /// All results, as far as they were seen.
     journal: Mutex<Journal>,
     /// Locks of other processes.
@@ -389,6 +391,7 @@ impl<'a> Runner<'a> {
             decided,
             failed_before,
             digests: Digests::default(),
+            surfaces: SharedSurfaces::default(),
             journal: Mutex::new(journal),
             others: Mutex::default(),
             waiting: Mutex::default(),
@@ -495,6 +498,7 @@ impl<'a> Runner<'a> {
             program: &self.options.program,
             number,
             keeps_file: self.options.keep_files,
+            shared: &self.surfaces,
         };
         let MadeRun { outcome, of } = match make(&request, self, &mut under_way) {
             Ok(made) => made,
