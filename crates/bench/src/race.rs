@@ -2,6 +2,7 @@
 
 use std::time::Duration;
 
+use plateau_core::simulation::Exchange;
 use serde::Serialize;
 
 use crate::Outcome;
@@ -15,6 +16,11 @@ pub trait Runner {
     /// Mean over all steps so far, where it is known.
     fn load_evaluations_per_step(&self) -> Option<f64> {
         None
+    }
+
+    /// What each worker exchanged with the others so far, where it is known.
+    fn exchanges(&self) -> Vec<Exchange> {
+        Vec::new()
     }
 }
 
@@ -60,6 +66,34 @@ pub struct Measurement {
     pub load_evaluations_per_step: Option<f64>,
     /// Time of a step in every block, in the order of measurement.
     pub microseconds_per_step: Vec<f64>,
+    /// How its workers shared the work of all blocks, if they are several.
+    pub sharing: Option<Sharing>,
+}
+
+/// How several workers shared the work.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Sharing {
+    /// Bytes of columns that crossed boundaries between sectors in a step.
+    pub halo_bytes_per_step: f64,
+    /// Part of the time in which a worker waited for others, mean over the workers.
+    pub waiting: f64,
+    /// Mean over the workers of the time in which one worked over that of the one that worked longest.
+    pub balance: f64,
+}
+
+impl Sharing {
+    /// Of what the workers exchanged before and after so many steps in such a time; none of one alone.
+    pub fn of(before: &[Exchange], after: &[Exchange], steps: u64, time: Duration) -> Option<Self> {
+        let bytes: u64 = after.iter().zip(before).map(|(after, before)| after.halo_bytes - before.halo_bytes).sum();
+        let waited = after.iter().zip(before).map(|(after, before)| (after.waited - before.waited).as_secs_f64());
+        let worked: Vec<f64> = waited.map(|waited| 1.0 - waited / time.as_secs_f64()).collect();
+        let mean = worked.iter().sum::<f64>() / worked.len() as f64;
+        (worked.len() > 1).then(|| Self {
+            halo_bytes_per_step: bytes as f64 / steps as f64,
+            waiting: 1.0 - mean,
+            balance: mean / worked.iter().copied().fold(0.0, f64::max),
+        })
+    }
 }
 
 impl Measurement {
@@ -108,6 +142,7 @@ pub fn race(mut entries: Vec<Entry>, pace: Pace) -> Outcome<Vec<Measurement>> {
     let of_mesh = |mesh| steps.iter().filter(|(other, _)| *other == mesh).map(|(_, steps)| *steps).min().unwrap_or(1);
     let blocks: Vec<u64> = entries.iter().map(|entry| of_mesh(entry.mesh)).collect();
 
+    let before: Vec<_> = entries.iter().map(|entry| entry.runner.exchanges()).collect();
     let mut times = vec![Vec::with_capacity(pace.repeats); entries.len()];
     for repeat in 1..=pace.repeats {
         eprintln!("round {repeat} of {}", pace.repeats);
@@ -115,16 +150,22 @@ pub fn race(mut entries: Vec<Entry>, pace: Pace) -> Outcome<Vec<Measurement>> {
             times.push(entry.runner.advance(*steps)?.as_secs_f64() * 1e6 / *steps as f64);
         }
     }
-    let results = entries.into_iter().zip(blocks).zip(times);
-    let measurement = |((entry, steps_per_block), microseconds_per_step): ((Entry, u64), Vec<f64>)| Measurement {
-        load_evaluations_per_step: entry.runner.load_evaluations_per_step(),
-        name: entry.name,
-        against: entry.against,
-        mesh: entry.mesh,
-        workers: entry.workers,
-        steps_per_block,
-        microseconds_per_step,
-    };
+    let results = entries.into_iter().zip(blocks).zip(times).zip(before);
+    let measurement =
+        |(((entry, steps_per_block), microseconds_per_step), before): (((Entry, u64), Vec<f64>), Vec<_>)| {
+            let time = microseconds_per_step.iter().sum::<f64>() * steps_per_block as f64 * 1e-6;
+            let steps = steps_per_block * pace.repeats as u64;
+            Measurement {
+                sharing: Sharing::of(&before, &entry.runner.exchanges(), steps, Duration::from_secs_f64(time)),
+                load_evaluations_per_step: entry.runner.load_evaluations_per_step(),
+                name: entry.name,
+                against: entry.against,
+                mesh: entry.mesh,
+                workers: entry.workers,
+                steps_per_block,
+                microseconds_per_step,
+            }
+        };
     Ok(results.map(measurement).collect())
 }
 

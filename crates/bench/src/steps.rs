@@ -4,7 +4,7 @@ use std::time::{Duration, Instant};
 
 use plateau_core::engine::kernel::InstructionSet;
 use plateau_core::observe::Map;
-use plateau_core::simulation::{Execution, Simulation};
+use plateau_core::simulation::{Decomposition, Exchange, Execution, Simulation};
 
 use crate::case::{Case, MeshSize, Source};
 use crate::race::{Entry, Measurement, Runner, race};
@@ -33,7 +33,7 @@ pub fn kernel(session: &Session) -> Outcome<Found> {
     Ok((race(entries, session.pace)?, Vec::new()))
 }
 
-/// Times a step for every number of workers on meshes of several sizes.
+/// Times a step for every number of workers, with either decomposition, on meshes of several sizes.
 ///
 /// Strong scaling: every number of workers on every mesh, compared with one worker; one worker on larger meshes, compared with the
 /// first. Weak scaling: W workers on a mesh whose pin and ring have W times the columns, so that every worker has as many cells as
@@ -44,17 +44,29 @@ pub fn scaling(session: &Session) -> Outcome<Found> {
     let mut entries = Vec::new();
     for mesh in meshes {
         let (case, alone) = (session.source.on(mesh)?.case()?, entries.len());
-        for workers in &session.workers {
-            let against = if *workers == session.workers[0] { 0 } else { alone };
-            entries.push(entry("strong", against, mesh, *workers, simulation(&case, execution(*workers))?));
+        for (name, execution) in session.workers.iter().flat_map(|workers| ways("strong", *workers)) {
+            let against = if execution.workers == session.workers[0] { 0 } else { alone };
+            entries.push(entry(&name, against, mesh, execution.workers, simulation(&case, execution)?));
         }
     }
     for workers in session.workers.iter().filter(|workers| **workers > 1) {
         let mesh = session.mesh.longer(*workers);
         let case = session.source.on(mesh)?.case()?;
-        entries.push(entry("weak", 0, mesh, *workers, simulation(&case, execution(*workers))?));
+        for (name, execution) in ways("weak", *workers) {
+            entries.push(entry(&name, 0, mesh, *workers, simulation(&case, execution)?));
+        }
     }
     Ok((race(entries, session.pace)?, Vec::new()))
+}
+
+/// The decompositions for so many workers, with a name for each.
+fn ways(scaling: &str, workers: usize) -> Vec<(String, Execution)> {
+    if workers == 1 {
+        return vec![(scaling.to_owned(), execution(1))];
+    }
+    [(Decomposition::Sectors, "sectors"), (Decomposition::Bands, "bands")]
+        .map(|(decomposition, way)| (format!("{scaling}, {way}"), Execution { decomposition, ..execution(workers) }))
+        .to_vec()
 }
 
 fn entry(name: &str, against: usize, mesh: MeshSize, workers: usize, simulation: Simulation) -> Entry {
@@ -91,6 +103,10 @@ impl Runner for Simulation {
     fn load_evaluations_per_step(&self) -> Option<f64> {
         let course = self.course();
         (course.steps > 0).then(|| 1.0 + course.extra_readings as f64 / course.steps as f64)
+    }
+
+    fn exchanges(&self) -> Vec<Exchange> {
+        self.exchanges()
     }
 }
 

@@ -53,9 +53,9 @@ impl Results {
         let mut text = String::from(
             "| | mesh | workers | µs per step | range | ns per cell | load evaluations | against | ratio | range |",
         );
-        text += if is_shared { " efficiency |\n" } else { "\n" };
+        text += if is_shared { " efficiency | halo bytes per step | waiting | balance |\n" } else { "\n" };
         text += "|---|---|---:|---:|---:|---:|---:|---|---:|---:|";
-        text += if is_shared { "---:|\n" } else { "\n" };
+        text += if is_shared { "---:|---:|---:|---:|\n" } else { "\n" };
         for one in &self.measurements {
             text += &row(one, &self.measurements[one.against], is_shared);
         }
@@ -100,6 +100,10 @@ fn row(one: &Measurement, against: &Measurement, is_shared: bool) -> String {
     if is_shared {
         let workers = one.workers as f64 / against.workers as f64;
         cells.push(if workers > 1.0 { format!("{:.0} %", 100.0 / (ratio.median * workers)) } else { "–".to_owned() });
+        cells.extend(one.sharing.map_or(["–"; 3].map(str::to_owned), |sharing| {
+            let part = |part: f64| format!("{:.0} %", 100.0 * part);
+            [format!("{:.0}", sharing.halo_bytes_per_step), part(sharing.waiting), part(sharing.balance)]
+        }));
     }
     format!("| {} |\n", cells.join(" | "))
 }

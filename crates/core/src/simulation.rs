@@ -9,6 +9,7 @@ use std::sync::Arc;
 
 #[cfg(feature = "mpi")]
 use crate::engine::comm::Communicator as _;
+pub use crate::engine::comm::Exchange;
 #[cfg(feature = "mpi")]
 use crate::engine::comm::mpi::Mpi;
 pub use crate::engine::execution::{Decomposition, Engine, Execution};
@@ -247,6 +248,11 @@ impl Simulation {
     /// What the steps so far were like.
     pub fn course(&self) -> Course {
         self.workers.course()
+    }
+
+    /// What each worker thread exchanged with the others so far.
+    pub fn exchanges(&self) -> Vec<Exchange> {
+        self.workers.exchanges()
     }
 
     /// Steps done.

@@ -31,3 +31,14 @@ fn entries_alternate_and_are_compared_block_by_block() {
     // Ratios 3, 1/3, 3 of a step with four times as many cells.
     assert_eq!(made[2].ratio_to(&made[0]), Spread { minimum: 0.25 / 3.0, median: 0.75, maximum: 0.75 });
 }
+
+#[test]
+fn waiting_and_balance_are_those_of_the_blocks() {
+    let exchange = |waited, halo_bytes| Exchange { waited: Duration::from_millis(waited), halo_bytes };
+    let (before, after) = ([exchange(5, 100), exchange(5, 0)], [exchange(105, 700), exchange(305, 200)]);
+    // Of a second, 0.9 s and 0.7 s of work; 800 bytes in ten steps.
+    let shared = Sharing::of(&before, &after, 10, Duration::from_secs(1)).unwrap();
+    assert_eq!(shared.halo_bytes_per_step, 80.0);
+    assert!((shared.waiting - 0.2).abs() < 1e-12 && (shared.balance - 0.8 / 0.9).abs() < 1e-12, "{shared:?}");
+    assert_eq!(Sharing::of(&before[..1], &after[..1], 10, Duration::from_secs(1)), None);
+}

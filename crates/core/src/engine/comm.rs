@@ -4,6 +4,8 @@
 pub mod mpi;
 pub(crate) mod threads;
 
+use std::time::Duration;
+
 use thiserror::Error;
 
 use crate::model::error::SimulationError;
@@ -24,6 +26,15 @@ impl From<CommError> for SimulationError {
     fn from(error: CommError) -> Self {
         Self::Worker { message: error.to_string() }
     }
+}
+
+/// What a worker exchanged with the others so far.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Exchange {
+    /// Time in which it waited for them.
+    pub waited: Duration,
+    /// Bytes of the columns that it handed over boundaries between sectors.
+    pub halo_bytes: u64,
 }
 
 /// How a worker reaches the others.

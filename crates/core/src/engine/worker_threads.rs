@@ -8,7 +8,7 @@ use std::thread::JoinHandle;
 use crossbeam::channel::{Receiver, Sender, unbounded};
 
 use crate::engine::comm::threads::Alarm;
-use crate::engine::comm::{CommError, Communicator};
+use crate::engine::comm::{CommError, Communicator, Exchange};
 use crate::engine::worker::{EngineMemory, Worker};
 use crate::model::clock::Operation;
 use crate::model::error::SimulationError;
@@ -49,6 +49,7 @@ pub(crate) struct WorkerThreads {
     orders: Vec<Sender<Order>>,
     answers: Receiver<Result<Answer, SimulationError>>,
     threads: Vec<JoinHandle<()>>,
+    alarms: Vec<Alarm>,
     course: Course,
     /// Why there are no more answers.
     failure: Option<SimulationError>,
@@ -66,7 +67,8 @@ impl WorkerThreads {
         let cores = if pin { core_affinity::get_core_ids().unwrap_or_default() } else { Vec::new() };
         let (answer, answers) = unbounded();
         let (orders, threads) = (Vec::new(), Vec::new());
-        let mut started = Self { orders, answers, threads, course: Course::default(), failure: None };
+        let alarms = workers.iter().map(|(_, alarm)| alarm.clone()).collect();
+        let mut started = Self { orders, answers, threads, alarms, course: Course::default(), failure: None };
         for (rank, (worker, alarm)) in workers.into_iter().enumerate() {
             let (order, orders) = unbounded();
             let answer = (rank == 0).then(|| answer.clone());
@@ -158,6 +160,11 @@ impl WorkerThreads {
     /// What the steps so far were like.
     pub fn course(&self) -> Course {
         self.course
+    }
+
+    /// What each worker exchanged so far.
+    pub fn exchanges(&self) -> Vec<Exchange> {
+        self.alarms.iter().map(Alarm::exchange).collect()
     }
 }
 

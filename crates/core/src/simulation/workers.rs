@@ -4,10 +4,10 @@ use std::sync::Arc;
 
 use super::checkpoint::Checkpoint;
 use super::plain::Plain;
-use crate::engine::comm::Single;
 #[cfg(feature = "mpi")]
 use crate::engine::comm::mpi::Mpi;
 use crate::engine::comm::threads::Threads;
+use crate::engine::comm::{Exchange, Single};
 use crate::engine::execution::{Engine, Execution};
 use crate::engine::parts::Needs;
 use crate::engine::sector::Partition;
@@ -159,5 +159,13 @@ impl Workers {
     /// What the steps so far were like.
     pub fn course(&self) -> Course {
         call!(self, worker => worker.course())
+    }
+
+    /// What each thread exchanged with the others so far; one alone, nothing.
+    pub fn exchanges(&self) -> Vec<Exchange> {
+        match self {
+            Self::Threads(threads) => threads.exchanges(),
+            _ => vec![Exchange::default()],
+        }
     }
 }

@@ -10,14 +10,16 @@
 use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering, fence};
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use std::thread::{self, Thread};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use crossbeam::utils::CachePadded;
 
-use crate::engine::comm::{CommError, Communicator};
+use crate::engine::comm::{CommError, Communicator, Exchange};
 
 /// Looks at a counter before sleeping, where every worker has a core of its own: some 30 µs, several steps of a small mesh.
 const SPINS: u32 = 2000;
+/// Looks at a counter after which the clock is read: some 0.1 µs.
+const LOOKS_PER_TIME: u32 = 8;
 /// Words of a message that are gathered at a time.
 const WORDS_AT_A_TIME: usize = 4096;
 
@@ -43,6 +45,13 @@ impl Place {
     }
 }
 
+/// What a worker exchanged so far; nobody else writes it.
+#[derive(Debug, Default)]
+struct Exchanged {
+    waited_nanoseconds: AtomicU64,
+    halo_bytes: AtomicU64,
+}
+
 /// What the threads share.
 #[derive(Debug)]
 struct Shared {
@@ -51,6 +60,7 @@ struct Shared {
     /// A place for the column that crosses each boundary.
     halos: Vec<Place>,
     parking: Parking,
+    exchanged: Vec<CachePadded<Exchanged>>,
     failed: AtomicBool,
     failure: Mutex<Option<CommError>>,
     spins: u32,
@@ -79,6 +89,7 @@ impl Threads {
                 .collect(),
             halos: (0..boundaries).map(|boundary| Place::new(2 * workers + boundary, halo_words)).collect(),
             parking: Parking::new(workers),
+            exchanged: (0..workers).map(|_| CachePadded::default()).collect(),
             failed: AtomicBool::new(false),
             failure: Mutex::new(None),
             spins: if workers <= cores { SPINS } else { 0 },
@@ -101,7 +112,11 @@ impl Threads {
     /// Waits until `count` messages were written in a place.
     fn wait(&self, place: &Place, count: u64) -> Result<(), CommError> {
         let is_there = || place.written.load(Ordering::Acquire) >= count;
-        let mut looks = 0;
+        if is_there() {
+            return Ok(());
+        }
+        let (start, mut looks) = (Instant::now(), 0);
+        let mut waited = Duration::ZERO;
         while !is_there() {
             if self.shared.failed.load(Ordering::Relaxed) {
                 let failure = self.shared.failure.lock().unwrap_or_else(PoisonError::into_inner);
@@ -114,7 +129,12 @@ impl Threads {
                 self.shared.parking.sleep(self.rank, place.number, is_there);
             }
             looks = looks.saturating_add(1);
+            // On the way, not at the end, when there is work to do; and seldom, for some clocks are slow.
+            if looks % LOOKS_PER_TIME == 0 {
+                waited = start.elapsed();
+            }
         }
+        add(&self.shared.exchanged[self.rank].waited_nanoseconds, waited.as_nanos() as u64);
         Ok(())
     }
 
@@ -152,6 +172,7 @@ impl Communicator for Threads {
 
     fn send_halo(&mut self, boundary: usize, _to: usize, words: &[u64]) -> Result<(), CommError> {
         let place = &self.shared.halos[boundary];
+        add(&self.shared.exchanged[self.rank].halo_bytes, size_of_val(words) as u64);
         place.write(0, words);
         self.shared.parking.wake(place.number);
         Ok(())
@@ -187,7 +208,12 @@ impl Communicator for Threads {
     }
 }
 
-/// Tells the other threads that one failed, so that none waits for it.
+/// Adds to a number that only this thread changes.
+fn add(number: &AtomicU64, more: u64) {
+    number.store(number.load(Ordering::Relaxed) + more, Ordering::Relaxed);
+}
+
+/// Tells the other threads that one failed, so that none waits for it, and tells what that one exchanged.
 #[derive(Debug, Clone)]
 pub struct Alarm {
     rank: usize,
@@ -201,6 +227,15 @@ impl Alarm {
         failure.get_or_insert(CommError::Worker { worker: self.rank, message });
         self.shared.failed.store(true, Ordering::Release);
         self.shared.parking.wake_all();
+    }
+
+    /// What the worker exchanged so far.
+    pub fn exchange(&self) -> Exchange {
+        let Exchanged { waited_nanoseconds, halo_bytes } = &*self.shared.exchanged[self.rank];
+        Exchange {
+            waited: Duration::from_nanos(waited_nanoseconds.load(Ordering::Relaxed)),
+            halo_bytes: halo_bytes.load(Ordering::Relaxed),
+        }
     }
 }
 
