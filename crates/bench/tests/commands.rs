@@ -93,10 +93,16 @@ fn scaling_times_meshes_of_growing_size() {
     let alone = steps.iter().filter(|step| step["workers"] == 1).map(|step| step["mesh"]["rows"].as_u64());
     assert_eq!(alone.collect::<Vec<_>>(), [Some(20), Some(40)]);
     // More workers are compared with one on the same mesh, and one on a larger mesh with one on the first.
-    for step in steps.iter().filter(|step| step["name"] == "strong") {
+    let is_of = |step: &&Value, way: &str| step["name"].as_str().is_some_and(|name| name.starts_with(way));
+    for step in steps.iter().filter(|step| is_of(step, "strong")) {
         let against = &steps[step["against"].as_u64().expect("a place") as usize];
         assert_eq!(against["workers"], 1);
         assert!(step["workers"] == 1 && against == &steps[0] || step["mesh"] == against["mesh"], "{step}");
+    }
+    // Columns cross boundaries between sectors, none those between bands of rows.
+    for step in steps.iter().filter(|step| step["workers"] == 2) {
+        let crossing = step["sharing"]["halo_bytes_per_step"].as_f64().expect("halo bytes");
+        assert_eq!(crossing > 0.0, step["name"].as_str().is_some_and(|name| name.ends_with("sectors")), "{step}");
     }
 }
 

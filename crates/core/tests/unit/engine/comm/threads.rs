@@ -41,6 +41,7 @@ fn columns_cross_boundaries() {
             assert_eq!(words, [from as u64, round, 1]);
             end.all_gather(&[], &mut |_, _| ()).unwrap();
         }
+        assert_eq!(end.alarm().exchange().halo_bytes, 2000 * 3 * 8);
     });
 }
 
