@@ -33,7 +33,7 @@ impl From<CommError> for SimulationError {
 pub struct Exchange {
     /// Time in which it waited for them.
     pub waited: Duration,
-    /// Bytes of the columns that it handed over boundaries between sectors.
+    /// Bytes that it handed over boundaries between sectors.
     pub halo_bytes: u64,
 }
 
@@ -48,16 +48,16 @@ pub trait Communicator {
     /// How many workers there are.
     fn size(&self) -> usize;
 
-    /// Hands a pin column that crosses the lower boundary of sector `boundary` to worker `to`.
+    /// Hands what crosses a boundary between sectors to worker `to`.
     ///
-    /// It may arrive as late as [`Communicator::receive_halo`] asks for it; this call never waits for the receiver. At
-    /// most one column crosses a boundary between two calls of [`Communicator::all_gather`].
+    /// It may arrive as late as [`Communicator::receive_halo`] asks for it; this call never waits for the receiver. Messages of
+    /// different kinds have boundaries of their own: at most one crosses each between two calls of [`Communicator::all_gather`].
     ///
     /// # Errors
     /// [`CommError`] when a worker failed.
     fn send_halo(&mut self, boundary: usize, to: usize, words: &[u64]) -> Result<(), CommError>;
 
-    /// The column that worker `from` handed over at this boundary in this step.
+    /// What worker `from` handed over at this boundary in this step.
     ///
     /// # Errors
     /// [`CommError`] when a worker failed.

@@ -207,11 +207,11 @@ pub enum MpiError {
     StartedBefore,
     #[error("this MPI library gives thread support {found:?}, at least Funneled is needed: use one built with threads")]
     Threads { found: Threading },
-    #[error("the ring has a sector {boundary}, MPI tells at most {LARGEST_TAG} apart: use fewer ranks or columns")]
+    #[error("messages cross boundary {boundary}, MPI tells at most {LARGEST_TAG} apart: use fewer ranks or columns")]
     Boundary { boundary: usize },
     #[error("a message of {words} words, MPI takes at most {}: use a smaller mesh", Count::MAX)]
     Length { words: usize },
-    #[error("rank {from} sent {found} words for the boundary of sector {boundary}, expected {expected}")]
+    #[error("rank {from} sent {found} words across boundary {boundary}, expected {expected}")]
     Halo { from: usize, boundary: usize, found: usize, expected: usize },
 }
 

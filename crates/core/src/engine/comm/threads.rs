@@ -57,7 +57,7 @@ struct Exchanged {
 struct Shared {
     /// Two places for each worker's part of a gathering: while the slowest still reads one, the fastest writes the next.
     gathered: Vec<[Place; 2]>,
-    /// A place for the column that crosses each boundary.
+    /// A place for what crosses each boundary.
     halos: Vec<Place>,
     parking: Parking,
     exchanged: Vec<CachePadded<Exchanged>>,
@@ -80,7 +80,7 @@ pub struct Threads {
 }
 
 impl Threads {
-    /// The ends of `workers` threads that hand columns of `halo_words` words over `boundaries` boundaries.
+    /// The ends of `workers` threads that hand at most `halo_words` words over each of `boundaries` boundaries.
     pub fn connect(workers: usize, boundaries: usize, halo_words: usize) -> Vec<Self> {
         let cores = std::thread::available_parallelism().map_or(1, usize::from);
         let shared = Arc::new(Shared {

@@ -1,7 +1,5 @@
 //! Passing over the worker's columns, and handing on those that cross a boundary between sectors.
 
-use std::ops::Range;
-
 use super::Worker;
 use crate::engine::comm::Communicator;
 use crate::engine::contact::Contact;
@@ -13,10 +11,10 @@ use crate::engine::sector::{Partition, Segment};
 use crate::engine::strips::{PinStrips, strips};
 use crate::model::error::SimulationError;
 
-/// Words of a pin column of so many rows on its way to another worker, with what it loses where plateaus form.
+/// Words of the longest message about a boundary, on a mesh of so many rows.
 pub(crate) fn halo_words(rows: usize, needs: Needs) -> usize {
-    PinStrips::crossing_words(rows)
-        + if needs.forms { Edge::words(strips(rows), needs.transport.unwrap_or(1)) } else { 0 }
+    let edge = if needs.forms { Edge::words(strips(rows), needs.transport.unwrap_or(1)) } else { 0 };
+    PinStrips::crossing_words(rows).max(edge)
 }
 
 /// Columns at the end of a segment that depend on the next segment: a cell takes of an edge up to L columns ahead what up to L
@@ -54,16 +52,16 @@ impl<C: Communicator> Worker<C> {
     fn pass_over_all(&mut self, segments: &[Segment], bracket: Bracket) {
         for (number, segment) in segments.iter().enumerate() {
             // The next segment has not changed yet.
-            let ahead = segments.get(number + 1).and_then(|next| self.edge_of(next, 0, bracket));
-            self.pass_over_span(segment, 0..segment.pin.len(), bracket, ahead.as_ref());
+            let ahead = segments.get(number + 1).and_then(|next| self.edge_of(next, bracket));
+            self.pass_over_segment(segment, bracket, ahead.as_ref());
         }
     }
 
     /// Passes over segments whose neighbours belong to others.
     ///
-    /// The pin column over the first disc column of a sector lies over the sector before in the next step. It is passed over
-    /// first and handed on at once, with what it lost (model 4L); the last column of a segment waits for that of the next
-    /// segment.
+    /// What the first columns of a segment mean to the cells behind them (model 4L) is found and told first, from the state at the
+    /// start of the step. So each segment is passed over in one go. The pin column over the first disc column of a sector lies over
+    /// the sector before in the next step, and is handed on after that.
     fn pass_over_apart(
         &mut self,
         partition: &Partition,
@@ -71,54 +69,35 @@ impl<C: Communicator> Worker<C> {
         bracket: Bracket,
     ) -> Result<(), SimulationError> {
         let pin_columns = self.parameters.mesh.pin_columns();
-        let ends_pin = |segment: &Segment| segment.pin.end == pin_columns;
-        // A segment that begins with its sector is longer than what depends on the next, unless it ends the pin.
-        let crosses = |segment: &Segment| usize::from(segment.over == 0);
-        let waiting = waiting_columns(self.needs.transport);
-        let own = |segment: &Segment| match ends_pin(segment) {
-            true => segment.pin.len(),
-            false => segment.pin.len().saturating_sub(waiting),
-        };
-        for segment in segments.iter().filter(|segment| segment.over == 0) {
-            if let Some(edge) = self.edge_of(segment, 0, bracket) {
-                self.edges[segment.sector] = edge;
+        for segment in segments.iter().filter(|segment| segment.pin.start > 0) {
+            if let Some(edge) = self.edge_of(segment, bracket) {
+                self.tell_edge(segment.sector, edge)?;
             }
-            let ahead = self.edge_of(segment, 1, bracket);
-            self.pass_over_span(segment, 0..1, bracket, ahead.as_ref());
-            self.hand_on(segment)?;
         }
         for segment in segments {
-            let columns = crosses(segment)..own(segment);
-            if !columns.is_empty() {
-                let ahead = self.edge_of(segment, columns.end, bracket);
-                self.pass_over_span(segment, columns, bracket, ahead.as_ref());
+            let next = (segment.sector + 1) % partition.sectors();
+            let ahead = if segment.pin.end < pin_columns { self.edge_ahead(next)? } else { None };
+            self.pass_over_segment(segment, bracket, ahead.as_ref());
+            if let Some(ahead) = ahead {
+                self.edges[next] = ahead;
             }
+            self.hand_on(segment)?;
         }
         for entering in partition.entering(self.first()) {
             if self.sectors[entering.sector].is_some() && self.sectors[entering.from].is_none() {
                 self.take_over(entering.from, entering.pin)?;
             }
         }
-        for segment in segments.iter().filter(|segment| !ends_pin(segment)) {
-            let next = (segment.sector + 1) % partition.sectors();
-            let ahead = self.edges.get_mut(next).map(std::mem::take);
-            let columns = own(segment).max(crosses(segment))..segment.pin.len();
-            self.pass_over_span(segment, columns, bracket, ahead.as_ref());
-            if let Some(ahead) = ahead {
-                self.edges[next] = ahead;
-            }
-        }
         Ok(())
     }
 
-    /// What a column of a segment loses in this step, from its state at the start of it; none where nothing forms, or the pin
-    /// has no such column.
-    fn edge_of(&mut self, segment: &Segment, column: usize, bracket: Bracket) -> Option<Edge> {
-        let columns = segment.pin.len().checked_sub(column).filter(|columns| *columns > 0)?;
+    /// What the first columns of a segment mean to the cells behind them, from the state at the start of the step; none where
+    /// nothing forms.
+    fn edge_of(&mut self, segment: &Segment, bracket: Bracket) -> Option<Edge> {
         let sector = self.sectors[segment.sector].as_mut().filter(|_| self.needs.forms)?;
-        let mut edge = Edge::default();
-        let columns = columns.min(2 * self.needs.transport.unwrap_or(1));
-        let span = Span { first: segment.pin.start + column, over: segment.over + column, columns };
+        let mut edge = std::mem::take(&mut self.edges[segment.sector]);
+        let columns = segment.pin.len().min(2 * self.needs.transport.unwrap_or(1));
+        let span = Span { first: segment.pin.start, over: segment.over, columns };
         let conditions = conditions(&self.contact, &self.debris, bracket, self.rows.start, None);
         let Self { instructions, rules, pin, moved, .. } = self;
         (self.edge_of)(*instructions, rules, &conditions, pin, sector, span, moved, &mut edge);
@@ -139,15 +118,11 @@ impl<C: Communicator> Worker<C> {
         }
     }
 
-    /// Passes over some columns of a segment; `ahead` is the column ahead of the last of them.
-    fn pass_over_span(&mut self, segment: &Segment, columns: Range<usize>, bracket: Bracket, ahead: Option<&Edge>) {
+    /// Passes over a segment; `ahead` is what lies ahead of it.
+    fn pass_over_segment(&mut self, segment: &Segment, bracket: Bracket, ahead: Option<&Edge>) {
         let conditions = conditions(&self.contact, &self.debris, bracket, self.rows.start, ahead);
         let Some(sector) = &mut self.sectors[segment.sector] else { return };
-        let span = Span {
-            first: segment.pin.start + columns.start,
-            over: segment.over + columns.start,
-            columns: columns.len(),
-        };
+        let span = Span { first: segment.pin.start, over: segment.over, columns: segment.pin.len() };
         (self.pass)(
             self.instructions,
             &self.rules,
@@ -155,10 +130,38 @@ impl<C: Communicator> Worker<C> {
             &mut self.pin,
             sector,
             span,
-            columns.start > 0 || segment.joined,
+            segment.joined,
             &mut self.moved,
             &mut self.reading,
         );
+    }
+
+    /// Tells the worker of the sector before what lies ahead of its segment.
+    fn tell_edge(&mut self, sector: usize, edge: Edge) -> Result<(), SimulationError> {
+        let to = self.partition.owner(self.partition.before(sector), self.band);
+        if to != self.communicator.rank() {
+            self.halo.clear();
+            edge.write(&mut self.halo);
+            self.communicator.send_halo(self.boundary(sector).edge, to, &self.halo)?;
+        }
+        self.edges[sector] = edge;
+        Ok(())
+    }
+
+    /// What lies ahead of a segment: a sector, of this worker or of another, which has told it; none where nothing forms.
+    fn edge_ahead(&mut self, sector: usize) -> Result<Option<Edge>, SimulationError> {
+        if !self.needs.forms {
+            return Ok(None);
+        }
+        let mut edge = std::mem::take(&mut self.edges[sector]);
+        let owner = self.partition.owner(sector, self.band);
+        if owner != self.communicator.rank() {
+            let columns = self.needs.transport.unwrap_or(1);
+            self.halo.resize(Edge::words(strips(self.rows.len()), columns), 0);
+            self.communicator.receive_halo(self.boundary(sector).edge, owner, &mut self.halo)?;
+            edge.read(columns, &self.halo);
+        }
+        Ok(Some(edge))
     }
 
     /// Hands the first pin column of a segment to the worker over whose sector it lies in the next step.
@@ -167,31 +170,33 @@ impl<C: Communicator> Worker<C> {
         if segment.over == 0 && to != self.communicator.rank() {
             self.halo.clear();
             self.pin.write_crossing(segment.pin.start, &mut self.halo);
-            if let Some(edge) = self.edges.get(segment.sector) {
-                edge.write(&mut self.halo);
-            }
-            self.communicator.send_halo(self.boundary(segment.sector), to, &self.halo)?;
+            self.communicator.send_halo(self.boundary(segment.sector).column, to, &self.halo)?;
         }
         Ok(())
     }
 
     /// Takes over a pin column that another worker has passed over.
     fn take_over(&mut self, from: usize, column: usize) -> Result<(), SimulationError> {
-        let crossing = PinStrips::crossing_words(self.rows.len());
-        self.halo.resize(halo_words(self.rows.len(), self.needs), 0);
-        let (boundary, owner) = (self.boundary(from), self.partition.owner(from, self.band));
-        self.communicator.receive_halo(boundary, owner, &mut self.halo)?;
-        self.pin.read_crossing(column, &self.halo[..crossing]);
-        if let Some(edge) = self.edges.get_mut(from) {
-            edge.read(self.needs.transport.unwrap_or(1), &self.halo[crossing..]);
-        }
+        self.halo.resize(PinStrips::crossing_words(self.rows.len()), 0);
+        let owner = self.partition.owner(from, self.band);
+        self.communicator.receive_halo(self.boundary(from).column, owner, &mut self.halo)?;
+        self.pin.read_crossing(column, &self.halo);
         Ok(())
     }
 
     /// The lower boundary of the worker's band of a sector.
-    fn boundary(&self, sector: usize) -> usize {
-        sector * self.partition.bands() + self.band
+    fn boundary(&self, sector: usize) -> Boundary {
+        let boundary = sector * self.partition.bands() + self.band;
+        Boundary { edge: 2 * boundary, column: 2 * boundary + 1 }
     }
+}
+
+/// A boundary between workers, by the messages that cross it.
+struct Boundary {
+    /// What lies ahead of it.
+    edge: usize,
+    /// The column that turns across it.
+    column: usize,
 }
 
 /// What a pass must know of a step; `ahead` is the column ahead of the last.
