@@ -37,13 +37,13 @@ class Course:
 
 def courses(subjects: Sequence[Subject], name: str, unit: Unit, rubbing: bool = False) -> list[Course]:
     """A series of runs in a unit, if wanted with gaps where nothing rubs; three or more that differ in seeds alone become one."""
-    found, every = [], pandas.Series(subjects, dtype=object)
-    for _, own in every.groupby([one.scene_without_seeds for one in subjects], sort=False):
-        is_mean = own.map(lambda one: str(one.run.attrs.get("seeds"))).nunique() == len(own) > 2
+    found = []
+    for _, own in pandas.Series(subjects, dtype=object).groupby([one.scene_without_seeds for one in subjects], sort=False):
+        is_mean = len({str(one.run.attrs.get("seeds")) for one in own}) == len(own) > 2
         for some in [[*own]] if is_mean else [[one] for one in own]:
             time = min((one.time for one in some), key=lambda time: float(time[-1]))
             values = [one.while_rubbing(unit.value(one.values(name))) if rubbing else unit.value(one.values(name)) for one in some]
-            columns = {number: np.interp(time, one.time, column) for number, (one, column) in enumerate(zip(some, values, strict=True))}
+            columns = np.transpose([np.interp(time, one.time, column) for one, column in zip(some, values, strict=True)])
             label = f"{some[0].run.attrs.get('title', some[0].label)}: mean of {len(own)} seeds" if is_mean else some[0].label
             found.append(Course(some[0], label, pandas.DataFrame(columns, time)))
     return found

@@ -81,16 +81,13 @@ def friction(drawing: Drawing, subjects: list[Subject]) -> list[Any]:
     for course in shown:
         draw(left, course, time, duration)
     unit = unit_of("Pa", np.concatenate([subject.values("mean_pressure") for subject in subjects]))
-    every = np.array([])
     for subject in subjects:
-        pressure, coefficient = unit.value(subject.values("mean_pressure")), subject.while_rubbing(subject.values("friction_coefficient"))
-        touching = np.flatnonzero((pressure > 0) & np.isfinite(coefficient))
-        touching = touching[:: max(1, math.ceil(len(touching) / MOST_MARKS))]
-        mark = {"color": subject.line["color"], "markersize": 2, "markeredgewidth": 0, "alpha": 0.7}
-        right.plot(pressure[touching], coefficient[touching], subject.line.get("marker", "o"), **mark)
-        every = np.append(every, pressure[touching])
-    right.set_xscale("log" if every.size and every.max() > 20 * every.min() else "linear")
-    right.set(xlabel=f"mean contact pressure, {unit.symbol}", xlim=(None if right.get_xscale() == "log" else 0, None))
+        steps = pandas.Series(subject.while_rubbing(subject.values("friction_coefficient")), unit.value(subject.values("mean_pressure")))
+        steps = steps[steps.notna() & (steps.index > 0)]
+        steps = steps[:: max(1, math.ceil(len(steps) / MOST_MARKS))]
+        right.plot(steps, subject.line.get("marker", "o"), color=subject.line["color"], markersize=2, markeredgewidth=0, alpha=0.7)
+    is_wide = right.dataLim.x1 > 20 * right.dataLim.x0
+    right.set(xscale="log" if is_wide else "linear", xlabel=f"mean contact pressure, {unit.symbol}", xlim=(None if is_wide else 0, None))
     left.set_ylabel("coefficient of friction")
     time_axis([left], subjects)
     note = note_of(shown, duration, f"{REVOLUTION}, weighted by load", f"dots: single steps, at most {MOST_MARKS} of a run")
@@ -99,8 +96,8 @@ def friction(drawing: Drawing, subjects: list[Subject]) -> list[Any]:
 
 def in_panels(drawing: Drawing, subjects: list[Subject], names: Sequence[str], unit: Unit, caption: str, what: str) -> list[Any]:
     """Draws series of one unit: those of a single run in one panel, of several each in its own."""
-    every = {name: courses([subject for subject in subjects if subject.has(f"series/{name}")], name, unit) for name in names}
-    found = {name: shown for name, shown in every.items() if shown}
+    having = {name: [subject for subject in subjects if subject.has(f"series/{name}")] for name in names}
+    found = {name: courses(those, name, unit) for name, those in having.items() if those}
     # Temperatures have peaks that nothing may take away.
     durations = {name: 0.0 if unit is CELSIUS else calm(shown) for name, shown in found.items()}
     count, duration = 1 if drawing.only else len(found), max(durations.values())
@@ -126,32 +123,31 @@ filled = partial(in_panels, names=FILLED, unit=PERCENT, caption="Filled part of 
 
 def debris(drawing: Drawing, subjects: list[Subject]) -> list[Any]:
     """Where the wear debris is, stacked, with all that was worn; below it the same without what was emitted."""
+    every = [pandas.DataFrame({name: one.values(name) for name in (*PARTS, *SOURCES)}, one.time) for one in subjects]
     # At the start there was none.
-    every = [{name: np.insert(subject.values(name), 0, 0.0) for name in (*PARTS, *SOURCES)} for subject in subjects]
-    there = [name for name in PARTS if any(np.any(parts[name] > 0) for parts in every)]
+    every = [parts.reindex(np.insert(parts.index, 0, 0.0), fill_value=0.0) for parts in every]
+    is_there = pandas.concat(every).gt(0).any()
+    there = [name for name in PARTS if is_there[name]]
     kept = [name for name in there if name != "emitted"]
-    line = "worn off" + (", or back from plateaus that broke away" if any(np.any(parts["returned"] > 0) for parts in every) else "")
+    line = "worn off" + (", or back from plateaus that broke away" if is_there["returned"] else "")
     columns, figures = min(len(subjects), drawing.columns(3)), list[Any]()
     for first in range(0, len(subjects), columns):
         figure, axes = drawing.panels(2 * columns, 49, "Balance of the wear debris", columns, sharex=True, sharey="row")
-        shown = subjects[first : first + columns]
         time_axis(axes, subjects)
         for names, sums, title, row in ((there, SOURCES, "debris", axes[:columns]), (kept, kept, "not emitted", axes[columns:])):
-            totals = [np.sum([parts[name] for name in sums] or [np.zeros(1)], axis=0) for parts in every]
-            unit = unit_of("m3", np.concatenate(totals))
-            labels = [SERIES[name].title.removesuffix(" of the simulated pin") for name in names]
-            for axis, subject, parts, total in zip(row, shown, every[first:], totals[first:], strict=False):
-                at = np.insert(time_of(subjects).value(subject.time), 0, 0.0)
-                chosen = np.append(np.arange(0, len(at) - 1, math.ceil(len(at) / MOST)), len(at) - 1)
-                if names:
-                    stack = [unit.value(parts[name][chosen]) for name in names]
-                    axis.stackplot(at[chosen], stack, colors=[PARTS[name] for name in names], labels=labels, linewidth=0)
-                if names is there:
-                    axis.plot(at[chosen], unit.value(total[chosen]), color="black", label=line)
-                    axis.set_title("" if drawing.only else wrapped(subject.label, 90 // columns), loc="left")
-            row[0].set(ylim=(0, 1.05 * unit.value(max(map(np.max, totals))) or 1), ylabel=f"{title}, {unit.symbol}")
-            for axis in row[len(shown) :]:
+            highest = max(parts[[*sums]].sum(axis=1).max() for parts in every)
+            unit, labels = unit_of("m3", highest), [SERIES[name].title.removesuffix(" of the simulated pin") for name in names]
+            row[0].set(ylim=(0, 1.05 * unit.value(highest) or 1), ylabel=f"{title}, {unit.symbol}")
+            for axis in row[len(subjects) - first :]:
                 axis.set_visible(False)
+            for axis, subject, parts in zip(row, subjects[first:], every[first:], strict=False):
+                shown = parts.iloc[np.append(np.arange(0, len(parts) - 1, math.ceil(len(parts) / MOST)), len(parts) - 1)]
+                at = time_of(subjects).value(shown.index)
+                if names:
+                    axis.stackplot(at, unit.value(shown[names].T), colors=[PARTS[name] for name in names], labels=labels, linewidth=0)
+                if names is there:
+                    axis.plot(at, unit.value(shown[[*sums]].sum(axis=1)), color="black", label=line)
+                    axis.set_title("" if drawing.only else wrapped(subject.label, 90 // columns), loc="left")
         for axis in axes:
             axis.label_outer()
         note = "Sums since the start: debris that was deposited, worn off and deposited again counts twice"
@@ -193,10 +189,9 @@ def emission(drawing: Drawing, subjects: list[Subject]) -> list[Any]:
 
 def rates(subject: Subject, name: str, most: int) -> Any:
     """What a total grows for each second in windows of equally many samples, by their starts, s; the last twice, for its end."""
-    total = pandas.Series(subject.values(name), subject.time)
-    ends = pandas.concat([pandas.Series([0.0], [0.0]), in_windows(total, most).tail(1)])
-    ends = ends[~ends.index.duplicated()]
-    return pandas.Series(np.diff(ends) / np.diff(ends.index), ends.index[:-1]).reindex(ends.index).ffill()
+    ends = in_windows(pandas.Series(subject.values(name), subject.time), most).tail(1)
+    ends = pandas.concat([pandas.Series({0.0: 0.0}), ends[ends.index > 0]])
+    return (ends.diff() / ends.index.diff()).shift(-1).ffill()
 
 
 def per_metre(subject: Subject, name: str) -> Any:
