@@ -101,8 +101,8 @@ def _table(data: xarray.Dataset, *axes: str) -> pandas.DataFrame:
 
 def _tables(run: xarray.DataTree) -> dict[str, pandas.DataFrame]:
     """Series, and events if there are any."""
-    tables, events = {"series": _table(_of(run, "series"), "time")}, _of(run, "event")
-    if events:
+    tables = {"series": _table(_of(run, "series"), "time")}
+    if events := _of(run, "event"):
         tables["events"] = _table(events).set_axis(pandas.RangeIndex(1, events.sizes["event"] + 1, name="event")).reset_index()
     return tables
 

@@ -1,5 +1,6 @@
 """What the figures of runs have in common: the runs with their names and lines, the moments that are shown, what is left out."""
 
+import functools
 import json
 import math
 from collections.abc import Sequence
@@ -30,7 +31,7 @@ class Subject:
         self.map_time = times = np.asarray(run["map_time"].values) if "map_time" in run.variables else np.array([])
         self.moments = sorted({int(np.argmin(np.abs(times - time))) for time in at} or {0, len(times) - 1}) if times.size else []
 
-    @property
+    @functools.cached_property
     def scene_without_seeds(self) -> str:
         """The scene without its seeds and its output, in words that are equal where these scenes are."""
         tables = json.dumps(self.run.plateau.scene | {"output": 0}, sort_keys=True, default=str)
