@@ -68,8 +68,10 @@ def export(
     path = followed(named_like(tree, endings[0]) if output is None else Path(output))
     if path.suffix.lower() not in ("", *endings) and to != "vtk":
         raise InputError(f"-o {path}: {to} is written to a file whose name ends in {' or '.join(endings)}, such as {path.stem}{endings[0]}")
-    writers: dict[str, Callable[..., Files]] = {"xlsx": _xlsx, "npz": _npz, "netcdf": _netcdf, "vtk": _vtk, "csv": _csv}
-    files = writers[to](tree, path, **({"with_maps": maps, "sep": sign, "decimal": decimal} if to == "csv" else {}))
+    if to in ("csv", "vtk"):
+        files = _vtk(tree) if to == "vtk" else _csv(tree, path, maps, sep=sign, decimal=decimal)
+    else:
+        files = {path.name: partial({"xlsx": _xlsx, "npz": _npz, "netcdf": _netcdf}[to], tree)}
     folder = path if to == "vtk" else path.parent
     with all_or_none(folder, files, force, inputs_of([tree])) as places:
         for write, place in zip(files.values(), places, strict=True):
@@ -99,8 +101,8 @@ def _table(data: xarray.Dataset, *axes: str) -> pandas.DataFrame:
 
 def _tables(run: xarray.DataTree) -> dict[str, pandas.DataFrame]:
     """Series, and events if there are any."""
-    tables, events = {"series": _table(_of(run, "series"), "time")}, _of(run, "event")
-    if events:
+    tables = {"series": _table(_of(run, "series"), "time")}
+    if events := _of(run, "event"):
         tables["events"] = _table(events).set_axis(pandas.RangeIndex(1, events.sizes["event"] + 1, name="event")).reset_index()
     return tables
 
@@ -116,24 +118,20 @@ def _csv(run: xarray.DataTree, path: Path, with_maps: bool, **marks: str) -> Fil
     return {path.name if name == "series" else f"{path.stem}-{name}{path.suffix}": partial(write, name=name) for name in names}
 
 
-def _xlsx(run: xarray.DataTree, path: Path) -> Files:
+def _xlsx(run: xarray.DataTree, place: Path) -> None:
     tables = _tables(run)
     about = [(name, line) for name in ("title", "state", "program", "scene") for line in str(run.attrs.get(name, "")).splitlines()]
     tables["about"] = pandas.DataFrame(about, columns=["what", "text"])
     if (most := max(map(len, tables.values()))) > MOST_ROWS:
         raise InputError(f"a table of {most} rows: a sheet of Excel has {MOST_ROWS} below its heads; take csv or npz")
-
-    def write(place: Path) -> None:
-        # Texts stay texts: nothing is a formula or a link.
-        options = dict.fromkeys(("strings_to_formulas", "strings_to_urls", "strings_to_numbers"), False)
-        with pandas.ExcelWriter(place, engine="xlsxwriter", engine_kwargs={"options": options}) as book:
-            for name, table in tables.items():
-                table.to_excel(book, sheet_name=name, index=False, freeze_panes=(1, 1))
-
-    return {path.name: write}
+    # Texts stay texts: nothing is a formula or a link.
+    options = dict.fromkeys(("strings_to_formulas", "strings_to_urls", "strings_to_numbers"), False)
+    with pandas.ExcelWriter(place, engine="xlsxwriter", engine_kwargs={"options": options}) as book:
+        for name, table in tables.items():
+            table.to_excel(book, sheet_name=name, index=False, freeze_panes=(1, 1))
 
 
-def _npz(run: xarray.DataTree, path: Path) -> Files:
+def _npz(run: xarray.DataTree, place: Path) -> None:
     """Arrays one after the other: `numpy.savez` needs all of them in memory, and its compression takes long."""
     no_times = xarray.DataArray(np.empty(0), attrs={"units": "s"})
     arrays: dict[str, Any] = {name: run.get(name, no_times) for name in ("time", "radius", "disc_angle", "pin_angle", "map_time")}
@@ -141,31 +139,26 @@ def _npz(run: xarray.DataTree, path: Path) -> Files:
         named = {str(name) if group == "series" else f"{group}_{name}": values for name, values in _of(run, group).data_vars.items()}
         arrays |= {ARRAYS.get(name, name): values for name, values in named.items()}
     units = json.dumps({name: str(values.attrs.get("units", "1")) for name, values in arrays.items()}, sort_keys=True)
-    texts = {name: str(run.attrs.get(name, "")) for name in ("title", "state", "scene")} | {"units": units}
-
-    def write(place: Path) -> None:
-        with zipfile.ZipFile(place, "w", zipfile.ZIP_DEFLATED, compresslevel=1) as archive:
-            for name, values in (arrays | texts).items():
-                with archive.open(f"{name}.npy", "w", force_zip64=True) as file:
-                    # What a part reads does not stay in memory.
-                    found = np.asarray(values if isinstance(values, str) else values[...])
-                    np.lib.format.write_array(file, found.astype(found.dtype.str), allow_pickle=False)
-
-    return {path.name: write}
+    arrays |= {name: str(run.attrs.get(name, "")) for name in ("title", "state", "scene")} | {"units": units}
+    with zipfile.ZipFile(place, "w", zipfile.ZIP_DEFLATED, compresslevel=1) as archive:
+        for name, values in arrays.items():
+            with archive.open(f"{name}.npy", "w", force_zip64=True) as file:
+                # What a part reads does not stay in memory.
+                found = np.asarray(values if isinstance(values, str) else values[...])
+                np.lib.format.write_array(file, found.astype(found.dtype.str), allow_pickle=False)
 
 
-def _netcdf(run: xarray.DataTree, path: Path) -> Files:
+def _netcdf(run: xarray.DataTree, place: Path) -> None:
     """A map after the other, statuses as plain integers."""
-    plain = run.copy()
+    plain, small = run.copy(), {"zlib": True, "complevel": 1}
     for body in ("disc", "pin"):
         for name, values in _of(run, body).data_vars.items():
             plain[f"{body}/{name}"] = values.astype(values.dtype.str) if values.dtype.metadata else values
-    small = {"zlib": True, "complevel": 1}
     encoding = {node.path: {name: small for name, values in node.data_vars.items() if values.size} for node in plain.subtree}
-    return {path.name: lambda place: plain.to_netcdf(place, engine="h5netcdf", encoding=encoding)}
+    plain.to_netcdf(place, engine="h5netcdf", encoding=encoding)
 
 
-def _vtk(run: xarray.DataTree, path: Path) -> Files:
+def _vtk(run: xarray.DataTree) -> Files:
     from pyevtk.hl import gridToVTK
     from pyevtk.vtk import VtkGroup
 

@@ -205,11 +205,11 @@ class MapAccessor:
         shown = MAPS.get(path, other)
         title = shown.title + (f", {moment(float(cells['map_time']))}" if "map_time" in cells.coords else "")
         picture = maps.picture_of(maps.in_unit(cells.transpose("radius", self._angle), shown), polar, title)
+        maps.colour(shown, [picture], options.pop("cmap") if isinstance(options.get("cmap"), str) else "viridis")
         # What is asked for holds.
-        scale = maps.scale_of(shown, [picture], options.pop("cmap") if isinstance(options.get("cmap"), str) else "viridis")
-        norm = scale.colours["norm"]
+        norm = picture.colours["norm"]
         norm.vmin, norm.vmax = options.pop("vmin", norm.vmin), options.pop("vmax", norm.vmax)
-        picture.scale = scale._replace(colours=scale.colours | options)
+        picture.colours |= options
         legend = [(STATUS_COLOURS[value], name) for value, name in names.items() if value != ABSENT]
         if ax is not None:
             maps.in_axes(ax, picture, legend)

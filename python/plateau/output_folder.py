@@ -130,7 +130,10 @@ def all_or_none(folder: Path, names: Iterable[str], force: bool, inputs: tuple[P
     except OSError as error:
         if folder.exists() and not folder.is_dir():
             raise InputError(f"{folder} is a file, expected a folder; name another one with -o") from error
-        raise RunFailed(f"cannot write into {folder}: {error.strerror or error}; name another place with -o") from error
+        # HDF5 gives no number where a run file cannot be read.
+        if error.errno is None:
+            raise
+        raise RunFailed(f"cannot write into {folder}: {error.strerror}; name another place with -o") from error
 
 
 def put_together(folder: Path, files: Mapping[str, bytes], force: bool, inputs: tuple[Path, ...] = ()) -> None:

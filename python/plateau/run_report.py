@@ -158,12 +158,9 @@ class Told:
         for name in ("disc_temperature", "contact_temperature"):
             if math.isfinite(value := self.largest(name)):
                 yield f"The largest {SERIES[name].title} is {_short(CELSIUS, value)}"
-        for name in ("pm10_mass", "pm25_mass"):
-            if math.isfinite(mass := self.last(name)):
-                yield f"The {SERIES[name].title}, is {_short(unit_for('kg', mass), mass)}"
-        for name in ("brake_pm10_per_distance", "brake_pm25_per_distance", "pad_wear_per_distance", "pad_life"):
+        for name in ("pm10_mass", "pm25_mass", "brake_pm10_per_distance", "brake_pm25_per_distance", "pad_wear_per_distance", "pad_life"):
             if math.isfinite(value := self.last(name)):
-                yield f"The {SERIES[name].title}, is {_short(SERIES[name].unit, value)}"
+                yield f"The {SERIES[name].title}, is {_short(unit_for('kg', value) if name.startswith('pm') else SERIES[name].unit, value)}"
         if math.isfinite(self.area.value):
             share = self.area.value / self.pin_area
             part = f", {100 * share:.3g} % of the pin" if math.isfinite(share) else ""

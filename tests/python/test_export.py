@@ -254,6 +254,18 @@ class Export(unittest.TestCase):
         with xarray.open_datatree("damaged.nc", engine="h5netcdf") as found:
             self.assertEqual(found["pin/status"][1, 3, 4], 9)
 
+    def test_what_cannot_be_read_is_not_laid_on_the_folder(self):
+        shutil.copy(self.made, "damaged.h5")
+        with h5py.File("damaged.h5") as file:
+            chunk = file["series/contact_area"].id.get_chunk_info(0)
+        with open("damaged.h5", "r+b") as file:
+            file.seek(chunk.byte_offset)
+            file.write(bytes(chunk.size))
+        for to in ("xlsx", "npz", "netcdf"):
+            with self.subTest(to), self.assertRaisesRegex(OSError, "^Can't .*read data"):
+                plateau.export("damaged.h5", to)
+        self.assertEqual(os.listdir(), ["damaged.h5"])
+
     def test_runs_with_few_samples(self):
         changes = {"operation.duration": "2 s", "output.sample_every": "1 s"}
         plateau.run(QUICK, "two.h5", set=changes)

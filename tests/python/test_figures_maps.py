@@ -183,7 +183,9 @@ class Maps(InFolder):
     def test_pressures_that_differ_very_much_have_a_logarithmic_scale(self):
         def scale(values):
             cells = xarray.DataArray(np.array(values) * 1.0, {"radius": [0.02, 0.021], "pin_angle": [0.0, 0.1]}, ["radius", "pin_angle"])
-            return maps.scale_of(maps.MAPS["pin/pressure"], [maps.picture_of(cells, False)], "viridis").colours["norm"]
+            picture = maps.picture_of(cells, False)
+            maps.colour(maps.MAPS["pin/pressure"], [picture], "viridis")
+            return picture.colours["norm"]
 
         # A cell that carries a thousandth of the load does not make the scale logarithmic, nor is the least pressure its begin.
         self.assertEqual((type(scale([[0.01, 10], [10, 10]])).__name__, scale([[0.01, 10], [10, 10]]).vmax), ("Normalize", 10))

@@ -10,7 +10,7 @@ from plateau.errors import InputError, UnknownNameError
 from plateau.figures import maps, series
 from plateau.figures.distributions import heights, plateau_sizes
 from plateau.figures.drawing import Drawing, subjects_of
-from plateau.opened_runs import Run, opened
+from plateau.opened_runs import Run, note, opened
 from plateau.style import Figures, in_style
 from plateau.units import quantity
 
@@ -105,5 +105,6 @@ def drawn(runs: Sequence[xarray.DataTree], names: Sequence[str] = (), at: Sequen
         missing = [f"{path} has {what}" for path, what in drawing.left_out]
         said = ", ".join(missing) or f"it needs runs of scenes with {' or '.join(NEEDS[name] for name in names if name in NEEDS)}"
         raise InputError(f"nothing to draw of the figure {' or '.join(names)}: {said}")
-    drawing.say_left_out()
+    for (path, what), parts in drawing.left_out.items():
+        note(f"{path} has {what}: left out of {', '.join(parts)}")
     return figures

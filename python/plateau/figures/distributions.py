@@ -1,15 +1,15 @@
 """How sizes of contact spots and plateaus, and heights, are distributed at the first and the last map."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 
-from plateau import style
-from plateau.figures.drawing import Drawing, Subject
+from plateau.figures.drawing import Drawing, Subject, moment
 from plateau.quantities import MAPS
 from plateau.run_file import array
+from plateau.style import look
 from plateau.units import unit_of
 
 SECONDARY = 2
@@ -24,7 +24,7 @@ MOST_WITH_FIRST = 2
 Found = list[tuple[Subject, int, Any]]
 
 
-def _found(drawing: Drawing, path: str, values: Any) -> Found:
+def _found(drawing: Drawing, path: str, values: Callable[..., Any]) -> Found:
     """What a function gives of run, path and cells of a map, those of a column in a row, for the runs that have it."""
     return [
         (subject, -place, values(subject, path, array(subject.run, path).isel(map_time=index).transpose(..., "radius").values))
@@ -36,16 +36,16 @@ def _found(drawing: Drawing, path: str, values: Any) -> Found:
 def _look(drawing: Drawing, subject: Subject, place: int) -> dict[str, Any]:
     """How the line of a moment is drawn: of a single run each in its colour, of several all but the last paler."""
     if drawing.only:
-        return style.look(place) | {"label": subject.moment(subject.moments[-1 - place])}
-    return {**subject.line, "label": subject.label} | ({"alpha": 0.4, "marker": None, "label": None} if place else {})
+        return look(place) | {"label": moment(subject.map_time[subject.moments[-1 - place]])}
+    return subject.line | ({"alpha": 0.4, "marker": None, "label": None} if place else {"label": subject.label})
 
 
-def _note(drawing: Drawing, found: Found) -> str:
-    """Which maps the lines of several runs are of."""
-    lasts, firsts = ({subject.moment(subject.moments[end]) for subject, *_ in found} for end in (-1, 0))
-    ends = {"Last map": lasts} | ({"paler: first map": firsts} if any(place for _, place, _ in found) else {})
-    said = "; ".join(f"{end}, {next(iter(times))}" if len(times) == 1 else end for end, times in ends.items())
-    return "" if drawing.only else said
+def _explained(drawing: Drawing, figure: Any, axis: Any, found: Found) -> list[Any]:
+    """A figure with its legend, and with what the lines of several runs are of."""
+    ends = {"Last map": -1} | ({"paler: first map": 0} if any(place for _, place, _ in found) else {})
+    times = {name: {moment(subject.map_time[subject.moments[end]]) for subject, *_ in found} for name, end in ends.items()}
+    said = "; ".join(f"{name}, {next(iter(own))}" if len(own) == 1 else name for name, own in times.items())
+    return drawing.explained(figure, axis, "" if drawing.only else said)
 
 
 def areas_of(belongs: Any, radii: Any, angle: float, is_ring: bool) -> Any:
@@ -62,7 +62,7 @@ def areas_of(belongs: Any, radii: Any, angle: float, is_ring: bool) -> Any:
     return np.sort(areas[areas > 0])
 
 
-def plateau_sizes(drawing: Drawing, subjects: Sequence[Subject]) -> list[Any]:
+def plateau_sizes(drawing: Drawing, subjects: list[Subject]) -> list[Any]:
     """Number of contact spots, and of secondary plateaus, that are at least as large as an area, at the first and the last map."""
 
     def areas(subject: Subject, path: str, cells: Any) -> Any:
@@ -91,10 +91,10 @@ def plateau_sizes(drawing: Drawing, subjects: Sequence[Subject]) -> list[Any]:
         axis.set(xlabel=f"area, {unit.symbol}", ylabel="number at least as large")
         axis.label_outer()
     axes[0].set(xscale="log", yscale="log", xlim=(0.7 * least, 1.5 * largest), ylim=(0.7, 1.6 * max(most, 10)))
-    return drawing.explained(figure, axes[0], _note(drawing, every))
+    return _explained(drawing, figure, axes[0], every)
 
 
-def heights(drawing: Drawing, subjects: Sequence[Subject]) -> list[Any]:
+def heights(drawing: Drawing, subjects: list[Subject]) -> list[Any]:
     """Distribution of the heights of disc and pin, and the Abbott-Firestone curve."""
     bodies, is_peaked = {}, False
     for path in ("disc/height", "pin/height"):
@@ -122,4 +122,4 @@ def heights(drawing: Drawing, subjects: Sequence[Subject]) -> list[Any]:
             axis.set(ylim=(edges[0], edges[-1]), ylabel=f"{body.body}: {body.what}, {body.unit.symbol}")
         left.set(xscale="log" if is_peaked else "linear", xlabel=f"cells, % per {body.unit.symbol}")
         right.set(xlim=(0, 100), xlabel="material ratio, %")
-    return drawing.explained(figure, axes[0], _note(drawing, next(iter(bodies.values()))[0]))
+    return _explained(drawing, figure, axes[0], next(iter(bodies.values()))[0])

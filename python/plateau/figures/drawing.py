@@ -11,7 +11,7 @@ import numpy as np
 import xarray
 
 from plateau.errors import InputError
-from plateau.opened_runs import labels_of, note
+from plateau.opened_runs import labels_of
 from plateau.quantities import MAP_KEYS
 from plateau.run_file import array, source
 from plateau.style import MARKERS, MM, NARROW, WIDE, look, new, noted, plain
@@ -21,22 +21,15 @@ from plateau.units import Unit, unit_of
 HIGHEST, LINE, MOST_LINES = 235.0, 3.6, 3
 
 
-@dataclass(frozen=True, eq=False)
 class Subject:
     """A run with what it is called, its place among the runs, and the times of its maps, s, with the indices of those that are shown."""
 
-    run: xarray.DataTree
-    label: str
-    number: int
-    is_only: bool
-    map_time: Any
-    moments: Sequence[int]
-    is_chosen: bool
-
-    @functools.cached_property
-    def time(self) -> Any:
-        """Times of the samples, s."""
-        return np.asarray(array(self.run, "time").values)
+    def __init__(self, run: xarray.DataTree, label: str, number: int, is_only: bool, at: Sequence[float]) -> None:
+        self.run, self.label, self.number, self.is_only, self.is_chosen = run, plain(label), number, is_only, bool(at)
+        # Times of the samples, s.
+        self.time = np.asarray(array(run, "time").values)
+        self.map_time = times = np.asarray(run["map_time"].values) if "map_time" in run.variables else np.array([])
+        self.moments = sorted({int(np.argmin(np.abs(times - time))) for time in at} or {0, len(times) - 1}) if times.size else []
 
     @functools.cached_property
     def scene_without_seeds(self) -> str:
@@ -71,10 +64,6 @@ class Subject:
         """Values of a contact, NaN while the pin is lifted or the disc stands still, because revolution means are then older."""
         rubs = not self.has_cycle or (self.values("normal_force") != 0) & (self.values("rotational_speed") != 0)
         return np.where(rubs, values, np.nan)
-
-    def moment(self, index: int) -> str:
-        """The time of a map, in words."""
-        return moment(float(self.map_time[index]))
 
 
 def moment(seconds: float) -> str:
@@ -123,11 +112,6 @@ class Drawing:
         """Notes what a run does not have of the figure that is drawn."""
         self.left_out.setdefault((source(subject.run), missing), {})[self.name] = None
 
-    def say_left_out(self) -> None:
-        """Warns of what was left out."""
-        for (path, missing), figures in self.left_out.items():
-            note(f"{path} has {missing}: left out of {', '.join(figures)}", stacklevel=5)
-
     def panels(self, count: int, height: float, caption: str, columns: int = 2, usual: float | None = None, **options: Any) -> tuple[Any, Any]:
         """Makes a figure, at least two thirds as wide as usual, mm, with panels of this height in so many columns at most; gives their axes."""
         if self.ax is not None:
@@ -161,9 +145,4 @@ class Drawing:
 
 def subjects_of(runs: Sequence[xarray.DataTree], at: Sequence[float] = ()) -> list[Subject]:
     """Opened runs as they are drawn, with the maps that were recorded nearest to times, s, or with the first and the last."""
-    subjects = []
-    for number, (run, label) in enumerate(zip(runs, labels_of(runs), strict=True)):
-        times = np.asarray(run["map_time"].values) if "map_time" in run.variables else np.array([])
-        shown = [int(np.argmin(np.abs(times - time))) for time in at] or [0, len(times) - 1] if times.size else []
-        subjects.append(Subject(run, plain(label), number, len(runs) == 1, times, sorted({*shown}), bool(at)))
-    return subjects
+    return [Subject(run, label, number, len(runs) == 1, at) for number, (run, label) in enumerate(zip(runs, labels_of(runs), strict=True))]

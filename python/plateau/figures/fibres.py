@@ -43,28 +43,21 @@ def fibre_map(folder: str | os.PathLike[str]) -> Figures:
         half = [0.5e3 * length for length in found["picture"]]
         meanings += _micrograph(axes[0, 0], micrograph, fibre, half, found["is_tiled"])
     colours = ListedColormap([RESIN, FIBRE, GROUND, GROUND])
-    own = axes[0, 1]
-    own.imshow(base, cmap=colours, vmin=0, vmax=3, interpolation="nearest", extent=(-x, x, -y, y))
-    own.set_title("base of the pin", loc="left")
-    if found["is_tiled"]:
-        for draw, end, part in ((own.axvline, x, half[0]), (own.axhline, y, half[1])):
-            outward = np.arange(part, end, 2 * part)
-            for place in np.append(-outward, outward) if outward.size <= MOST_SEAMS else []:
-                draw(place, **SEAM)
-    _edge(own, found["leading_edge"])
+    own, (ring, near) = axes[0, 1], axes[1]
     scale = unit_for("m", max(abs(part) for part in disc.central(0.005)))
-    placed = np.ma.masked_equal(base, 3)
-    for axis, is_near in zip(axes[1], (False, True), strict=True):
-        drawn = _ring(axis, found, disc, scale, is_near)
-        axis.imshow(placed, cmap=colours, vmin=0, vmax=3, interpolation="nearest", extent=(-x, x, -y, y), zorder=3)
-        _edge(axis, found["leading_edge"])
-        if is_near:
-            room = BESIDE * 2 * x
-            axis.set(xlim=(-x - room, x + room), ylim=(-y - 0.5 * room, y + 0.5 * room))
-            axis.annotate("", (x + 0.9 * room, 0), (x + 0.1 * room, 0), arrowprops={"arrowstyle": "->", "color": "black", "linewidth": 1.5}, zorder=4)
-            axis.set_title("the same, near the pin; arrow: sliding", loc="left")
-        else:
-            axis.set_title("pin on the ring", loc="left")
+    for axis, title in ((own, "base of the pin"), (ring, "pin on the ring"), (near, "the same, near the pin; arrow: sliding")):
+        drawn = None if axis is own else _ring(axis, found, disc, scale, axis is near)
+        shown, above = (base, 0) if axis is own else (np.ma.masked_equal(base, 3), 3)
+        axis.imshow(shown, cmap=colours, vmin=0, vmax=3, interpolation="nearest", extent=(-x, x, -y, y), zorder=above)
+        axis.plot(*(1e3 * np.array(found["leading_edge"])).T, color=PIN, linewidth=2, zorder=4)
+        axis.set_title(title, loc="left")
+    for draw, end, part in ((own.axvline, x, half[0]), (own.axhline, y, half[1])) if found["is_tiled"] else ():
+        outward = np.arange(part, end, 2 * part)
+        for place in np.append(-outward, outward) if outward.size <= MOST_SEAMS else []:
+            draw(place, **SEAM)
+    room = BESIDE * 2 * x
+    near.set(xlim=(-x - room, x + room), ylim=(-y - 0.5 * room, y + 0.5 * room))
+    near.annotate("", (x + 0.9 * room, 0), (x + 0.1 * room, 0), arrowprops={"arrowstyle": "->", "color": "black", "linewidth": 1.5}, zorder=4)
     figure.colorbar(drawn, ax=list(axes[1]), location="bottom", aspect=60, extend="both", label=f"height of the disc, {scale.symbol}")
     for axis in (axis for axis in figure.axes if axis in axes):
         axis.set(xlabel="x, mm", ylabel="y, mm")
@@ -90,11 +83,6 @@ def _micrograph(axis: Any, micrograph: Any, fibre: Any, half: list[float], is_ti
     return [Line2D([], [], color=OUTLINE, label="outline of what was taken for fibre")]
 
 
-def _edge(axis: Any, points: list[list[float]]) -> None:
-    """The leading edge of the pin."""
-    axis.plot(*(1e3 * np.array(points)).T, color=PIN, linewidth=2, zorder=4)
-
-
 def _ring(axis: Any, found: dict[str, Any], disc: Surface, scale: Any, is_near: bool) -> Any:
     """Heights of the disc, of the whole ring or near the pin, with the seams of its tiles."""
     rows, columns = disc.heights.shape
@@ -111,15 +99,14 @@ def _ring(axis: Any, found: dict[str, Any], disc: Surface, scale: Any, is_near: 
     angles = first + step * np.append(taken[::every], taken[-1] + 1)
     radii = inner + high * np.minimum(np.arange(heights.shape[0] + 1) * over / rows, 1.0)
     low, top = scale.value(np.array(disc.central(0.005)))
-    places = 1e3 * radii[:, None] * np.sin(angles), 1e3 * (radii[:, None] * np.cos(angles) - mean)
-    drawn = axis.pcolormesh(*places, heights, vmin=low, vmax=max(top, low + 1e-9), cmap="viridis", rasterized=True)
+
+    def places(radius: Any, angle: Any) -> tuple[Any, Any]:
+        return 1e3 * radius * np.sin(angle), 1e3 * (radius * np.cos(angle) - mean)
+
+    drawn = axis.pcolormesh(*places(radii[:, None], angles), heights, vmin=low, vmax=max(top, low + 1e-9), cmap="viridis", rasterized=True)
     axis.set_aspect("equal")
-    seams = found["seams"]
-    if len(seams["angles"]) <= MOST_SEAMS:
-        for angle in seams["angles"]:
-            at, ends = first + angle, np.array([inner, inner + high])
-            axis.plot(1e3 * ends * np.sin(at), 1e3 * (ends * np.cos(at) - mean), **SEAM)
-    if len(seams["radii"]) <= MOST_SEAMS:
-        for radius in seams["radii"]:
-            axis.plot(1e3 * radius * np.sin(angles), 1e3 * (radius * np.cos(angles) - mean), **SEAM)
+    seams = [(np.array([inner, inner + high]), first + angle) for angle in found["seams"]["angles"] if len(found["seams"]["angles"]) <= MOST_SEAMS]
+    seams += [(radius, angles) for radius in found["seams"]["radii"] if len(found["seams"]["radii"]) <= MOST_SEAMS]
+    for radius, angle in seams:
+        axis.plot(*places(radius, angle), **SEAM)
     return drawn

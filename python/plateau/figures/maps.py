@@ -2,14 +2,14 @@
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from itertools import zip_longest
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 import xarray
 
-from plateau.figures.drawing import Drawing, Subject
+from plateau.figures.drawing import Drawing, Subject, moment
 from plateau.quantities import MAPS, STATUSES, Map
 from plateau.run_file import array
 from plateau.style import APART, GROUND, MM, NARROW, STATUS_COLOURS, WIDE, labelled, wrapped
@@ -44,27 +44,21 @@ FIGURES = {
     "contact-temperature": (("pin/temperature",), HOT),
 }
 Legend = Sequence[tuple[str, str]]
-LEGEND = [(colour, f"{name}: {made_of}") for colour, (name, made_of) in zip(STATUS_COLOURS, STATUSES, strict=False)]
-LEGEND.append((FILM_COLOUR, "the same, thinner than 0.1 µm"))
-
-
-class Scale(NamedTuple):
-    """Colours that maps share, and the label of their bar; statuses have a legend."""
-
-    colours: dict[str, Any]
-    label: str = ""
+LEGEND = [*zip(STATUS_COLOURS, map(": ".join, STATUSES)), (FILM_COLOUR, "the same, thinner than 0.1 µm")]
 
 
 @dataclass
 class Picture:
-    """A map as it is drawn: in the unit that is shown, row by row from the inside, NaN where there is no cell; edges of cells, rad and mm."""
+    """A map as it is drawn: in the unit that is shown, row by row from the inside, NaN where there is no cell; edges of cells, rad and mm;
+    colours, which maps share, and the label of their bar; statuses have a legend."""
 
     values: Any
     angles: Any
     radii: Any
     form: str
     title: str = ""
-    scale: Scale = Scale({})
+    colours: dict[str, Any] = field(default_factory=dict)
+    label: str = ""
 
     def corners(self) -> tuple[Any, Any]:
         """Corners of the cells, mm, of a map that is not unrolled."""
@@ -108,38 +102,36 @@ def picture_of(cells: xarray.DataArray, is_polar: bool, title: str = "") -> Pict
     return Picture(values, edges[1], edges[0], POLAR if is_polar else ARCS if is_round else UNROLLED, title)
 
 
-def scale_of(shown: Map, pictures: Sequence[Picture], cmap: str) -> Scale:
-    """The colours that maps share, of which each counts as much as the others; `FIGURES` tells their ends: few cells do not decide."""
+def colour(shown: Map, pictures: Sequence[Picture], cmap: str) -> None:
+    """Gives maps common colours, for which each counts as much as the others; `FIGURES` tells their ends: few cells do not decide."""
     import matplotlib
     from matplotlib.colors import ListedColormap, LogNorm, Normalize
 
-    if shown.colours == "statuses":
-        statuses = ListedColormap([*STATUS_COLOURS[:FILM], FILM_COLOUR]).with_extremes(bad=GROUND)
-        return Scale({"cmap": statuses, "norm": Normalize(-0.5, FILM + 0.5)})
     # What is apart is not grey among greys.
     apart, name = ("#bfdcf2", "blue") if cmap == "greys" else (APART, "grey")
-    is_pressure, is_span = shown.path == "pin/pressure", shown.colours == "span"
-    values, weights = [np.array([])], [np.array([])]
-    for picture in pictures:
-        counted = np.isfinite(picture.values) if is_span else picture.values > 0
-        areas = np.broadcast_to(picture.radii[1:, None] + picture.radii[:-1, None], counted.shape)[counted]
-        values.append(picture.values[counted])
-        weights.append(values[-1] * areas if is_pressure else np.ones(areas.size))
-        weights[-1] /= weights[-1].sum() or 1.0
-    every = np.concatenate(values)
-    order = np.argsort(every)
-    shares = np.cumsum(np.concatenate(weights)[order])
-    low, high = every[order][np.searchsorted(shares, np.array([BEYOND, 1 - BEYOND]) * shares[-1])] if every.size else (0.0, 1.0)
-    if is_span:
-        # What rounding makes of equal values is no range.
+    is_pressure, is_span, norm, label = shown.path == "pin/pressure", shown.colours == "span", Normalize(-0.5, FILM + 0.5), ""
+    colours: Any = ListedColormap([*STATUS_COLOURS[:FILM], FILM_COLOUR]).with_extremes(bad=GROUND)
+    if shown.colours != "statuses":
+        values, weights = [np.array([])], [np.array([])]
+        for picture in pictures:
+            counted = np.isfinite(picture.values) if is_span else picture.values > 0
+            areas = np.broadcast_to(picture.radii[1:, None] + picture.radii[:-1, None], counted.shape)[counted]
+            values.append(picture.values[counted])
+            weights.append(values[-1] * areas if is_pressure else np.ones(areas.size))
+            weights[-1] /= weights[-1].sum() or 1.0
+        every = np.concatenate(values)
+        order = np.argsort(every)
+        shares = np.cumsum(np.concatenate(weights)[order])
+        low, high = every[order][np.searchsorted(shares, np.array([BEYOND, 1 - BEYOND]) * shares[-1])] if every.size else (0.0, 1.0)
+        # What rounding makes of equal values is no range; else zero is below the colours.
         around = 0.01 if high - low <= 1e-9 * max(abs(low), abs(high)) else 0.0
-        norm = Normalize(low - around, high + around)
-    else:
-        # Zero is below the colours.
-        norm = LogNorm(low, high) if is_pressure and high > MOST_LINEAR * low > 0 else Normalize(1e-12 * high, high)
-    colours: Any = matplotlib.colormaps["Greys_r" if cmap == "greys" else cmap].with_extremes(under=None if is_span else apart, bad=GROUND)
-    colours.colorbar_extend = "both" if is_span else "max"
-    return Scale({"cmap": colours, "norm": norm}, labelled(shown.what, shown.unit.symbol) + ("" if is_span else f"\n{name}: {ZERO[shown.path]}"))
+        is_wide = is_pressure and high > MOST_LINEAR * low > 0
+        norm = Normalize(low - around, high + around) if is_span else LogNorm(low, high) if is_wide else Normalize(1e-12 * high, high)
+        colours = matplotlib.colormaps["Greys_r" if cmap == "greys" else cmap].with_extremes(under=None if is_span else apart, bad=GROUND)
+        colours.colorbar_extend = "both" if is_span else "max"
+        label = labelled(shown.what, shown.unit.symbol) + ("" if is_span else f"\n{name}: {ZERO[shown.path]}")
+    for picture in pictures:
+        picture.colours, picture.label = {"cmap": colours, "norm": norm}, label
 
 
 def draw_map(panels: Sequence[Any], picture: Picture, size: tuple[float, float], letters: int, stretch: float) -> Any:
@@ -147,10 +139,10 @@ def draw_map(panels: Sequence[Any], picture: Picture, size: tuple[float, float],
     from matplotlib.colors import LogNorm
     from matplotlib.ticker import MaxNLocator
 
-    values, radii, colours = picture.values, picture.radii, picture.scale.colours
-    low: Any = colours["norm"].vmin
+    values, radii, colours = picture.values, picture.radii, picture.colours
     if isinstance(colours["norm"], LogNorm):
         # Zero has no logarithm, and what is low has the lowest colour.
+        low: Any = colours["norm"].vmin
         values = np.where(values > 0, np.maximum(values, low), np.where(values == 0, 1e-3 * low, values))
     ends = np.linspace(0, values.shape[1], len(panels) + 1).astype(int)
     for panel, begin, end in zip(panels, ends[:-1], ends[1:], strict=True):
@@ -191,17 +183,17 @@ def pages(rows: Sequence[Sequence[Picture | None]], width: float, caption: str, 
     """Lays out rows of maps in equal columns on pages of this width, mm."""
     room, columns = width - (EDGE if legend else BAR), 1 if width < 0.8 * WIDE else 2
     letters = int((room / max(map(len, rows)) - LEFT) / LETTER)
-    # By the identity of their colours: a scale, what a bar belongs to, and where that begins, ends and stands.
-    figures, bars = list[Any](), dict[int, tuple[Scale, Any, float, float, float]]()
+    # By the identity of their colours: the label of a bar, what it belongs to, and where that begins, ends and stands.
+    figures, bars = list[Any](), dict[int, tuple[str, Any, float, float, float]]()
 
     def add(left: float, top: float, wide: float, high: float) -> Any:
         return figures[-1].add_axes((left / width, 1 - (top + high) / PAGE, wide / width, high / PAGE))
 
     def finish(end: float) -> None:
-        for scale, drawn, top, bottom, right in bars.values():
+        for label, drawn, top, bottom, right in bars.values():
             high = max(min(bottom - top, LONGEST), SHORTEST)
             bar, end = add(right + 2.5, top, 3.0, high), max(end, top + high + 2.0)
-            figures[-1].colorbar(drawn, cax=bar, label=_wrapped(scale.label, high))
+            figures[-1].colorbar(drawn, cax=bar, label=_wrapped(label, high))
         for axes in figures[-1].axes:
             box = axes.get_position(original=True)
             axes.set_position((box.x0, 1 - (1 - box.y0) * PAGE / end, box.width, box.height * PAGE / end))
@@ -228,8 +220,8 @@ def pages(rows: Sequence[Sequence[Picture | None]], width: float, caption: str, 
             panels = [add(left, top + number * (high + NUMBERS + 1), wide, high) for number in range(count)]
             drawn = draw_map(panels, one, (wide, high), letters, stretch)
             if not legend:
-                _, _, begin, _, right = bars.get(id(one.scale), (None, None, top, 0.0, 0.0))
-                bars[id(one.scale)] = one.scale, drawn, begin, top + maps, max(right, left + wide)
+                _, _, begin, _, right = bars.get(id(drawn.norm), (None, None, top, 0.0, 0.0))
+                bars[id(drawn.norm)] = one.label, drawn, begin, top + maps, max(right, left + wide)
         top += maps + below
     finish(top)
     return figures
@@ -245,7 +237,7 @@ def in_axes(ax: Any, picture: Picture, legend: Legend) -> None:
     if legend:
         _legend(ax, legend, bbox_to_anchor=(1.02, 1), borderaxespad=0)
     else:
-        ax.figure.colorbar(drawn, ax=ax, label=picture.scale.label)
+        ax.figure.colorbar(drawn, ax=ax, label=picture.label)
 
 
 def in_unit(cells: xarray.DataArray, shown: Map) -> xarray.DataArray:
@@ -263,23 +255,15 @@ def _read(subject: Subject, path: str, index: int) -> xarray.DataArray:
     return thickness.where(~(thickness < LEAST), 0.0)
 
 
-def _moments(drawing: Drawing, shown: Map) -> dict[int, Sequence[int]]:
-    """The moments that are shown by the numbers of the runs: of a map of the contact, unless told, the first and the last that have one."""
-    is_thickness, of_contact = shown.what == "thickness", shown.path in ("pin/pressure", "pin/temperature")
-    found = dict[int, Sequence[int]]()
-    needed = [f"{shown.body}/{name}" for name in ("height", "substrate")] if is_thickness else [shown.path]
-    # Temperatures of cells are recorded on request.
-    for subject in drawing.having(*needed, is_part=shown.path == "pin/temperature"):
-        own = subject.moments[-1:] if is_thickness and not subject.is_chosen else subject.moments
-        if of_contact:
-            order = own if subject.is_chosen else np.flatnonzero(subject.map_time > 0).tolist()
-            touching = (index for index in order if _read(subject, shown.path, index).max() > 0)
-            last = (index for index in order[::-1] if _read(subject, shown.path, index).max() > 0)
-            own = [*touching] if subject.is_chosen else sorted({next(touching, -1), next(last, -1)} - {-1})
-        found[subject.number] = own
-        if not own:
-            drawing.leave_out(subject, f"no map {shown.what} with a contact {'then' if subject.is_chosen else 'after the start'}")
-    return found
+def _moments(drawing: Drawing, subject: Subject, shown: Map) -> Sequence[int]:
+    """The moments of a run that are shown: of a map of the contact, unless told, the first and the last that have one."""
+    if shown.path not in ("pin/pressure", "pin/temperature"):
+        return subject.moments[-1:] if shown.what == "thickness" and not subject.is_chosen else subject.moments
+    order = subject.moments if subject.is_chosen else np.flatnonzero(subject.map_time > 0).tolist()
+    touching = [index for index in order if _read(subject, shown.path, index).max() > 0]
+    if not touching:
+        drawing.leave_out(subject, f"no map {shown.what} with a contact {'then' if subject.is_chosen else 'after the start'}")
+    return touching if subject.is_chosen else sorted({*touching[:1], *touching[-1:]})
 
 
 def _said(subject: Subject, shown: Map, index: int, recorded: xarray.DataArray, cells: xarray.DataArray) -> str:
@@ -312,18 +296,17 @@ def draw_maps(drawing: Drawing, _: Sequence[Subject], paths: Sequence[str], capt
     found: dict[tuple[str, int], list[Picture]] = {}
     for path in paths:
         shown, pictures = MAPS[path], list[Picture]()
-        for number, indices in _moments(drawing, shown).items():
-            subject = drawing.subjects[number]
-            for index in indices:
+        needed = [f"{shown.body}/{name}" for name in ("height", "substrate")] if shown.what == "thickness" else [path]
+        # Temperatures of cells are recorded on request.
+        for subject in drawing.having(*needed, is_part=path == "pin/temperature"):
+            for index in _moments(drawing, subject, shown):
                 recorded = _read(subject, path, index)
                 cells = in_unit(recorded, shown)
-                run, when = "" if drawing.only else f"{subject.label}\n", subject.moment(index).replace(" ", "\u00a0")
+                run, when = "" if drawing.only else f"{subject.label}\n", moment(subject.map_time[index]).replace(" ", "\u00a0")
                 title = f"{run}{shown.body.capitalize()}, {when}{_said(subject, shown, index, recorded, cells)}"
                 pictures.append(picture_of(cells, drawing.polar and shown.body == "disc", title))
-                found.setdefault((path, number), []).append(pictures[-1])
-        scale = scale_of(shown, pictures, drawing.cmap)
-        for picture in pictures:
-            picture.scale = scale
+                found.setdefault((path, subject.number), []).append(pictures[-1])
+        colour(shown, pictures, drawing.cmap)
     legend = LEGEND if "disc/status" in paths else ()
     if found and drawing.ax is not None:
         figure, _ = drawing.panels(sum(map(len, found.values())), NARROW, caption)

@@ -1,21 +1,27 @@
-"""Figures of series against time: contact area, friction, temperatures, filling and coverage, debris, emission."""
+"""Figures of series against time: contact area, friction, temperatures, filling and coverage, debris, emission. Lines are means of very
+many samples, or of runs that differ in seeds alone; single steps and events are beside them."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
 import numpy as np
 import pandas
 
-from plateau.figures.courses import BAND, MOST, Course, calm, courses, draw, draw_steps, in_windows, note_of, time_axis, time_of
 from plateau.figures.drawing import Drawing, Subject, moment
 from plateau.quantities import CELSIUS, KMH, MM2, NUMBER, PERCENT, SERIES
-from plateau.style import NARROW, WIDE, look, wrapped
+from plateau.run_file import array
+from plateau.style import APART, NARROW, WIDE, look, wrapped
 from plateau.units import Unit, quantity, unit_of
 
-# Windows of emission, at most.
-MOST_OF_EMISSION = 60
+# Windows of time in which samples are put together, at most; those of a cycle, whose events are short; of emission.
+MOST, MOST_OF_CYCLE, MOST_OF_EMISSION = 250, 1500, 60
+# Samples of a window of which a band tells the extent, at least; the parts of them that are below its ends.
+LEAST_OF_BAND, BAND = 20, (0.05, 0.95)
+# A line that goes up and down by more than so many times its range is a weighted mean over this part of the longest run.
+MOST_WAY, PART, MOST_EVENTS = 3.0, 1 / 16, 100
 # Runs whose single steps are drawn; samples that are marked: at most. Higher single steps, over the highest mean, are beyond the axis.
 MOST_BANDS, MOST_MARKS, CEILING = 3, 200, 1.6
 # Debris in the order of the stack from below; what it comes from.
@@ -26,6 +32,127 @@ TEMPERATURES = ("contact_temperature_max", "contact_temperature_heated", "contac
 FILLED = ("filled_fraction", "disc_secondary", "pin_secondary", "pin_primary")
 # Airborne: what panels show, with the prefix of its unit, and the name of each line.
 AIRBORNE = {"airborne mass": ("kg ", {"pm10_mass": "PM10", "pm25_mass": "PM2.5"}), "number of airborne particles": ("", {"particle_number": ""})}
+
+
+@dataclass
+class Course:
+    """A series of a run, in the unit that is shown, by its times, s; of runs that differ in seeds alone a column for each."""
+
+    subject: Subject
+    label: str
+    values: Any
+
+    def __post_init__(self) -> None:
+        self.duration = float(self.values.index[-1] - self.values.index[0])
+        # A band would have too few samples, or go over the gaps of a cycle: each sample is drawn.
+        self.is_short = len(self.values) <= MOST or self.subject.has_cycle
+
+
+def courses(subjects: Sequence[Subject], name: str, unit: Unit, rubbing: bool = False) -> list[Course]:
+    """A series of runs in a unit, if wanted with gaps where nothing rubs; three or more that differ in seeds alone become one."""
+    found = []
+    for _, own in pandas.Series(subjects, dtype=object).groupby([one.scene_without_seeds for one in subjects], sort=False):
+        is_mean = len({str(one.run.attrs.get("seeds")) for one in own}) == len(own) > 2
+        for some in [[*own]] if is_mean else [[one] for one in own]:
+            time = min((one.time for one in some), key=lambda time: float(time[-1]))
+            values = [one.while_rubbing(unit.value(one.values(name))) if rubbing else unit.value(one.values(name)) for one in some]
+            columns = np.transpose([np.interp(time, one.time, column) for one, column in zip(some, values, strict=True)])
+            label = f"{some[0].run.attrs.get('title', some[0].label)}: mean of {len(own)} seeds" if is_mean else some[0].label
+            found.append(Course(some[0], label, pandas.DataFrame(columns, time)))
+    return found
+
+
+def in_windows(values: Any, most: int) -> Any:
+    """Samples in at most so many groups of equally many that follow each other."""
+    return values.groupby(np.arange(len(values)) // max(1, math.ceil(len(values) / most)))
+
+
+def line_of(course: Course, duration: float) -> Any:
+    """A line by time: means in windows, or over a duration, s, that fits twice into a run without a cycle, with weights that fall to zero.
+
+    Windows are at the mean time of samples with a value. Such weights need as many values behind as before, so the line ends earlier.
+    """
+    most, values = MOST_OF_CYCLE if course.subject.has_cycle else MOST, course.values
+    times = pandas.DataFrame({"known": values.index.where(values.notna().all(axis=1)), "all": values.index})
+    times = in_windows(times, most).mean()
+    line = in_windows(values, most).mean().set_index(times["known"].fillna(times["all"]))
+    beside = round(duration * (len(line) - 1) / (course.duration or 1) / 2)
+    if beside < 2 or 2 * duration > course.duration or course.subject.has_cycle:
+        return line
+
+    def around(at: int) -> Any:
+        reach = min(beside - 1, at)
+        return np.average(line.to_numpy()[at - reach : at + reach + 1], axis=0, weights=np.bartlett(2 * reach + 3)[1:-1])
+
+    return pandas.DataFrame([around(at) for at in range(len(line) + 1 - beside)], line.index[: len(line) + 1 - beside])
+
+
+def calm(every: Sequence[Course]) -> float:
+    """How long means are, s: 0 for windows, more if a line goes up and down all along, as with the place on the disc: it looks like waves."""
+    long = [one for one in every if not one.is_short]
+    lines = [one.values.mean(axis=1).to_numpy() for one in long]
+    is_any = any(np.nansum(np.abs(np.diff(line))) > MOST_WAY * np.ptp(line) for line in lines)
+    return PART * max(one.duration for one in long) if is_any else 0.0
+
+
+def draw(axis: Any, course: Course, time: Unit, duration: float, is_exact: bool = False, **options: Any) -> float:
+    """Draws the line of a course, or exactly its values, and the range of seeds; gives the largest value."""
+    line = course.values if is_exact else line_of(course, duration)
+    at, values = time.value(line.index), line.mean(axis=1, skipna=False)
+    options = {"label": course.label, **course.subject.line, **options}
+    axis.plot(at, values, **options)
+    # A value alone between two gaps makes no line.
+    alone = values.notna() & values.shift().isna() & values.shift(-1).isna()
+    if alone.any():
+        axis.plot(at[alone], values[alone], ".", color=options["color"], markersize=1.5)
+    if line.shape[1] > 1:
+        axis.fill_between(at, line.min(axis=1), line.max(axis=1), color=options["color"], alpha=0.2, linewidth=0)
+    return float(np.nan_to_num(line).max(initial=0.0))
+
+
+def draw_steps(axis: Any, course: Course, time: Unit, duration: float, label: str | None) -> float:
+    """Draws single steps as dots, or, where they are very many, as a band between percentiles; gives the highest."""
+    values, look = course.values[0], {"color": course.subject.line["color"], "label": label}
+    if course.is_short:
+        # Very many are pixels, in drawings of lines, too.
+        look |= {"markersize": 1.3, "markeredgewidth": 0, "rasterized": len(values) > MOST_OF_CYCLE}
+        axis.plot(time.value(values.index), values, "o", alpha=0.35, **look)
+        return float(np.nan_to_num(values).max(initial=0.0))
+    most = min(MOST, len(values) // LEAST_OF_BAND, *([round(2 * course.duration / duration)] if duration else []))
+    at = np.concatenate([values.index[:1], in_windows(values.index.to_series(), most).mean(), values.index[-1:]])
+    low, high = (np.pad(in_windows(values, most).quantile(part), 1, "edge") for part in BAND)
+    axis.fill_between(time.value(at), low, high, alpha=0.2, linewidth=0, **look)
+    return float(np.nan_to_num(high).max(initial=0.0))
+
+
+def time_of(subjects: Sequence[Subject]) -> Unit:
+    """The unit of the time of all runs."""
+    return unit_of("s", max(float(subject.time[-1]) for subject in subjects))
+
+
+def time_axis(axes: Iterable[Any], subjects: Sequence[Subject]) -> None:
+    """Gives axes the time of all runs, and shades the events of a single run, last in legends: they are less important."""
+    time, run = time_of(subjects), subjects[0].run
+    is_cycle = len(subjects) == 1 and "event" in run.children
+    spans = time.value(np.array([array(run, f"event/{name}").values for name in ("start", "end")])).T if is_cycle else []
+    for axis in axes:
+        axis.set(xlim=(0, time.value(max(float(subject.time[-1]) for subject in subjects))), xlabel=f"time, {time.symbol}")
+        if 0 < len(spans) <= MOST_EVENTS:
+            look = {"transform": axis.get_xaxis_transform(), "color": APART, "linewidth": 0, "zorder": 0, "label": "events of the cycle"}
+            axis.broken_barh([(start, end - start) for start, end in spans], (0, 1), **look)
+
+
+def note_of(every: Sequence[Course], duration: float, usual: str, *more: str) -> str:
+    """What lines and bands are, and which runs are too short for the means of the others."""
+    unit = unit_of("s", duration)
+    said = [f"lines: {usual}"] if any(more) or len(every) > 1 else []
+    if duration:
+        said = [f"lines: weighted mean over {unit.value(duration):.3g} {unit.symbol} where values pulse as the resin wears"]
+        other = [one.label for one in every if 2 * duration > one.duration or one.subject.has_cycle]
+        said += [f"of {', '.join(dict.fromkeys(other))}: {usual}"] if other else []
+    said += ["band of seeds: least to greatest"] if any(one.values.shape[1] > 1 for one in every) else []
+    text = "; ".join([*said, *filter(None, more)])
+    return text[:1].upper() + text[1:]
 
 
 def contact_area(drawing: Drawing, subjects: list[Subject]) -> list[Any]:
@@ -66,9 +193,8 @@ def operation(axis: Any, subjects: list[Subject], name: str, time: Unit) -> None
         elif subject.has(f"series/{name}"):
             values = subject.values(name)
         else:
-            said = quantity(subject.run.plateau.scene["operation"][name], "N" if name == "normal_force" else "rad s-1")
-            values = np.full(subject.time.size, said)
-        draw(axis, Course(subject, subject.label, pandas.DataFrame(unit.value(values), subject.time)), time, 0.0)
+            values = quantity(subject.run.plateau.scene["operation"][name], "N" if name == "normal_force" else "rad s-1")
+        draw(axis, Course(subject, subject.label, pandas.Series(unit.value(values), subject.time).to_frame()), time, 0.0)
     title = "speed of the\nvehicle" if is_road else "speed of the\ndisc" if name == "rotational_speed" else "normal\nforce"
     axis.set(ylim=(0, None), ylabel=f"{title}, {unit.symbol}")
 
@@ -81,16 +207,13 @@ def friction(drawing: Drawing, subjects: list[Subject]) -> list[Any]:
     for course in shown:
         draw(left, course, time, duration)
     unit = unit_of("Pa", np.concatenate([subject.values("mean_pressure") for subject in subjects]))
-    every = np.array([])
     for subject in subjects:
-        pressure, coefficient = unit.value(subject.values("mean_pressure")), subject.while_rubbing(subject.values("friction_coefficient"))
-        touching = np.flatnonzero((pressure > 0) & np.isfinite(coefficient))
-        touching = touching[:: max(1, math.ceil(len(touching) / MOST_MARKS))]
-        mark = {"color": subject.line["color"], "markersize": 2, "markeredgewidth": 0, "alpha": 0.7}
-        right.plot(pressure[touching], coefficient[touching], subject.line.get("marker", "o"), **mark)
-        every = np.append(every, pressure[touching])
-    right.set_xscale("log" if every.size and every.max() > 20 * every.min() else "linear")
-    right.set(xlabel=f"mean contact pressure, {unit.symbol}", xlim=(None if right.get_xscale() == "log" else 0, None))
+        steps = pandas.Series(subject.while_rubbing(subject.values("friction_coefficient")), unit.value(subject.values("mean_pressure")))
+        steps = steps[steps.notna() & (steps.index > 0)]
+        steps = steps[:: max(1, math.ceil(len(steps) / MOST_MARKS))]
+        right.plot(steps, subject.line.get("marker", "o"), color=subject.line["color"], markersize=2, markeredgewidth=0, alpha=0.7)
+    is_wide = right.dataLim.x1 > 20 * right.dataLim.x0
+    right.set(xscale="log" if is_wide else "linear", xlabel=f"mean contact pressure, {unit.symbol}", xlim=(None if is_wide else 0, None))
     left.set_ylabel("coefficient of friction")
     time_axis([left], subjects)
     note = note_of(shown, duration, f"{REVOLUTION}, weighted by load", f"dots: single steps, at most {MOST_MARKS} of a run")
@@ -99,8 +222,8 @@ def friction(drawing: Drawing, subjects: list[Subject]) -> list[Any]:
 
 def in_panels(drawing: Drawing, subjects: list[Subject], names: Sequence[str], unit: Unit, caption: str, what: str) -> list[Any]:
     """Draws series of one unit: those of a single run in one panel, of several each in its own."""
-    every = {name: courses([subject for subject in subjects if subject.has(f"series/{name}")], name, unit) for name in names}
-    found = {name: shown for name, shown in every.items() if shown}
+    having = {name: [subject for subject in subjects if subject.has(f"series/{name}")] for name in names}
+    found = {name: courses(those, name, unit) for name, those in having.items() if those}
     # Temperatures have peaks that nothing may take away.
     durations = {name: 0.0 if unit is CELSIUS else calm(shown) for name, shown in found.items()}
     count, duration = 1 if drawing.only else len(found), max(durations.values())
@@ -126,32 +249,31 @@ filled = partial(in_panels, names=FILLED, unit=PERCENT, caption="Filled part of 
 
 def debris(drawing: Drawing, subjects: list[Subject]) -> list[Any]:
     """Where the wear debris is, stacked, with all that was worn; below it the same without what was emitted."""
+    every = [pandas.DataFrame({name: one.values(name) for name in (*PARTS, *SOURCES)}, one.time) for one in subjects]
     # At the start there was none.
-    every = [{name: np.insert(subject.values(name), 0, 0.0) for name in (*PARTS, *SOURCES)} for subject in subjects]
-    there = [name for name in PARTS if any(np.any(parts[name] > 0) for parts in every)]
+    every = [parts.reindex(np.insert(parts.index, 0, 0.0), fill_value=0.0) for parts in every]
+    is_there = pandas.concat(every).gt(0).any()
+    there = [name for name in PARTS if is_there[name]]
     kept = [name for name in there if name != "emitted"]
-    line = "worn off" + (", or back from plateaus that broke away" if any(np.any(parts["returned"] > 0) for parts in every) else "")
+    line = "worn off" + (", or back from plateaus that broke away" if is_there["returned"] else "")
     columns, figures = min(len(subjects), drawing.columns(3)), list[Any]()
     for first in range(0, len(subjects), columns):
         figure, axes = drawing.panels(2 * columns, 49, "Balance of the wear debris", columns, sharex=True, sharey="row")
-        shown = subjects[first : first + columns]
         time_axis(axes, subjects)
         for names, sums, title, row in ((there, SOURCES, "debris", axes[:columns]), (kept, kept, "not emitted", axes[columns:])):
-            totals = [np.sum([parts[name] for name in sums] or [np.zeros(1)], axis=0) for parts in every]
-            unit = unit_of("m3", np.concatenate(totals))
-            labels = [SERIES[name].title.removesuffix(" of the simulated pin") for name in names]
-            for axis, subject, parts, total in zip(row, shown, every[first:], totals[first:], strict=False):
-                at = np.insert(time_of(subjects).value(subject.time), 0, 0.0)
-                chosen = np.append(np.arange(0, len(at) - 1, math.ceil(len(at) / MOST)), len(at) - 1)
-                if names:
-                    stack = [unit.value(parts[name][chosen]) for name in names]
-                    axis.stackplot(at[chosen], stack, colors=[PARTS[name] for name in names], labels=labels, linewidth=0)
-                if names is there:
-                    axis.plot(at[chosen], unit.value(total[chosen]), color="black", label=line)
-                    axis.set_title("" if drawing.only else wrapped(subject.label, 90 // columns), loc="left")
-            row[0].set(ylim=(0, 1.05 * unit.value(max(map(np.max, totals))) or 1), ylabel=f"{title}, {unit.symbol}")
-            for axis in row[len(shown) :]:
+            highest = max(parts[[*sums]].sum(axis=1).max() for parts in every)
+            unit, labels = unit_of("m3", highest), [SERIES[name].title.removesuffix(" of the simulated pin") for name in names]
+            row[0].set(ylim=(0, 1.05 * unit.value(highest) or 1), ylabel=f"{title}, {unit.symbol}")
+            for axis in row[len(subjects) - first :]:
                 axis.set_visible(False)
+            for axis, subject, parts in zip(row, subjects[first:], every[first:], strict=False):
+                shown = parts.iloc[np.append(np.arange(0, len(parts) - 1, math.ceil(len(parts) / MOST)), len(parts) - 1)]
+                at = time_of(subjects).value(shown.index)
+                if names:
+                    axis.stackplot(at, unit.value(shown[names].T), colors=[PARTS[name] for name in names], labels=labels, linewidth=0)
+                if names is there:
+                    axis.plot(at, unit.value(shown[[*sums]].sum(axis=1)), color="black", label=line)
+                    axis.set_title("" if drawing.only else wrapped(subject.label, 90 // columns), loc="left")
         for axis in axes:
             axis.label_outer()
         note = "Sums since the start: debris that was deposited, worn off and deposited again counts twice"
@@ -193,10 +315,9 @@ def emission(drawing: Drawing, subjects: list[Subject]) -> list[Any]:
 
 def rates(subject: Subject, name: str, most: int) -> Any:
     """What a total grows for each second in windows of equally many samples, by their starts, s; the last twice, for its end."""
-    total = pandas.Series(subject.values(name), subject.time)
-    ends = pandas.concat([pandas.Series([0.0], [0.0]), in_windows(total, most).tail(1)])
-    ends = ends[~ends.index.duplicated()]
-    return pandas.Series(np.diff(ends) / np.diff(ends.index), ends.index[:-1]).reindex(ends.index).ffill()
+    ends = in_windows(pandas.Series(subject.values(name), subject.time), most).tail(1)
+    ends = pandas.concat([pandas.Series({0.0: 0.0}), ends[ends.index > 0]])
+    return (ends.diff() / ends.index.diff()).shift(-1).ffill()
 
 
 def per_metre(subject: Subject, name: str) -> Any:

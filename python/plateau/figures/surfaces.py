@@ -4,7 +4,6 @@ power spectrum and autocorrelation of each, or its relief."""
 import os
 import tempfile
 from collections.abc import Sequence
-from pathlib import Path
 from typing import Any, Literal
 
 import numpy as np
