@@ -129,13 +129,8 @@ class Likelihood:
         self.covariance = np.zeros((len(single), len(single)))
         self.covariance[np.ix_(single, single)] = target.covariance
         self.covariance[~single, ~single] = variances
-        self.aims = np.array([term.measured for term in self.terms])
+        self.aims, self.keys = np.array([term.measured for term in self.terms]), int(runs.x.shape[1])
         self._search()
-
-    @property
-    def keys(self) -> int:
-        """Number of keys."""
-        return int(self.runs.x.shape[1])
 
     def moments(self, places: Numbers) -> tuple[Numbers, Numbers, Numbers]:
         """Means, variances of the processes, and of the mean over the seeds: arrays of place and term."""
@@ -278,7 +273,7 @@ class Likelihood:
 
     def snapped(self, places: Numbers) -> Numbers:
         """The nearest places at which runs are made, so that rounding asks for no other run; finer where the likelihood is narrow."""
-        step = min(STEP, 2.0 ** np.floor(np.log2(0.2 * self.shape(self.best)[1].min()))) if hasattr(self, "best") else STEP
+        step = min(STEP, 2.0 ** np.floor(np.log2(0.2 * self.shape(self.best)[1].min())))
         return np.asarray(np.clip(np.round(np.asarray(places) / step) * step, -1.0, 1.0))
 
     def of_runs(self, runs: Runs) -> Numbers:
