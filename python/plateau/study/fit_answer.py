@@ -279,9 +279,56 @@ class Fit:
         summary = [f"  runs     {made}; {ENDS[self.outcome.ended]}", f"  check    {check}", f"  misfit   χ² = {self.misfit:.3g}{test}"]
         return with_minus("\n".join([*lines, "", self.study.title, *summary, f"  model    {model}"]))
 
+    @in_style
     def figures(self) -> Figures:
-        """Draws profiles of the keys, regions of their pairs, series."""
-        return fit_figures(self)
+        """Draws profiles of the keys, regions of their pairs, and series beside what was measured."""
+        factors, level = {factor.name: factor for factor in self.study.factors}, f"{100 * self.confidence:g} %"
+        columns = min(len(factors), 3)
+        caption = f"How far −2 ln L rises where a key is held at a value, the others at their most likely ones; shaded: {level} interval"
+        rows, note = -(-len(factors) // columns), f"Dashed: threshold of the {level} interval, which is shaded"
+        figure, axes = new(WIDE if columns > 1 else NARROW, 14 + 50 * rows, caption, rows, columns, note, sharey=True)
+        for axis, (name, own) in zip(axes.flat, self.profiles.groupby("key", sort=False), strict=False):
+            factor, threshold = factors[str(name)], float(own["threshold"].iloc[0])
+            axis.plot(factor.in_study_unit(own["value"]), own["rise"], color=LINES[0])
+            axis.axhline(threshold, color=QUIET, linestyle="--", linewidth=0.8)
+            for ends in self.keys.loc[self.keys["key"] == name, ["low", "high"]].dropna().to_numpy():
+                axis.axvspan(*factor.in_study_unit(ends), color=LINES[0], alpha=0.15, linewidth=0)
+            axis.set_ylim(-0.05 * threshold, 3.0 * threshold)
+            set_axis(axis, factor)
+        for axis in axes.flat[len(factors) :]:
+            axis.set_axis_off()
+        for axis in axes[:, 0]:
+            axis.set_ylabel("rise of −2 ln L")
+        figures: Figures = {"profiles": figure}
+        for x, y, across, along, rises in self.regions:
+            shaded = f"{level} region; " if not self.outcome.has_failed else ""
+            note = f"Shaded: {shaded}dots: runs" if shaded else "Dots: runs"
+            figure, ((axis,),) = new(NARROW, 76, f"Where {x.name} and {y.name} may be: {shaded}dots: runs", note=note)
+            if shaded:
+                threshold, at = float(stats.chi2.ppf(self.confidence, 2)), (x.in_study_unit(x.value(across)), y.in_study_unit(y.value(along)))
+                axis.contourf(*at, rises, [-1.0, threshold], colors=[LINES[0]], alpha=0.2)
+                axis.contour(*at, rises, [threshold], colors=[LINES[0]], linewidths=1.0)
+            dots(axis, x, y, self.runs, size=3.0)
+            set_axis(axis, x)
+            set_axis(axis, y, "y")
+            figures[f"region-{'-'.join(file_names([x.name, y.name]))}"] = figure
+        measured = dict(list(self.series.groupby("response", sort=False)))
+        for (name, rows), stem in zip(measured.items(), file_names(list(map(str, measured))), strict=True):
+            unit, time = unit_for(rows["unit"].iloc[0], float(rows["measured"].abs().max())), unit_for("s", float(rows["time"].max()))
+            caption = f"{name}: measured, and what runs give at the most likely values; bars: one standard deviation"
+            figure, ((axis,),) = new(NARROW, 66, caption, note="Runs: at the most likely values; bars: one standard deviation")
+            # Runs are told at the measured times alone: no line says what is between them.
+            told: dict[str, tuple[str, str, dict[str, Any]]] = {
+                "measured": ("measured", "uncertainty", {"fmt": "o", "color": "black", "ms": 4.0, "mfc": "white", "elinewidth": 0.6, "capsize": 2}),
+                "runs": ("forecast", "forecast_deviation", {"fmt": "s", "color": LINES[0], "ms": 2.5, "elinewidth": 1.4, "zorder": 3}),
+            }
+            for label, (middle, half, style) in told.items():
+                values = unit.value(rows[middle].to_numpy()), unit.per_si * rows[half].to_numpy()
+                axis.errorbar(time.value(rows["time"].to_numpy()), *values, label=label, **style)
+            axis.set(xlabel=labelled("time", time.symbol), ylabel=labelled(str(name), unit.symbol))
+            figure.legend(loc="outside upper left", ncols=2)
+            figures[f"series-{stem}"] = figure
+        return figures
 
 
 def _degrees(count: int) -> str:
@@ -306,55 +353,3 @@ def _alike(one: Measurement, away: Numbers) -> list[str]:
     advice = "a longer correlation_time" if one.correlation_time else f'correlation_time = "{time:.2g} s"'
     said = f"Successive points of {one.response.name} deviate alike (correlation {alike:.2g}), and the intervals are too short"
     return [f"{said}: the errors of the measurement need {advice} in its [[response]], or the runs cannot follow the series."]
-
-
-@in_style
-def fit_figures(found: Fit) -> Figures:
-    """Draws profiles of the keys, regions of their pairs, and series beside what was measured."""
-    factors, level = {factor.name: factor for factor in found.study.factors}, f"{100 * found.confidence:g} %"
-    columns = min(len(factors), 3)
-    caption = f"How far −2 ln L rises where a key is held at a value, the others at their most likely ones; shaded: {level} interval"
-    rows, note = -(-len(factors) // columns), f"Dashed: threshold of the {level} interval, which is shaded"
-    figure, axes = new(WIDE if columns > 1 else NARROW, 14 + 50 * rows, caption, rows, columns, note, sharey=True)
-    for axis, (name, own) in zip(axes.flat, found.profiles.groupby("key", sort=False), strict=False):
-        factor, threshold = factors[str(name)], float(own["threshold"].iloc[0])
-        axis.plot(factor.in_study_unit(own["value"]), own["rise"], color=LINES[0])
-        axis.axhline(threshold, color=QUIET, linestyle="--", linewidth=0.8)
-        for ends in found.keys.loc[found.keys["key"] == name, ["low", "high"]].dropna().to_numpy():
-            axis.axvspan(*factor.in_study_unit(ends), color=LINES[0], alpha=0.15, linewidth=0)
-        axis.set_ylim(-0.05 * threshold, 3.0 * threshold)
-        set_axis(axis, factor)
-    for axis in axes.flat[len(factors) :]:
-        axis.set_axis_off()
-    for axis in axes[:, 0]:
-        axis.set_ylabel("rise of −2 ln L")
-    figures: Figures = {"profiles": figure}
-    for x, y, across, along, rises in found.regions:
-        shaded = f"{level} region; " if not found.outcome.has_failed else ""
-        note = f"Shaded: {shaded}dots: runs" if shaded else "Dots: runs"
-        figure, ((axis,),) = new(NARROW, 76, f"Where {x.name} and {y.name} may be: {shaded}dots: runs", note=note)
-        if shaded:
-            threshold, at = float(stats.chi2.ppf(found.confidence, 2)), (x.in_study_unit(x.value(across)), y.in_study_unit(y.value(along)))
-            axis.contourf(*at, rises, [-1.0, threshold], colors=[LINES[0]], alpha=0.2)
-            axis.contour(*at, rises, [threshold], colors=[LINES[0]], linewidths=1.0)
-        dots(axis, x, y, found.runs, size=3.0)
-        set_axis(axis, x)
-        set_axis(axis, y, "y")
-        figures[f"region-{'-'.join(file_names([x.name, y.name]))}"] = figure
-    measured = dict(list(found.series.groupby("response", sort=False)))
-    for (name, rows), stem in zip(measured.items(), file_names(list(map(str, measured))), strict=True):
-        unit, time = unit_for(rows["unit"].iloc[0], float(rows["measured"].abs().max())), unit_for("s", float(rows["time"].max()))
-        caption = f"{name}: measured, and what runs give at the most likely values; bars: one standard deviation"
-        figure, ((axis,),) = new(NARROW, 66, caption, note="Runs: at the most likely values; bars: one standard deviation")
-        # Runs are told at the measured times alone: no line says what is between them.
-        told: dict[str, tuple[str, str, dict[str, Any]]] = {
-            "measured": ("measured", "uncertainty", {"fmt": "o", "color": "black", "ms": 4.0, "mfc": "white", "elinewidth": 0.6, "capsize": 2}),
-            "runs": ("forecast", "forecast_deviation", {"fmt": "s", "color": LINES[0], "ms": 2.5, "elinewidth": 1.4, "zorder": 3}),
-        }
-        for label, (middle, half, style) in told.items():
-            values = unit.value(rows[middle].to_numpy()), unit.per_si * rows[half].to_numpy()
-            axis.errorbar(time.value(rows["time"].to_numpy()), *values, label=label, **style)
-        axis.set(xlabel=labelled("time", time.symbol), ylabel=labelled(str(name), unit.symbol))
-        figure.legend(loc="outside upper left", ncols=2)
-        figures[f"series-{stem}"] = figure
-    return figures
