@@ -12,7 +12,7 @@ import pandas
 from scipy import optimize, stats
 
 from plateau.errors import InputError
-from plateau.study.data import Numbers, Study
+from plateau.study.data import Factor, Numbers, Study
 from plateau.study.settings import axis_of, beyond_of, ends_of, held_values, reach_of
 from plateau.study.surrogate import Surrogate
 from plateau.units import quantity
@@ -88,24 +88,25 @@ class Problem:
     axes: list[list[Any] | None]
     confidence: float
 
+    @property
+    def free(self) -> list[Factor]:
+        """Factors that may be anywhere in their range."""
+        return [factor for factor, axis in zip(self.study.factors, self.axes, strict=True) if axis is None]
+
     def points(self, levels: Sequence[Any], coded: Numbers) -> pandas.DataFrame:
         """Points of the factors at levels, and at coded places of the others."""
-        columns, place = {}, iter(coded.T)
-        for factor, axis, level in zip(self.study.factors, self.axes, levels, strict=True):
-            columns[factor.name] = factor.value(next(place)) if axis is None else [level] * len(coded)
-        return pandas.DataFrame(columns)
+        columns: dict[str, Any] = {factor.name: [level] * len(coded) for factor, level in zip(self.study.factors, levels, strict=True)}
+        return pandas.DataFrame(columns | {factor.name: factor.value(place) for factor, place in zip(self.free, coded.T, strict=True)})
 
     @cached_property
-    def _region(self) -> tuple[Numbers, Numbers, float]:
-        """Coded ends of the factors, and how far from the middle the search goes in all of them together."""
-        ends = [ends_of(self.study, factor) if factor.is_number else (0.0, 0.0) for factor in self.study.factors]
-        return *np.array(ends).T, reach_of(self.study)
+    def _region(self) -> tuple[Numbers, float]:
+        """Coded ends of the factors that may be anywhere, and how far from the middle the search goes in all of them together."""
+        return np.array([ends_of(self.study, factor) for factor in self.free]).reshape(-1, 2), reach_of(self.study)
 
     def within(self, levels: Sequence[Any], cube: Numbers) -> Numbers:
         """Coded places in the region of the design of points of a cube from -1 to 1: what is too far out comes back towards the middle."""
-        low, high, reach = self._region
-        is_free = np.array([axis is None for axis in self.axes])
-        places = low[is_free] + (cube + 1.0) / 2.0 * (high - low)[is_free]
+        ends, reach = self._region
+        places = ends[:, 0] + (cube + 1.0) / 2.0 * (ends[:, 1] - ends[:, 0])
         numbers = [(factor, level) for factor, level in zip(self.study.factors, levels, strict=True) if level is not None and factor.is_number]
         left = reach**2 - sum(float(factor.coded(level)) ** 2 for factor, level in numbers)
         away = np.sqrt(np.square(places).sum(axis=1, keepdims=True))
