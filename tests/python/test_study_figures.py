@@ -56,7 +56,7 @@ class Figures(unittest.TestCase):
         profiles = pandas.DataFrame({"key": "recess", "value": [2e-6, 6e-6, 20e-6], "rise": [5.0, 0.0, 5.0], "threshold": 3.84})
         keys = pandas.DataFrame({"key": ["recess"], "low": [3e-6], "high": [9e-6]})
         study = SimpleNamespace(factors=[RECESS])
-        found = Fit.figures(SimpleNamespace(study=study, confidence=0.95, profiles=profiles, keys=keys, regions=[], series=series))
+        found = Fit.figures(SimpleNamespace(study=study, confidence=0.95, profiles=profiles, keys=keys, series=series))
         axis = found["series-area"].axes[0]
         (measured, *_), (runs, _, (bars,)) = axis.containers
         np.testing.assert_allclose(measured.get_xydata(), [[1, 1], [2, 2], [9, 3]])

@@ -94,12 +94,6 @@ class Fit:
         parts = [pandas.DataFrame({"key": one.name, "value": one.value(at), "rise": rises}) for one, at, rises, _ in self._profiles]
         return pandas.concat(parts, ignore_index=True).assign(threshold=self._threshold)
 
-    @property
-    def regions(self) -> list[tuple[Factor, Factor, Numbers, Numbers, Numbers]]:
-        """For each pair of keys: both, coded values of both, and how far -2 ln L rises, a row for each value of the second."""
-        pairs = itertools.combinations(enumerate(self.study.factors), 2)
-        return [(x, y, *region(self._likelihood, one, other)) for (one, x), (other, y) in pairs]
-
     @cached_property
     def _terms(self) -> pandas.DataFrame:
         """What runs give of each term at the most likely place, by its measurement."""
@@ -300,7 +294,8 @@ class Fit:
         for axis in axes[:, 0]:
             axis.set_ylabel("rise of −2 ln L")
         figures: Figures = {"profiles": figure}
-        for x, y, across, along, rises in self.regions:
+        for (one, x), (other, y) in itertools.combinations(enumerate(self.study.factors), 2):
+            across, along, rises = region(self._likelihood, one, other)
             shaded = f"{level} region; " if not self.outcome.has_failed else ""
             note = f"Shaded: {shaded}dots: runs" if shaded else "Dots: runs"
             figure, ((axis,),) = new(NARROW, 76, f"Where {x.name} and {y.name} may be: {shaded}dots: runs", note=note)

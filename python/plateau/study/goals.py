@@ -145,24 +145,19 @@ class Problem:
         missed = sum((np.maximum(-limit.margin(found[limit.response]), 0.0) for limit in self.limits), np.zeros(len(points)))
         return np.nan_to_num(np.where(missed > ROUNDING, -2.0 - missed, merit), nan=-1e9)
 
-    def spread(self, count: int = POINTS) -> list[tuple[tuple[Any, ...], Numbers]]:
-        """All combinations of levels, each with points spread over a cube from -1 to 1, which stands for the region."""
-        choices = [[None] if axis is None else axis for axis in self.axes]
-        if (combinations := int(np.prod([len(choice) for choice in choices], dtype=float))) > MOST_COMBINATIONS:
-            raise InputError(f"the levels have {combinations} combinations, at most {MOST_COMBINATIONS} are looked at: hold some of the factors")
-        ranges = self.axes.count(None)
-        bits = int(np.ceil(np.log2(max(count // combinations, LEAST_POINTS))))
-        places = 2.0 * stats.qmc.Sobol(ranges, rng=0).random_base2(bits) - 1.0 if ranges else np.zeros((1, 0))
-        return [(levels, places) for levels in itertools.product(*choices)]
-
     def at(self, levels: Sequence[Any], cube: Numbers) -> pandas.DataFrame:
         """Points of the factors at levels, and in the region at points of the cube."""
         return self.points(levels, self.within(levels, np.clip(cube, -1.0, 1.0)))
 
     def starts(self, merit: Callable[[pandas.DataFrame], Numbers], count: int = POINTS) -> list[Start]:
-        """Points at which something is large among many, the largest first."""
+        """Points at which something is large, the largest first, of many: at each combination of levels spread over the region."""
+        choices = [[None] if axis is None else axis for axis in self.axes]
+        if (combinations := int(np.prod([len(choice) for choice in choices], dtype=float))) > MOST_COMBINATIONS:
+            raise InputError(f"the levels have {combinations} combinations, at most {MOST_COMBINATIONS} are looked at: hold some of the factors")
+        bits, ranges = int(np.ceil(np.log2(max(count // combinations, LEAST_POINTS)))), len(self.free)
+        cube = 2.0 * stats.qmc.Sobol(ranges, rng=0).random_base2(bits) - 1.0 if ranges else np.zeros((1, 0))
         starts: list[Start] = []
-        for levels, cube in self.spread(count):
+        for levels in itertools.product(*choices):
             merits = merit(self.at(levels, cube))
             starts += [(float(merits[at]), levels, cube[at]) for at in np.argsort(-merits, kind="stable")[:STARTS]]
             starts = sorted(starts, key=lambda start: -start[0])[:STARTS]
@@ -181,7 +176,7 @@ class Problem:
         """The point of the largest merit, one row."""
         starts = self.starts(self.merit)
         best = starts[0]
-        if self.axes.count(None):
+        if self.free:
             best = max(map(self._climbed, starts), key=lambda found: found[0])
             best = self._climbed(self.simplex(self.merit, best))
         return self.at(best[1], best[2][None])

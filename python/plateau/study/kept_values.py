@@ -22,8 +22,8 @@ def file_of(study: Study) -> Path:
     return study.directory / "imported.csv"
 
 
-def _columns(table: TextTable, study: Study, *, strict: bool) -> tuple[dict[int, Factor], dict[int, Response]]:
-    """Columns of factors, in the order of the study, and of imported responses; with `strict` others than these are refused."""
+def _columns(table: TextTable, study: Study, *, strict: bool) -> tuple[dict[int, Factor], dict[int, tuple[Response, str]]]:
+    """Columns of factors, in the order of the study, and of imported responses with units; with `strict` others than these are refused."""
     factors: dict[int, Factor] = {}
     for factor in study.factors:
         if (column := table.column(factor.names)) is None:
@@ -39,25 +39,22 @@ def _columns(table: TextTable, study: Study, *, strict: bool) -> tuple[dict[int,
         if response is None:
             there = f"of these the study has {', '.join(one.name for one in imported) or 'none'}"
             raise InputError(f'{table.path}: column "{head}" is neither a factor nor a response with imported = true; {there}')
+        unit = "1" if head == response.name else unit or "1"
         try:
-            in_si(1.0, _unit(table, at, response), response.unit)
+            in_si(1.0, unit, response.unit)
         except InputError:
             wanted = with_unit(response.name, response.unit)
             raise InputError(f'{table.path}: column "{head}": expected "{wanted}", or another unit that measures the same') from None
-        found[at] = response
+        found[at] = response, unit
     if strict and not found:
         raise table.missing("of a response with imported = true")
     return factors, found
 
 
-def _unit(table: TextTable, column: int, response: Response) -> str:
-    return "1" if table.heads[column] == response.name else table.named(column)[1] or "1"
-
-
-def _numbers(table: TextTable, row: int, columns: dict[int, Response]) -> pandas.Series:
+def _numbers(table: TextTable, row: int, columns: dict[int, tuple[Response, str]]) -> pandas.Series:
     """What a line has of the responses, SI, by their names."""
     told = {at: one for at, one in columns.items() if not math.isnan(table.number(row, at))}
-    return pandas.Series({one.name: in_si(table.rows[row][at], _unit(table, at, one), one.unit) for at, one in told.items()}, dtype=float)
+    return pandas.Series({one.name: in_si(table.rows[row][at], unit, one.unit) for at, (one, unit) in told.items()}, dtype=float)
 
 
 def factor_value(table: TextTable, row: int, column: int, factor: Factor) -> Any:
@@ -97,8 +94,8 @@ class KeptValues:
 
     def _read(self, table: TextTable) -> None:
         (factors, columns), replicate = _columns(table, self.study, strict=False), table.column([REPLICATE])
-        heads = {at: with_unit(one.name, one.unit) for at, one in (factors | columns).items()}
-        heads |= {} if replicate is None else {replicate: REPLICATE}
+        known = factors | {at: one for at, (one, _) in columns.items()}
+        heads = {at: with_unit(one.name, one.unit) for at, one in known.items()} | ({} if replicate is None else {replicate: REPLICATE})
         others = [at for at in range(len(table.heads)) if at not in heads]
         self.others = self.others.reindex(columns=[table.heads[at] for at in others], fill_value="")
         taken = set[int]()
@@ -108,7 +105,7 @@ class KeptValues:
                 run = self._run(table, row, factors, taken)
             except InputError:
                 line = {heads.get(at, table.heads[at]): cell for at, cell in enumerate(cells)}
-                self.idle_lines.append(line | {heads[at]: _written(numbers.get(one.name, math.nan)) for at, one in columns.items()})
+                self.idle_lines.append(line | {heads[at]: _written(numbers.get(one.name, math.nan)) for at, (one, _) in columns.items()})
             else:
                 self.values.loc[run, numbers.index] = numbers
                 self.others.loc[run, [*self.others]] = [cells[at] for at in others]
@@ -125,7 +122,7 @@ class KeptValues:
             if differs.any() and not force:
                 said = f"{before[differs].iloc[0]} was imported before and {now[differs].iloc[0]} differs; --force replaces it"
                 raise InputError(f"{table.place(row)}: {said}")
-        return [response.name for response in columns.values()], new, changed
+        return [response.name for response, _ in columns.values()], new, changed
 
     def _run(self, table: TextTable, row: int, factors: dict[int, Factor], taken: set[int]) -> int:
         """The run that a line is of: the first of its point that no line before is of."""

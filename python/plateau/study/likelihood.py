@@ -140,9 +140,7 @@ class Likelihood:
 
     def misfit(self, places: Numbers, *, with_processes: bool) -> Numbers:
         """Squares of forecast less measured over the variances of measurement, model, seeds, and if asked to of the processes."""
-        means, own, seeds = self.moments(places)
-        rest = sum(each.rest for each in self.components.values())
-        return np.asarray(self._squares(means, self._added(own * with_processes, seeds))[0] + rest)
+        return np.asarray(self._squares(places, with_processes)[0] + sum(each.rest for each in self.components.values()))
 
     @property
     def freedom(self) -> int:
@@ -163,15 +161,16 @@ class Likelihood:
         freedom = total**2 / np.maximum(own**2 / freedom[0] + seeds**2 / freedom[1], 1e-9 * total**2)
         return np.asarray(own + seeds + total * ((special.stdtrit(freedom, 0.975) / special.ndtri(0.975)) ** 2 - 1.0))
 
-    def _squares(self, means: Numbers, added: Numbers) -> tuple[Numbers, Numbers]:
-        covariance = self.covariance + added[:, :, None] * np.eye(len(self.terms))
+    def _squares(self, places: Numbers, with_processes: bool) -> tuple[Numbers, Numbers]:
+        """Squares of forecast less measured over all variances, but for what components leave, and the logarithm of their determinant."""
+        means, own, seeds = self.moments(places)
+        covariance = self.covariance + self._added(own * with_processes, seeds)[:, :, None] * np.eye(len(self.terms))
         away = means - self.aims
         return (away * np.linalg.solve(covariance, away[..., None])[..., 0]).sum(-1), np.linalg.slogdet(covariance)[1]
 
     def value(self, places: Numbers) -> Numbers:
         """-2 ln L at places, but for a constant."""
-        means, own, seeds = self.moments(places)
-        squares, logarithm = self._squares(means, self._added(own, seeds))
+        squares, logarithm = self._squares(places, True)
         value = squares + logarithm - np.linalg.slogdet(self.covariance)[1]
         return np.where(np.isfinite(value), value, np.inf)
 
@@ -213,8 +212,7 @@ class Likelihood:
 
     def climbed(self, start: Numbers, held: dict[int, float]) -> tuple[Numbers, float]:
         """The most likely place from a start, with some keys held."""
-        free = [key for key in range(self.keys) if key not in held]
-        place = np.array(start, float)
+        free, place = [key for key in range(self.keys) if key not in held], np.array(start, float)
         place[list(held)] = list(held.values())
         if not free:
             return place, float(self.value(place[None])[0])

@@ -219,7 +219,7 @@ def _compared(made: dict[str, Study], scenes: dict[str, str], confidence: float,
     runs = {scene: study.runs.set_index(pandas.Index(seeds[scene], name="seed", dtype=int)) for scene, study in made.items()}
     most = max(runs.values(), key=len).index
     # The one run of a scene without seeds stands beside all of the others.
-    pairs = {scene: own if len(own) == len(most) else pandas.concat([own] * len(most)).set_axis(most) for scene, own in runs.items()}
+    pairs = {scene: own.reindex(most, method="nearest") for scene, own in runs.items()}
     first, *others = made
     asked = [one for one in made[first].responses if not are_usual or any((own[one.name] != 0.0).any() for own in runs.values())]
     rows, means = [], []

@@ -15,7 +15,9 @@ from plateau.study.process import Process
 from plateau.units import unit_of, with_digits
 
 WORDS = {"main": "main effects", "interactions": "main effects and interactions", "full": "interactions of all orders"}
-# Designs that do not fill their ranges; in a table all numbers have to have more different values than these.
+# Designs that fill their ranges, so that a process can be better than a polynomial, and that do not; in a table all numbers have to have
+# more different values than these.
+FILLING = ("latin-hypercube", "sobol")
 SPARSE = ("full-factorial", "fractional-factorial", "plackett-burman", "central-composite", "box-behnken", "morris")
 MOST_FACTORIAL_LEVELS = 5
 # Points for each factor that a process should have, and most that it takes.
@@ -140,17 +142,11 @@ def _columns(study: Study, factor: Factor, points: pandas.DataFrame) -> Numbers:
     return np.column_stack([values == level for level in (seen[1:] if len(seen) == 2 else seen)]).astype(float)
 
 
-def fills_ranges(study: Study) -> bool:
-    """Whether the points of a study fill the ranges of its factors, so that a process can be better than a polynomial."""
-    if study.design in ("latin-hypercube", "sobol"):
-        return True
-    counts = [study.runs[factor.name].nunique() for factor in study.factors if factor.is_number]
-    return study.design not in SPARSE and all(count > MOST_FACTORIAL_LEVELS for count in counts)
-
-
 def surrogates(study: Study, model: str | None = None, confidence: float = 0.95, of_any_design: bool = False) -> list[Surrogate]:
     """What forecasts each response; no process if a model is asked for, or points do not fill ranges, unless `of_any_design`."""
-    found, may_be_process = [], model is None and (of_any_design or fills_ranges(study))
+    counts = [study.runs[factor.name].nunique() for factor in study.factors if factor.is_number]
+    has_many = study.design not in SPARSE and all(count > MOST_FACTORIAL_LEVELS for count in counts)
+    found, may_be_process = [], model is None and (of_any_design or study.design in FILLING or has_many)
     for response in study.responses:
         fit, process, error = None, None, ""
         try:
