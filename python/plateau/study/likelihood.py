@@ -259,15 +259,13 @@ class Likelihood:
 
     def _left(self, process: Process, new: Numbers, seeds: int) -> Numbers:
         """Variances of a process with more points, over those of now, with middle lengths and noise."""
-        sets, middle = process.sets, np.average(process.logs, axis=0, weights=process.probabilities)[None]
-
-        def variances(x: Numbers, share: Numbers) -> Numbers:
-            # The values do not matter.
-            equations = Equations(x, np.linspace(0.0, 1.0, len(x)), share, sets.replicates, middle, sets.axes)
-            return np.asarray(equations.forecast(self.places)[1][0])
-
-        more = variances(np.vstack([sets.x, new]), np.concatenate([sets.share, np.full(len(new), 1.0 / seeds)]))
-        return np.asarray((more + 1e-12) / (variances(sets.x, sets.share) + 1e-12)).clip(max=1.0)
+        middle = np.average(process.logs, axis=0, weights=process.probabilities)
+        now = process.solved(middle)
+        x, share = np.vstack([now.x, new]), np.concatenate([now.share, np.full(len(new), 1.0 / seeds)])
+        # The values do not matter.
+        more = Equations(x, np.linspace(0.0, 1.0, len(x)), share, now.replicates, middle[None], now.axes)
+        before, after = (each.forecast(self.places)[1][0] for each in (now, more))
+        return np.asarray((after + 1e-12) / (before + 1e-12)).clip(max=1.0)
 
     def snapped(self, places: Numbers) -> Numbers:
         """The nearest places at which runs are made, so that rounding asks for no other run; finer where the likelihood is narrow."""

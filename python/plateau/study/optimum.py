@@ -16,8 +16,7 @@ from plateau.output_folder import plain
 from plateau.study.analysis import together, usable
 from plateau.study.data import Factor, Numbers, Study
 from plateau.study.figure_axes import STEPS, dots, drawn_map, grid_points, held, positions, set_axis
-from plateau.study.goals import ROUNDING, Goal, Limit, Problem, axes_of, beyond_runs, overall, wanted
-from plateau.study.improvement import improved, is_run
+from plateau.study.goals import ROUNDING, Goal, Limit, Problem, axes_of, beyond_runs, improved, is_run, overall, wanted
 from plateau.study.prediction import INTERVALS, confirmed_by, confirmed_words, forecast_cells, forecast_table, reported, settings_at
 from plateau.study.results import analysed
 from plateau.study.runs import made_study
