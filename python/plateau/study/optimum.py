@@ -36,10 +36,8 @@ def canonical(function: Callable[[Numbers], Numbers], count: int) -> dict[str, A
     """
     unit = np.eye(count)
     middle, up, down = function(np.zeros((1, count)))[0], function(unit), function(-unit)
-    slope, matrix = (up - down) / 2.0, np.diag((up + down) / 2.0 - middle)
-    for i, j in itertools.combinations(range(count), 2):
-        both = function((unit[i] + unit[j])[None])[0]
-        matrix[i, j] = matrix[j, i] = (both - up[i] - up[j] + middle) / 2.0
+    both = function((unit[:, None] + unit).reshape(-1, count)).reshape(count, count)
+    slope, matrix = (up - down) / 2.0, (both - up - up[:, None] + middle) / 2.0
     eigenvalues, directions = np.linalg.eigh(matrix)
     is_flat = np.abs(eigenvalues).min() <= 1e-6 * max(np.abs(eigenvalues).max(), np.abs(slope).max(), 1e-300)
     stationary = np.full(count, np.nan) if is_flat else -0.5 * np.linalg.solve(matrix, slope)
