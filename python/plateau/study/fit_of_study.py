@@ -183,16 +183,7 @@ class Plan:
 
 
 def plan(study: Study | str | os.PathLike[str]) -> Plan:
-    """Tells what a fit will do, without running any.
-
-    Parameters
-    ----------
-    study : path or Study
-
-    Returns
-    -------
-    Plan
-    """
+    """Tells what a fit will do, without running any."""
     opened = analysed(study)
     target, most, _ = _task(opened)
     first, time, memory = len(opened.runs), math.nan, 0
