@@ -68,25 +68,21 @@ class Fit:
         return [(one, *profile(self._likelihood, at, self._threshold)) for at, one in enumerate(self.study.factors)]
 
     @cached_property
-    def keys(self) -> pandas.DataFrame:
-        """A row for each piece of the interval of each key, with its ends; NaN where it may be anywhere, or runs contradict the forecast."""
-        rows, has_failed = [], self.outcome.has_failed
+    def _intervals(self) -> list[tuple[Factor, float, list[dict[str, Any]]]]:
+        """Each key with its most likely value, NaN where it may be anywhere, and the pieces of its interval, none if runs contradict the forecast."""
+        found, has_failed = [], self.outcome.has_failed
         for (factor, _, _, pieces), best in zip(self._profiles, self._likelihood.best, strict=True):
             likely = math.nan if has_failed or pieces == [(-1.0, 1.0)] else float(factor.value(best))
-            for low, high in [(math.nan, math.nan)] if has_failed else pieces:
-                ends = {"low": float(factor.value(low)), "high": float(factor.value(high)), "open_below": low == -1.0, "open_above": high == 1.0}
-                rows.append({"key": factor.name, "unit": factor.unit, "most_likely": likely, **ends})
-        return pandas.DataFrame(rows)
-
-    @property
-    def _of_keys(self) -> list[tuple[Factor, float, list[dict[Any, Any]]]]:
-        """Each key with its most likely value and the pieces of its interval."""
-        found = []
-        for factor in self.study.factors:
-            rows = self.keys[self.keys["key"] == factor.name].drop(columns=["key", "unit"])
-            likely = float(rows.pop("most_likely").iloc[0])
-            found.append((factor, likely, rows[rows["low"].notna()].to_dict("records")))
+            ends = [(float(factor.value(low)), float(factor.value(high)), low == -1.0, high == 1.0) for low, high in pieces if not has_failed]
+            found.append((factor, likely, [{"low": low, "high": high, "open_below": below, "open_above": above} for low, high, below, above in ends]))
         return found
+
+    @cached_property
+    def keys(self) -> pandas.DataFrame:
+        """A row for each piece of the interval of each key, with its ends; NaN where it may be anywhere, or runs contradict the forecast."""
+        none = {"low": math.nan, "high": math.nan, "open_below": False, "open_above": False}
+        rows = [(one.name, one.unit, likely, piece) for one, likely, pieces in self._intervals for piece in pieces or [none]]
+        return pandas.DataFrame([{"key": name, "unit": unit, "most_likely": likely, **piece} for name, unit, likely, piece in rows])
 
     @property
     def profiles(self) -> pandas.DataFrame:
@@ -230,7 +226,7 @@ class Fit:
     def document(self, files: Sequence[str] = ()) -> dict[str, Any]:
         """The JSON of ``plateau fit --json``; None where there is no number."""
         keys = []
-        for factor, likely, pieces in self._of_keys:
+        for factor, likely, pieces in self._intervals:
             is_open = len(pieces) == 1 and pieces[0]["open_below"] and pieces[0]["open_above"]
             about = {"name": factor.name, "keys": factor.keys.split(", "), "unit": factor.unit, "most_likely": likely}
             keys.append({**about, "interval": pieces, "undetermined": is_open})
@@ -245,7 +241,7 @@ class Fit:
     def text(self) -> str:
         """What ``plateau fit`` prints."""
         keys, responses, level = [], [], f"{100.0 * self.confidence:g} % interval"
-        for factor, likely, pieces in self._of_keys:
+        for factor, likely, pieces in self._intervals:
             ends = " or ".join(_interval(factor, piece) for piece in pieces) or "none: runs contradict the forecast"
             keys.append({"key": factor.name, "most likely": factor.shown(likely, 4) if math.isfinite(likely) else "–", level: ends})
         for row in self.responses.to_dict("records"):
