@@ -143,6 +143,9 @@ struct CheckReport {
     #[serde(skip_serializing_if = "Option::is_none")]
     outline: Option<OutlineReport>,
     nominal_pressure: f64,
+    /// Tells whether the load follows from a braking torque: that is then the least, at the largest coefficient of friction.
+    #[serde(skip)]
+    by_torque: bool,
     steps: u64,
     step_time: f64,
     /// Of a scene with a cycle.
@@ -236,6 +239,7 @@ impl CheckReport {
             cell_width: mesh.column_width(),
             outline: OutlineReport::of(mesh),
             nominal_pressure: parameters.usual_load() / mesh.pin_area(),
+            by_torque: parameters.by_torque,
             steps: scene.steps,
             step_time: parameters.step_time(),
             cycle: CycleReport::of(scene),
@@ -312,7 +316,10 @@ impl CheckReport {
         let pressure = if self.cycle.is_some() { "largest nominal pressure" } else { "nominal pressure" };
         let mut rows = vec![("warnings", told), ("mesh", mesh)];
         rows.extend(self.outline.as_ref().map(|outline| ("outline of the pin", outline.text())));
-        rows.push((pressure, format!("{} MPa", number::short(self.nominal_pressure * 1e-6))));
+        rows.push((pressure, {
+            let at_least = if self.by_torque { ", more where friction is not at its largest" } else { "" };
+            format!("{} MPa{at_least}", number::short(self.nominal_pressure * 1e-6))
+        }));
         rows.push(("steps", steps));
         rows.extend(self.cycle.iter().flat_map(CycleReport::rows));
         rows.extend(self.pulse.as_ref().map(|pulse| ("contact area pulses", pulse.text())));

@@ -236,7 +236,7 @@ fn disc_lines(
             format!("# {cutoff}")
         ));
         notes.push(format!(
-            "{}: no peaks are cut. With {cutoff}, one rms height as in the paper, the contact area is several times as large: \
+            "{}: no peaks are cut. With {cutoff}, one rms height as in the paper, the contact area is larger, up to several times: \
              docs/scenes.md says when to give it",
             disc.display()
         ));
@@ -426,7 +426,7 @@ fn smaller_than_cells(measured: &Measured) -> Option<(Vec<String>, String)> {
     ];
     let note = format!(
         "it is {is}, less than {cells} of {CELL} um, and the scene does not run as it is: take a cell_size of at most {most}, or \
-         measure a larger area. If this is not its size, correct the pitch"
+         measure a larger area. If this is not its size, correct it with pixel of [disc.prepare]"
     );
     Some((lines, note))
 }

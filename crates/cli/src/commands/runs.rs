@@ -177,7 +177,10 @@ pub fn text(summary: &RunSummary) -> String {
         let lost = cubic_millimetres(summary.lost_pin);
         rows.push((
             "lost by the pin",
-            format!("{lost} as a balance shows it, specific wear rate of the whole pin {rate:.3e} 1/Pa"),
+            format!(
+                "{lost} as a balance shows it, specific wear rate of the whole pin {rate:.3e} 1/Pa, {:.3e} mm³/(N m)",
+                rate * 1e9
+            ),
         ));
     }
     rows.extend(parts(summary));
@@ -237,11 +240,12 @@ fn brake(summary: &RunSummary) -> Vec<(&'static str, String)> {
     let value = |name: &str| summary.brake.get(name).copied();
     let mut rows = Vec::new();
     if let Some(pm10) = value("brake_pm10_mass") {
-        let of_road = value("brake_pm10_per_distance").zip(value("brake_pm25_per_distance"));
-        let each = of_road.map(|pair| <[f64; 2]>::from(pair).map(|kilogram| number::short(kilogram * 1e9)));
-        let each = each.map(|[pm10, pm25]| format!(", PM10 {pm10} mg/km, PM2.5 {pm25} mg/km"));
-        let mass = number::short(pm10 * 1e6);
-        rows.push(("whole brake", format!("PM10 {mass} mg{}", each.unwrap_or_default())));
+        let each = [("lost", "emitted"), ("PM10", "pm10"), ("PM2.5", "pm25")].map(|(what, series)| {
+            let mass = value(&format!("brake_{series}_per_distance"))?;
+            Some(format!(", {what} {} mg/km", number::short(mass * 1e9)))
+        });
+        let each: String = each.into_iter().flatten().collect();
+        rows.push(("whole brake", format!("PM10 {} mg{each}", number::short(pm10 * 1e6))));
     }
     if let Some(wear) = value("pad_wear") {
         let mut text = format!("worn by {} µm", number::short(wear * 1e6));

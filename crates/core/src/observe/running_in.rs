@@ -32,9 +32,9 @@ pub enum NotDefined {
     TooShort,
     #[error("not defined: it has samples without a value, or ends at 0")]
     NoValue,
-    #[error("not defined: still {} at the end, by {:.1} % in the last quarter of the run", if *.0 > 0.0 { "rises" } else { "falls" }, 100.0 * .0.abs())]
+    #[error("not defined: still {} at the end, by {:.1} % from the third quarter of the run to the last", if *.0 > 0.0 { "rises" } else { "falls" }, 100.0 * .0.abs())]
     NotSteady(f64),
-    #[error("not defined: cannot be told from a run of this length whether it still changes, by {:+.1} ± {:.1} % in the last quarter", 100.0 * .0, 100.0 * .1)]
+    #[error("not defined: cannot be told from a run of this length whether it still changes, by {:+.1} ± {:.1} % from the third quarter to the last", 100.0 * .0, 100.0 * .1)]
     Unknown(f64, f64),
     #[error("not defined: a quarter of the run has at most {:.1} pulses of the contact area, {LEAST_PULSES} are needed", .0)]
     FewPulses(f64),

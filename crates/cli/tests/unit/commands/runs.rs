@@ -47,7 +47,7 @@ fn the_running_in_time_is_told_or_why_there_is_none() {
     assert_eq!(running_in_time(&Ok(1225.0)), "1225 s, to 90 % of the contact area at the end");
     assert_eq!(
         running_in_time(&Err(NotDefined::NotSteady(0.102))),
-        "not defined: still rises at the end, by 10.2 % in the last quarter of the run"
+        "not defined: still rises at the end, by 10.2 % from the third quarter of the run to the last"
     );
 }
 
