@@ -1,6 +1,7 @@
 """What the factors of a study do to one response: the analysis of variance with effects, means, and what the runs say of its scale."""
 
 import itertools
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -22,10 +23,11 @@ COLUMNS += ["effect", "coefficient", "standard_error", "t", "low", "high", "marg
 COLUMNS += ["aliased_with", "error_freedom", "seed_ratio", "seed_p", "unit"]
 # Values of a range up to which means are given at each.
 MOST_VALUES = 10
-# Members of the document of a response, null where nothing could be fitted.
-MEMBERS = ["model", "model_reason", "runs", "missing", "mean", "middle", "r_squared", "adjusted_r_squared", "predicted_r_squared"]
-MEMBERS += ["residual_standard_deviation", "error_from", "residual", "lack_of_fit", "pure_error", "misfit", "curvature", "box_cox"]
-MEMBERS += ["equations", "lenth", "terms", "cautions"]
+# Members of the document of a response, null where nothing could be fitted; those of its summary.
+SUMMARY = ["runs", "missing", "mean", "middle", "r_squared", "adjusted_r_squared", "predicted_r_squared", "residual_standard_deviation", "error_from"]
+TESTS = ["residual", "lack_of_fit", "pure_error", "misfit", "curvature", "box_cox"]
+NONE = dict.fromkeys(["model", "model_reason", *SUMMARY, *TESTS]) | {"runs": 0, "missing": 0, "error_from": ""}
+NONE |= {"equations": [], "lenth": None, "terms": [], "cautions": []}
 
 
 @dataclass(frozen=True, repr=False)
@@ -87,7 +89,7 @@ class ResponseEffects:
         press = float(np.square(fit.residuals / (1.0 - fit.leverages)).sum()) if is_free else np.nan
         shares = 1.0 - residual.sum / total.sum, 1.0 - residual.mean / total.mean, 1.0 - press / total.sum
         values = [len(fit.values), fit.missing, fit.mean, float(fit.coefficients[0]), *shares, fit.error**0.5, error_from(fit)]
-        return dict(zip(MEMBERS[2:11], values, strict=True))
+        return dict(zip(SUMMARY, values, strict=True))
 
     def means(self, *factors: str, steps: int = 0) -> pandas.DataFrame:
         """Means of the model at the levels of one factor or two, over all levels of the others and their middles.
@@ -163,28 +165,28 @@ def report_of(one: ResponseEffects) -> dict[str, Any]:
     """A response in the document of ``plateau sweep effects --json``."""
     fit, response, terms = one.fit, one.response, one.terms
     report: dict[str, Any] = {"name": response.name, "unit": response.unit, "fitted": one.title, "error": one.error or None}
-    report |= {"transform": None if response.transform == "none" else response.transform} | dict.fromkeys(MEMBERS)
+    report |= {"transform": None if response.transform == "none" else response.transform} | NONE
     if fit is None:
-        return report | {"runs": 0, "missing": 0, "error_from": "", "equations": [], "terms": [], "cautions": []}
-    report |= {"model": fit.model, "model_reason": fit.reason} | {key: plain(value) for key, value in one.summary.items()}
+        return report
+    report |= {"model": fit.model, "model_reason": fit.reason, **one.summary, "misfit": misfit(fit), "cautions": one.cautions}
     for row in one.table[one.table["factors"].isna() & (one.table["term"] != "total")].to_dict("records"):
-        squares = {name: plain(row[name]) for name in ("degrees_of_freedom", "sum_of_squares", "f", "p")}
-        report[row["term"].replace(" ", "_")] = squares
+        report[row["term"].replace(" ", "_")] = {name: row[name] for name in ("degrees_of_freedom", "sum_of_squares", "f", "p")}
     for row in terms[(terms["term"] == "centre points") & terms["f"].notna()].to_dict("records"):
         report["curvature"] = {"difference": row["effect"], "interval": [row["low"], row["high"]], "f": row["f"], "p": row["p"]}
-    report |= {"misfit": misfit(fit), "box_cox": one.box_cox and {"lambda": one.box_cox[0], "interval": list(one.box_cox[1:])}}
+    report["box_cox"] = one.box_cox and {"lambda": one.box_cox[0], "interval": list(one.box_cox[1:])}
     report["equations"] = [{"units": units, "terms": products.to_dict("records")} for units, products in one.equations.items()]
-    if np.isnan(fit.error) and (judged := lenth(terms.loc[terms["factors"].str.len() > 0, "effect"], fit.confidence)):
+    if np.isnan(fit.error) and (judged := lenth(terms, fit.confidence)):
         names = ("pseudo_standard_error", "margin_of_error", "simultaneous_margin_of_error")
         report["lenth"] = dict(zip(names, judged, strict=True))
     copied = [*COLUMNS[3:5], "share", "variance_inflation", "f", "p", "effect", "standard_error", "aliased_with", "seed_ratio"]
     report["terms"] = [
         {"label": row["term"], "interval": None if np.isnan(row["low"]) else [row["low"], row["high"]]}
-        | {name: plain(row[name]) for name in copied}
-        | {"error_degrees_of_freedom": plain(row["error_freedom"])}
+        | {name: row[name] for name in copied}
+        | {"error_degrees_of_freedom": row["error_freedom"]}
         for row in terms.to_dict("records")
     ]
-    return report | {"cautions": one.cautions}
+    found: dict[str, Any] = plain(report)
+    return found
 
 
 def _aliases(fit: Fitted) -> tuple[set[int], list[list[str]]]:
@@ -212,63 +214,59 @@ def effect_table(fit: Fitted) -> pandas.DataFrame:
     rows: list[dict[str, Any]] = []
     (untold, aliases), least, values = _aliases(fit), fit.fit, fit.values - fit.mean
     spread = np.square(fit.design - fit.design.mean(axis=0)).sum(axis=0)
+
+    def told(name: str, squares: Squares, aliased_with: Sequence[str] = (), **more: Any) -> dict[str, Any]:
+        row = {"term": name, "degrees_of_freedom": squares.freedom, "sum_of_squares": squares.sum, "mean_square": squares.mean}
+        return row | {"share": squares.sum / fit.total.sum, "aliased_with": list(aliased_with)} | more
+
     for at, columns in list(enumerate(fit.columns))[1 if fit.seeds > 1 else 2 :]:
-        is_blocks, term, width = at == 1, () if at == 1 else fit.terms[at - 2], columns.stop - columns.start
+        is_blocks, term, width, error = at == 1, () if at == 1 else fit.terms[at - 2], columns.stop - columns.start, fit.residual
         places = [place for place, column in enumerate(least.kept) if columns.start <= column < columns.stop]
         weights = least.root[places] @ least.basis.T
         # Orthonormal rows whose products with the responses are what the term explains, all others kept (type III).
         directions = np.linalg.qr(weights.T)[0].T if places else weights
         own = Squares(len(places), float(np.square(directions @ values).sum()))
-        row: dict[str, Any] = {"term": "replicate" if is_blocks else fit.label(term), "factors": term, "aliased_with": aliases[at]}
-        row |= {"degrees_of_freedom": own.freedom, "sum_of_squares": own.sum, "mean_square": own.mean, "share": own.sum / fit.total.sum}
-        is_told = len(places) == width > 0 and not untold & set(range(columns.start, columns.stop))
-        error, freedom = fit.error, float(fit.residual_freedom)
-        if not is_blocks and fit.seeds > 1 and is_told and not np.isnan(fit.error):
-            # The error over all seeds is what the term differs by between them, not what the model leaves.
-            variances, freedoms = fit.errors(directions)
-            error, freedom = float(variances.mean()), float(freedoms.sum())
-            if error > 0:
-                rest = Squares(round(fit.residual_freedom - freedom), max(fit.residual.sum - error * freedom, 0.0))
-                ratio, _ = f_test(Squares(1, error), rest)
-                row |= {"seed_ratio": ratio, "seed_p": float(stats.f.sf(ratio, freedom, rest.freedom))}
-        if is_told and error > 0:
-            f = own.mean / error
-            row |= {"error_freedom": freedom, "f": f, "p": float(stats.f.sf(f, own.freedom, freedom))}
+        row = told("replicate" if is_blocks else fit.label(term), own, aliases[at], factors=term)
+        if len(places) == width > 0 and not untold & set(range(columns.start, columns.stop)):
+            if not is_blocks and fit.seeds > 1 and error.sum > 0:
+                # The error over all seeds is what the term differs by between them, not what the model leaves.
+                variances, freedoms = fit.errors(directions)
+                error = Squares(float(freedoms.sum()), float(variances.mean() * freedoms.sum()))
+                if error.sum > 0:
+                    rest = Squares(round(fit.residual_freedom - error.freedom), max(fit.residual.sum - error.sum, 0.0))
+                    row["seed_ratio"], row["seed_p"] = f_test(error, rest)
+            if error.sum > 0:
+                row["f"], row["p"] = f_test(own, error)
+                row["error_freedom"] = float(error.freedom)
         if width == 1 and places:
             column, variance = least.kept[places[0]], float(weights[0] @ weights[0])
             row["variance_inflation"] = variance * spread[column] or np.nan
             if not is_blocks:
                 # Of centre points the coefficient is the difference.
                 double, coefficient = 2.0 if term else 1.0, float(fit.coefficients[column])
-                row |= {"coefficient": coefficient, "effect": double * coefficient}
-                if "f" in row:
-                    deviation = double * (error * variance) ** 0.5
-                    reach = float(stats.t.ppf(0.5 + 0.5 * fit.confidence, freedom)) * deviation
-                    row |= {"standard_error": deviation, "t": row["effect"] / deviation}
-                    row |= {"low": row["effect"] - reach, "high": row["effect"] + reach}
+                deviation = double * (error.mean * variance) ** 0.5 if "f" in row else np.nan
+                effect, reach = double * coefficient, float(stats.t.ppf(0.5 + 0.5 * fit.confidence, error.freedom)) * deviation
+                row |= {"coefficient": coefficient, "effect": effect, "standard_error": deviation, "t": effect / deviation}
+                row |= {"low": effect - reach, "high": effect + reach}
         rows.append(row)
     missed, f, p = fit.lack_of_fit
-    parts = {"lack of fit": missed, "pure error": fit.scatter[0]} if fit.scatter[0].freedom > 0 else {}
-    for name, squares in {"residual": fit.residual, **parts, "total": fit.total}.items():
-        row = {"term": name, "degrees_of_freedom": squares.freedom, "sum_of_squares": squares.sum, "mean_square": squares.mean}
-        row |= {"f": f, "p": p} if name == "lack of fit" else {}
-        rows.append(row | {"share": squares.sum / fit.total.sum, "aliased_with": []})
-    table = pandas.DataFrame(rows).reindex(columns=COLUMNS)
+    rows.append(told("residual", fit.residual))
+    rows += [told("lack of fit", missed, f=f, p=p), told("pure error", fit.scatter[0])] if fit.scatter[0].freedom > 0 else []
+    table = pandas.DataFrame([*rows, told("total", fit.total)]).reindex(columns=COLUMNS)
     table["response"], table["unit"] = fit.response.name, fit.response.unit_of_fit
-    if np.isnan(fit.error) and (judged := lenth(table.loc[table["factors"].str.len() > 0, "effect"], fit.confidence)) is not None:
+    if np.isnan(fit.error) and (judged := lenth(table, fit.confidence)) is not None:
         table.loc[table["effect"].notna(), ["margin_of_error", "simultaneous_margin_of_error"]] = judged[1:]
     return table
 
 
-def lenth(effects: pandas.Series, confidence: float) -> tuple[float, float, float] | None:
+def lenth(table: pandas.DataFrame, confidence: float) -> tuple[float, float, float] | None:
     """Pseudo standard error and margins of effects without an error, none of fewer than six (R. V. Lenth, Technometrics 31, 469-473 (1989))."""
-    sizes = effects.dropna().abs().to_numpy(float)
+    sizes = table.loc[table["factors"].str.len() > 0, "effect"].dropna().abs().to_numpy(float)
     if len(sizes) < 6 or (first := 1.5 * float(np.median(sizes))) <= 1e-12 * sizes.max():
         return None
     error, freedom = 1.5 * float(np.median(sizes[sizes < 2.5 * first])), len(sizes) / 3.0
-    tails = 0.5 + 0.5 * confidence, 0.5 + 0.5 * confidence ** (1.0 / len(sizes))
-    margin, simultaneous = (float(stats.t.ppf(tail, freedom)) * error for tail in tails)
-    return error, margin, simultaneous
+    tails = [0.5 + 0.5 * confidence, 0.5 + 0.5 * confidence ** (1.0 / len(sizes))]
+    return error, *(float(stats.t.ppf(tail, freedom)) * error for tail in tails)
 
 
 def box_cox(fit: Fitted) -> tuple[float, float, float] | None:
