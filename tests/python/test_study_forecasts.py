@@ -54,7 +54,7 @@ class ProcessTest(unittest.TestCase):
         case = REFERENCES["replicates"]
         y = np.array(case["responses"])
         process = Process(np.repeat(case["points"], y.shape[1], axis=0), y.ravel(), np.tile(np.arange(y.shape[1]), len(y)))
-        found = process.solved(np.log([*case["lengths"], case["noise"]]))
+        found = process.solved(logs=np.log([*case["lengths"], case["noise"]]))
         variance = found.square[0] / (found.freedom + 1)
         likelihood = -0.5 * ((found.freedom + 1) * (np.log(2.0 * np.pi * variance) + 1.0) + found.log_determinant[0])
         np.testing.assert_allclose([variance, likelihood], [case["variance"], case["log_likelihood"]], rtol=1e-8)

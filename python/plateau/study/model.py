@@ -149,7 +149,7 @@ class LeastSquares:
 class Squares:
     """A sum of squares with its degrees of freedom; the mean is NaN without any."""
 
-    freedom: int
+    freedom: float
     sum: float
 
     @property

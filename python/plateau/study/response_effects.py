@@ -266,7 +266,8 @@ def lenth(table: pandas.DataFrame, confidence: float) -> tuple[float, float, flo
         return None
     error, freedom = 1.5 * float(np.median(sizes[sizes < 2.5 * first])), len(sizes) / 3.0
     tails = [0.5 + 0.5 * confidence, 0.5 + 0.5 * confidence ** (1.0 / len(sizes))]
-    return error, *(float(stats.t.ppf(tail, freedom)) * error for tail in tails)
+    margin, simultaneous = (float(stats.t.ppf(tail, freedom)) * error for tail in tails)
+    return error, margin, simultaneous
 
 
 def box_cox(fit: Fitted) -> tuple[float, float, float] | None:

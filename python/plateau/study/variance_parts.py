@@ -219,7 +219,7 @@ def drawn_processes(process: Process, places: Numbers, count: int, random: np.ra
     """Functions of a process: one without data, and what the data say of its differences from them."""
     result, share = [], 1.0 / process.runs
     for chosen, times in zip(*np.unique(random.choice(len(process.logs), count, p=process.probabilities), return_counts=True), strict=True):
-        own = process.solved(process.logs[chosen])
+        own = process.solved(logs=process.logs[chosen])
         weights = own.forecast(places)[0][0]
         for _ in range(times):
             # The spectrum of the correlation along an axis is Student's t of five degrees of freedom.
