@@ -204,6 +204,11 @@ class SensitivityTest(unittest.TestCase):
         np.testing.assert_allclose(found.table["total"], expected, atol=0.02)
         self.assertAlmostEqual(found.variances["y"], 10.0 / 3.0 + 1.0, delta=0.1)
 
+    def test_one_factor_without_an_error_has_all_of_the_variance(self):
+        table = sensitivity(forecasts.study_of(np.array([[-1.0], [1.0]]), np.array([2.0, 3.0]), design="csv")).table
+        self.assertEqual(table[["first_order", "total"]].to_numpy().tolist(), [[1.0, 1.0]])
+        self.assertTrue(table[["total_low", "total_high"]].isna().all().all())
+
     def test_what_the_runs_do_not_tell_is_wide(self):
         # Pure chance: no factor is ruled out.
         random = np.random.default_rng(5)
