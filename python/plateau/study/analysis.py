@@ -3,7 +3,7 @@
 import itertools
 import os
 import warnings
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -63,10 +63,10 @@ class Effects:
         """Runs that repeat another one and count once with it."""
         return int(self.study.runs["same_as"].duplicated().sum())
 
-    def document(self, files: Sequence[str] = ()) -> dict[str, Any]:
+    def document(self) -> dict[str, Any]:
         """What ``plateau sweep effects --json`` prints."""
         responses = [report_of(one) for one in self.responses]
-        return {"study": self.study.title, "repeats": self.repeats, "cautions": self.cautions, "responses": responses, "files": list(files)}
+        return {"study": self.study.title, "repeats": self.repeats, "cautions": self.cautions, "responses": responses}
 
     def text(self) -> str:
         """What the command prints."""
