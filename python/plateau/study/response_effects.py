@@ -112,22 +112,18 @@ class ResponseEffects:
         codings = {coding.factor.name: coding for coding in fit.codings}
         places: list[list[Any]] = []
         for coding in (codings[name] for name in factors):
-            if coding.classes is not None:
-                places.append(list(coding.classes))
-                continue
-            coded = np.unique(np.round(coding.factor.coded(fit.runs[coding.factor.name]), 9))
+            coded = np.unique(np.round(coding.factor.coded(fit.runs[coding.factor.name]), 9)) if coding.classes is None else np.array([])
             if steps and not places or len(coded) > MOST_VALUES:
                 coded = np.linspace(-1.0, 1.0, 5 if places or not steps else steps)
-            places.append(list(coding.factor.value(coded)))
+            places.append(list(coding.classes or coding.factor.value(coded)))
         cells = pandas.DataFrame(list(itertools.product(*places)), columns=list(factors))
         numbers = [one.numbers(cells[name]) if name in factors else np.zeros((len(cells), one.width)) for name, one in codings.items()]
         found = fit.combined(rows := fit.products(numbers))
         reach = stats.t.ppf(0.5 + 0.5 * fit.confidence, found["freedom"]) * found["standard_error"]
         values = found["value"].where(pandas.Series(fit.fit.tells(rows)))
-        at_cell = [np.logical_and.reduce([is_same(fit.runs[name], row[name]) for name in factors]) for _, row in cells.iterrows()]
-        observed = [fit.values[own].mean() if own.any() else np.nan for own in at_cell]
-        ends = {"mean": values, "low": values - reach, "high": values + reach}
-        return cells.assign(**ends, observed=observed, runs=[int(own.sum()) for own in at_cell], unit=self.unit)
+        there = [fit.values[np.logical_and.reduce([is_same(fit.runs[name], row[name]) for name in factors])] for _, row in cells.iterrows()]
+        means = {"mean": values, "low": values - reach, "high": values + reach, "observed": [own.mean() if len(own) else np.nan for own in there]}
+        return cells.assign(**means, runs=list(map(len, there)), unit=self.unit)
 
     @property
     def residuals(self) -> pandas.DataFrame:
@@ -138,9 +134,9 @@ class ResponseEffects:
         standardised = fit.residuals / np.sqrt(fit.error * free)
         # R. D. Cook, Technometrics 19, 15-18 (1977).
         distance = standardised**2 * fit.leverages / (free * len(fit.fit.kept))
-        which = {"response": self.response.name, "run": fit.runs.index, "made_as": fit.runs["order"], "replicate": fit.runs["replicate"]}
-        values = {"fitted": fit.values - fit.residuals, "residual": fit.residuals, "standardised": standardised}
-        return pandas.DataFrame(which | values | {"leverage": fit.leverages, "cooks_distance": distance, "unit": self.unit})
+        found = pandas.DataFrame({"response": self.response.name, "run": fit.runs.index}, index=fit.runs.index)
+        found = found.assign(made_as=fit.runs["order"], replicate=fit.runs["replicate"], fitted=fit.values - fit.residuals, residual=fit.residuals)
+        return found.assign(standardised=standardised, leverage=fit.leverages, cooks_distance=distance, unit=self.unit)
 
 
 def error_from(fit: Fitted) -> str:
@@ -291,15 +287,11 @@ def box_cox(fit: Fitted) -> tuple[float, float, float] | None:
     best = float(optimize.minimize_scalar(lambda power: -likelihood(power), bounds=bounds, method="bounded", options={"xatol": 1e-9}).x)
     least = likelihood(best) - 0.5 * float(stats.chi2.ppf(fit.confidence, 1))
 
-    def end(powers: Numbers) -> float:
-        inside = best
-        for power in powers:
-            if likelihood(power) < least:
-                return float(optimize.brentq(lambda at: likelihood(at) - least, inside, power, xtol=1e-12))
-            inside = float(power)
-        return inside
+    def end(powers: list[float]) -> float:
+        beyond = next((power for power in powers if likelihood(power) < least), None)
+        return [best, *powers][-1] if beyond is None else float(optimize.brentq(lambda at: likelihood(at) - least, best, beyond, xtol=1e-12))
 
-    return best, end(grid[grid < best][::-1]), end(grid[grid > best])
+    return best, end(grid[grid < best][::-1].tolist()), end(grid[grid > best].tolist())
 
 
 def transform_advice(fit: Fitted, found: tuple[float, float, float] | None) -> str:
