@@ -22,11 +22,6 @@ def fitted(study: Study, response: Response, model: str | None = None, confidenc
     reason = "as asked for"
     if model is None:
         model, reason = _choice(study, response)
-    return _whole(study, response, model, reason, confidence, centre)
-
-
-def _whole(study: Study, response: Response, model: str, reason: str = "", confidence: float = 0.95, centre: bool = False) -> Fitted:
-    """The fit of a model."""
     runs = study.runs
     # What was measured elsewhere was measured for each run by itself.
     own = np.ones(len(runs), bool) if not response.series else ~runs["same_as"].duplicated().to_numpy()
@@ -54,7 +49,7 @@ def _choice(study: Study, response: Response) -> tuple[str, str]:
     if study.design == "plackett-burman":
         return "main", "a Plackett-Burman design mixes interactions with main effects"
     if study.design not in ("full-factorial", "fractional-factorial"):
-        problem = no_squares(_whole(study, response, "quadratic"))
+        problem = no_squares(fitted(study, response, "quadratic"))
     else:
         problem = NO_CURVE
         if any(factor.is_range and study.runs[factor.name].nunique() > 2 for factor in study.factors):
@@ -105,7 +100,7 @@ def misfit(fit: Fitted) -> dict[str, Any] | None:
 def _other(fit: Fitted, model: str) -> Fitted | None:
     """Another model of the same response; None if it cannot be fitted or leaves no error."""
     try:
-        other = _whole(fit.study, fit.response, model, "", fit.confidence, bool(fit.centre))
+        other = fitted(fit.study, fit.response, model, fit.confidence, bool(fit.centre))
     except InputError:
         return None
     # Squares that the runs do not allow are no advice.

@@ -4,16 +4,19 @@ compare``. Each is a thin layer on a function of `plateau.study`."""
 import argparse
 from collections.abc import Callable, Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+import pandas
+
+from plateau import study as studies
 from plateau.command_line import Words, count, json_of, of_all, options, progress, several, share, show
 from plateau.errors import RunFailed
 from plateau.output_folder import plain, put, refuse_earlier, refuse_file, relative, write
-
-if TYPE_CHECKING:
-    import pandas
-
-    from plateau.study.data import Study
+from plateau.study.data import Study
+from plateau.study.kept_values import file_of
+from plateau.study.results import analysed
+from plateau.study.text_tables import written_table
+from plateau.style import saved
 
 EARLIER = "Replace the files of an earlier call, and remove those that this call does not write"
 # Options of several words.
@@ -107,9 +110,8 @@ def _told(
     return "\n".join([found.text().rstrip("\n"), *heading, *(f"  written  {line}" for line in lines), ""])
 
 
-def csv_of(table: "pandas.DataFrame") -> bytes:
+def csv_of(table: pandas.DataFrame) -> bytes:
     """A table in CSV with all digits, empty where there is no number, and nothing in it that a spreadsheet would compute."""
-    from plateau.study.text_tables import written_table
 
     def cell(value: Any) -> str:
         if isinstance(value, list | tuple):
@@ -120,10 +122,8 @@ def csv_of(table: "pandas.DataFrame") -> bytes:
     return written_table([list(map(str, table)), *(list(map(cell, row)) for row in table.itertuples(index=False, name=None))])
 
 
-def _opened(given: argparse.Namespace, name: str, of: str | None = None) -> tuple["Study", Path, str | None]:
+def _opened(given: argparse.Namespace, name: str, of: str | None = None) -> tuple[Study, Path, str | None]:
     """The study, the folder of the answer, and what its files are of; refuses a folder that is taken before any work is done."""
-    from plateau.study.results import analysed
-
     study = analysed(given.study, given.directory)
     folder = study.directory / name if given.output is None else given.output
     said = None if of is None else f"{of} {relative(given.study, folder)}"
@@ -131,10 +131,8 @@ def _opened(given: argparse.Namespace, name: str, of: str | None = None) -> tupl
     return study, folder, said
 
 
-def _inputs(study: "Study", *others: Path | None) -> tuple[Path, ...]:
+def _inputs(study: Study, *others: Path | None) -> tuple[Path, ...]:
     """Files that are never replaced: the study and what it names."""
-    from plateau.study.kept_values import file_of
-
     here = Path(study.path or ".").parent
     tables = [study.document, *study.document.get("response", [])]
     named = [here / table[key] for table in tables for key in ("base", "file", "measured_file") if isinstance(table.get(key), str)]
@@ -142,26 +140,20 @@ def _inputs(study: "Study", *others: Path | None) -> tuple[Path, ...]:
 
 
 def _effects(given: argparse.Namespace) -> str:
-    from plateau.study.analysis import effects
-    from plateau.style import saved
-
     study, folder, _ = _opened(given, "effects")
-    found = effects(study, **options(given, "model", "confidence"))
+    found = studies.effects(study, **options(given, "model", "confidence"))
     drawn = saved(figures := found.figures())
     tables = {"effects.csv": found.table.drop(columns="factors"), "residuals.csv": found.residuals}
     return _told(given, found, folder, {**tables, "effects.html": found.page(figures, drawn), **drawn}, _inputs(study), study.title)
 
 
 def _predict(given: argparse.Namespace) -> str:
-    from plateau.study.prediction import predict
-    from plateau.study.results import analysed
-
     study = analysed(given.study, given.directory)
     inputs = _inputs(study, given.points)
     if given.output is not None:
         refuse_file(given.output, given.force, inputs)
     asked = options(given, "at", "grid", "points", "extrapolate", "confirm", "model", "confidence", "jobs", "workers")
-    found = predict(study, **asked, progress=progress(given))
+    found = studies.predict(study, **asked, progress=progress(given))
     if given.output is not None:
         refuse_file(given.output, given.force, inputs)
         put(given.output, csv_of(found.wide))
@@ -172,12 +164,9 @@ def _predict(given: argparse.Namespace) -> str:
 
 
 def _optimize(given: argparse.Namespace) -> str:
-    from plateau.study.optimum import optimize
-    from plateau.style import saved
-
     study, folder, _ = _opened(given, "optimum")
     asked = options(given, "maximize", "minimize", "target", "limit", "limit_on", "hold", "importance", "model", "confidence")
-    found = optimize(study, **asked, runs=given.runs or 0, **options(given, "confirm", "jobs", "workers"), progress=progress(given))
+    found = studies.optimize(study, **asked, runs=given.runs or 0, **options(given, "confirm", "jobs", "workers"), progress=progress(given))
     table = found.table.assign(**found.settings.set_index("factor")["text"].rename(str.strip))
     said = _told(given, found, folder, {"optimum.csv": table, **saved(found.figures(given.contour))}, _inputs(study))
     if found.keeps_limits:
@@ -187,44 +176,33 @@ def _optimize(given: argparse.Namespace) -> str:
 
 
 def _sensitivity(given: argparse.Namespace) -> str:
-    from plateau.study.variance_parts import sensitivity
-    from plateau.style import saved
-
     study, folder, _ = _opened(given, "sensitivity")
-    found = sensitivity(study, confidence=given.confidence)
+    found = studies.sensitivity(study, confidence=given.confidence)
     return _told(given, found, folder, {"sensitivity.csv": found.table, **saved(found.figures())}, _inputs(study), study.title)
 
 
 def _import(given: argparse.Namespace) -> str:
-    from plateau.study.imports import import_values
-    from plateau.study.results import analysed
-
-    found = import_values(analysed(given.study, given.directory), given.table, force=given.force)
+    found = studies.import_values(analysed(given.study, given.directory), given.table, force=given.force)
     return json_of(found.document()) if given.json else found.text()
 
 
 def _fit(given: argparse.Namespace) -> str:
-    from plateau.study.fit_of_study import fit, plan
-    from plateau.study.results import analysed
-    from plateau.style import saved
+    from plateau.study.fit_of_study import plan
 
     if given.plan:
         planned = plan(analysed(given.study, given.directory))
         return json_of(planned.document()) if given.json else planned.text()
     study, folder, of = _opened(given, "fit", "fit")
-    found = fit(study, **options(given, "jobs", "workers", "retry"), progress=progress(given))
+    found = studies.fit(study, **options(given, "jobs", "workers", "retry"), progress=progress(given))
     return _told(given, found, folder, {**found.tables, **saved(found.figures())}, _inputs(study), of=of)
 
 
 def _compare(given: argparse.Namespace) -> str:
-    from plateau.study.scene_comparison import compare
-    from plateau.style import saved
-
     folder = given.output or Path("comparison")
     of = "compare " + ", ".join(relative(scene, folder) for scene in given.scenes)
     refuse_earlier(folder, of, given.force)
     asked = options(given, "set", "confidence", "jobs", "workers")
-    found = compare(given.scenes, given.seeds, responses=given.response, output=folder, **asked, progress=progress(given))
+    found = studies.compare(given.scenes, given.seeds, responses=given.response, output=folder, **asked, progress=progress(given))
     drawn = saved(figures := found.figures())
     tables = {"comparison.csv": found.table, "means.csv": found.means, "runs.csv": found.runs, "curves.csv": found.curves}
     return _told(given, found, folder, {"comparison.html": found.page(figures, drawn), **tables, **drawn}, tuple(given.scenes), of=of)
