@@ -212,12 +212,11 @@ class Fitted:
 
     def _centre(self) -> dict[int, float]:
         """Coded middles of the numbers, if those with more than two values have them at the same points and are at their ends elsewhere."""
-        curved = {at: factor for at, factor in enumerate(self.study.factors) if self.is_curved[at]}
-        coded = {at: factor.coded(self.runs[factor.name]) for at, factor in curved.items()}
+        coded = {at: factor.coded(self.runs[factor.name]) for at, factor in enumerate(self.study.factors) if self.is_curved[at]}
         middles = {at: float(values[np.abs(values).argmin()]) for at, values in coded.items()}
         marks = [np.abs(values - middles[at]) < SAME for at, values in coded.items()]
-        at_ends = [np.abs(np.abs(values[~mark]) - 1.0) < SAME for values, mark in zip(coded.values(), marks, strict=True)]
-        return middles if all(ends.all() for ends in at_ends) and all((mark == marks[0]).all() for mark in marks) else {}
+        are_ends = [(np.abs(np.abs(values[~mark]) - 1.0) < SAME).all() for values, mark in zip(coded.values(), marks, strict=True)]
+        return middles if all(are_ends) and all((mark == marks[0]).all() for mark in marks) else {}
 
     def label(self, term: Term) -> str:
         """Label of a term, such as ``load × speed`` or ``load²``."""

@@ -86,7 +86,10 @@ def misfit(fit: Fitted) -> dict[str, Any] | None:
     if by_replicates := p < level:
         found = [(f, p, other) for other in others if other.residual.mean < own.mean and other.residual.sum < own.sum]
     else:
-        larger = [other for other in others if other.residual_freedom < own.freedom and _contains(other, fit)]
+        # Those of which each column of the model is a combination.
+        most = CONTRIBUTES * np.maximum(np.linalg.norm(fit.design, axis=0), 1.0)
+        larger = [other for other in others if (np.linalg.norm(other.fit.residuals(fit.design), axis=0) <= most).all()]
+        larger = [other for other in larger if other.residual_freedom < own.freedom]
         added = [Squares(own.freedom - other.residual_freedom, max(own.sum - other.residual.sum, 0.0)) for other in larger]
         tests = [f_test(new, other.residual) if other.residual.sum > 0 else (np.inf, 0.0) for new, other in zip(added, larger, strict=True)]
         found = [(*test, other) for test, other in zip(tests, larger, strict=True) if test[1] < level / len(larger)]
@@ -106,12 +109,6 @@ def _other(fit: Fitted, model: str) -> Fitted | None:
     # Squares that the runs do not allow are no advice.
     is_told = other.design.shape[1] <= MOST_TRIED and other.residual_freedom > 0
     return other if is_told and not (model == "quadratic" and no_squares(other)) else None
-
-
-def _contains(larger: Fitted, smaller: Fitted) -> bool:
-    """Whether each column of a model is a combination of those of the larger one."""
-    left = np.linalg.norm(larger.fit.residuals(smaller.design), axis=0)
-    return bool((left <= CONTRIBUTES * np.maximum(np.linalg.norm(smaller.design, axis=0), 1.0)).all())
 
 
 def cautions(fit: Fitted) -> list[str]:
