@@ -43,13 +43,14 @@ class Equations:
 
     def correlation(self, x: Numbers) -> Numbers:
         """Correlations of the process at places with those at the points (set, place, point)."""
-        return np.asarray(np.prod([(1.0 + a + a * a / 3.0) * np.exp(-a) for a in self.apart(x)], axis=0))
+        apart = self.apart(x)
+        return np.asarray(np.prod([1.0 + a + a * a / 3.0 for a in apart], axis=0) * np.exp(-np.sum(apart, axis=0)))
 
     def gradient(self) -> Numbers:
         """Derivatives of `log_density` by the logarithms."""
         pull = self.freedom / self.square[:, None, None] * self.weights[:, :, None] * self.weights[:, None] - self.inverse
         of_axes = [(pull * self.known * (a * a * (1.0 + a) / (3.0 + 3.0 * a + a * a))).sum((1, 2)) for a in self.apart(self.x)]
-        of_noise = self.noise * np.einsum("sii,i->s", pull, self.share) + self.freedom * self.replicates[0] / self.noise / self.square
+        of_noise = self.noise * (np.diagonal(pull, axis1=1, axis2=2) @ self.share) + self.freedom * self.replicates[0] / self.noise / self.square
         return 0.5 * np.column_stack([np.transpose(of_axes) @ np.eye(self.axes.max() + 1)[self.axes], of_noise - self.replicates[1]])
 
     def forecast(self, x: Numbers) -> tuple[Numbers, Numbers]:
@@ -125,8 +126,7 @@ class Process:
         self.loo = missed, np.sqrt((without * (square + (error - missed) ** 2)).sum(0))
         # Points that are missed by more than expected widen all intervals; the mean square of Student's t is more than 1 by its degrees of freedom.
         self.calibration = max(1.0, float(((missed / self.loo[1]) ** 2).mean() * (1.0 - 2.0 / max(solved.freedom - 1, 3))))
-        shares = np.cumsum(special.softmax(log))[:-1]
-        chosen, times = np.unique(np.searchsorted(shares, (np.arange(KEPT) + 0.5) / KEPT), return_counts=True)
+        chosen, times = np.unique(np.searchsorted(np.cumsum(special.softmax(log))[:-1], (np.arange(KEPT) + 0.5) / KEPT), return_counts=True)
         self.logs, self.probabilities, self.sets = drawn[chosen], times / KEPT, self.solved(logs=drawn[chosen])
         self.freedom, self.run_variance = solved.freedom, float(self.probabilities @ (self.sets.noise * self.sets.square)) / solved.freedom
 

@@ -10,7 +10,7 @@ import pandas
 from scipy import optimize, stats
 
 from plateau.output_folder import plain
-from plateau.study.data import Numbers, Response
+from plateau.study.data import Response
 from plateau.study.model import SOLE, Fitted, Squares, f_test, is_same
 from plateau.study.model_choice import fitted, misfit
 from plateau.units import shown_unit
