@@ -54,7 +54,7 @@ class ProcessTest(unittest.TestCase):
         case = REFERENCES["replicates"]
         y = np.array(case["responses"])
         process = Process(np.repeat(case["points"], y.shape[1], axis=0), y.ravel(), np.tile(np.arange(y.shape[1]), len(y)))
-        found = process.solved(np.log([*case["lengths"], case["noise"]]))
+        found = process.solved(logs=np.log([*case["lengths"], case["noise"]]))
         variance = found.square[0] / (found.freedom + 1)
         likelihood = -0.5 * ((found.freedom + 1) * (np.log(2.0 * np.pi * variance) + 1.0) + found.log_determinant[0])
         np.testing.assert_allclose([variance, likelihood], [case["variance"], case["log_likelihood"]], rtol=1e-8)
@@ -203,6 +203,11 @@ class SensitivityTest(unittest.TestCase):
         expected = np.array([3.0, 1.0 / 3.0, 1.0]) / (10.0 / 3.0 + 1.0)
         np.testing.assert_allclose(found.table["total"], expected, atol=0.02)
         self.assertAlmostEqual(found.variances["y"], 10.0 / 3.0 + 1.0, delta=0.1)
+
+    def test_one_factor_without_an_error_has_all_of_the_variance(self):
+        table = sensitivity(forecasts.study_of(np.array([[-1.0], [1.0]]), np.array([2.0, 3.0]), design="csv")).table
+        np.testing.assert_allclose(table[["first_order", "total"]], [[1.0, 1.0]], atol=1e-6)
+        self.assertTrue(table[["total_low", "total_high"]].isna().all().all())
 
     def test_what_the_runs_do_not_tell_is_wide(self):
         # Pure chance: no factor is ruled out.

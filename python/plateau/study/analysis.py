@@ -3,21 +3,25 @@
 import itertools
 import os
 import warnings
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
+from html import escape
 from typing import Any
 
 import numpy as np
 import pandas
 
+from plateau import html_page
 from plateau.errors import InputError, PlateauWarning, RunFailed, UnknownNameError
 from plateau.study.data import Response, Study
-from plateau.study.effects_figures import effects_figures
-from plateau.study.effects_text import effects_page, equations, text_of
+from plateau.study.effects_figures import DRAWINGS
+from plateau.study.effects_text import equations, text_of, told
+from plateau.study.figure_axes import file_names
 from plateau.study.model import NothingToFit
 from plateau.study.model_choice import cautions, fitted
 from plateau.study.response_effects import COLUMNS, ResponseEffects, box_cox, effect_table, report_of, transform_advice
 from plateau.study.results import analysed
+from plateau.style import Figures, in_style
 
 # Inflation of variances above which terms are said to be correlated, and shares whose sum differs by more from R² of which it is said.
 MOST_INFLATION, SHARES_DIFFER = 10.0, 0.02
@@ -63,10 +67,10 @@ class Effects:
         """Runs that repeat another one and count once with it."""
         return int(self.study.runs["same_as"].duplicated().sum())
 
-    def document(self, files: Sequence[str] = ()) -> dict[str, Any]:
+    def document(self) -> dict[str, Any]:
         """What ``plateau sweep effects --json`` prints."""
         responses = [report_of(one) for one in self.responses]
-        return {"study": self.study.title, "repeats": self.repeats, "cautions": self.cautions, "responses": responses, "files": list(files)}
+        return {"study": self.study.title, "repeats": self.repeats, "cautions": self.cautions, "responses": responses}
 
     def text(self) -> str:
         """What the command prints."""
@@ -79,13 +83,28 @@ class Effects:
             said.append(f"{self.repeats} of {len(self.study.runs)} runs {verb} another one and {counts} once with it: {why}\n")
         return "\n".join([*said, *map(text_of, self.responses)])
 
-    def figures(self) -> Any:
-        """Draws main effects, interactions, sizes of effects and residuals."""
-        return effects_figures(self.responses)
+    @in_style
+    def figures(self) -> Figures:
+        """Draws effects, means, interactions, residuals and surfaces of each response."""
+        stems = zip(self.responses, file_names([one.response.name for one in self.responses]), strict=True)
+        drawn = {f"{stem}-{name}": draw(one, one.fit) for one, stem in stems if one.fit for name, draw in DRAWINGS.items()}
+        return {name: figure for name, figure in drawn.items() if figure is not None}
 
     def page(self, figures: Mapping[str, Any], files: Mapping[str, bytes]) -> str:
         """The page of ``plateau sweep effects`` with figures and their files."""
-        return effects_page(self.study, self.cautions, self.responses, figures, files)
+        factors = []
+        for factor in self.study.factors:
+            factors.append([factor.name, factor.keys, (" … " if factor.is_range else ", ").join(map(factor.shown, factor.levels))])
+        states = ", ".join(f"{count} {state}" for state, count in self.study.runs["state"].value_counts().items())
+        about = [f"design: {self.study.design}", f"runs: {states}", f"sets of seeds: {self.study.seeds}", *(f"caution: {said}" for said in self.cautions)]
+        parts = [html_page.listed(about), html_page.table(["factor", "keys", "values"], factors, "words")]
+        for one, stem in zip(self.responses, file_names([one.response.name for one in self.responses]), strict=True):
+            (name, *said), rows, below = told(one)
+            parts += [f"<h2>{escape(name)}</h2>", html_page.listed(said), *([html_page.table(rows[0], rows[1:])] if rows else [])]
+            parts += [f"<pre>{escape(chr(10).join(below))}</pre>"] if below else []
+            own = [f"{stem}-{kind}" for kind in DRAWINGS]
+            parts.append(html_page.pictures({name: figures[name] for name in own if name in figures}, files))
+        return html_page.page(f"{self.study.title}: effects", *parts)
 
 
 def effects(study: Study | str | os.PathLike[str], model: str | None = None, confidence: float = 0.95) -> Effects:

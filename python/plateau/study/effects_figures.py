@@ -7,27 +7,16 @@ import numpy as np
 from scipy import stats
 
 from plateau.study.data import Factor
-from plateau.study.figure_axes import STEPS, dots, drawn_map, file_names, grid_points, held, positions, set_axis
+from plateau.study.figure_axes import STEPS, dots, drawn_map, grid_points, held, positions, set_axis
 from plateau.study.model import Fitted
 from plateau.study.response_effects import ResponseEffects
-from plateau.style import LINES, NARROW, QUIET, WIDE, Figures, in_style, labelled, logarithmic, look, new, wrapped
+from plateau.style import LINES, NARROW, QUIET, WIDE, labelled, logarithmic, look, new, wrapped
 from plateau.units import Unit, unit_for, unit_of
 
 # Most terms, and panels of pairs, of a figure; most panels beside each other.
 MOST_TERMS, MOST_PAIRS, BESIDE = 20, 12, 3
 # Standardised residuals beyond this have the number of their run.
 FAR = 2.5
-
-
-@in_style
-def effects_figures(responses: Sequence[ResponseEffects]) -> Figures:
-    """Draws effects, means, interactions, residuals and surfaces of each response."""
-    figures: Figures = {}
-    draws = {"pareto": _pareto, "main-effects": _main_effects, "interactions": _interactions, "residuals": _residuals, "surface": _surface}
-    for one, stem in zip(responses, file_names([one.response.name for one in responses]), strict=True):
-        drawn = {name: draw(one, one.fit) for name, draw in draws.items()} if one.fit is not None else {}
-        figures |= {f"{stem}-{name}": figure for name, figure in drawn.items() if figure is not None}
-    return figures
 
 
 def _pareto(one: ResponseEffects, fit: Fitted) -> Any:
@@ -177,3 +166,7 @@ def _surface(one: ResponseEffects, fit: Fitted) -> Any:
     figure = drawn_map((x, y), grid, unit.value(values), label, caption, note, one.response.transform == "log")
     dots(figure.axes[0], x, y, fit.study.runs)
     return figure
+
+
+# By the ends of their names, in the order in which pages have them.
+DRAWINGS = {"pareto": _pareto, "main-effects": _main_effects, "interactions": _interactions, "residuals": _residuals, "surface": _surface}

@@ -1,16 +1,10 @@
-"""Effects for people: words and tables, equations in coded units and in the units of the study, and the page for the browser."""
+"""Effects for people: words and tables, equations in coded units and in the units of the study."""
 
 import itertools
-from collections.abc import Mapping, Sequence
-from html import escape
-from typing import Any
 
 import numpy as np
 import pandas
 
-from plateau.html_page import listed, page, pictures, table
-from plateau.study.data import Study
-from plateau.study.figure_axes import file_names
 from plateau.study.model import MODELS, ROUNDING, Fitted, contrasts, named
 from plateau.study.response_effects import ResponseEffects
 from plateau.study.text_tables import aligned
@@ -116,23 +110,3 @@ def _words(fit: Fitted, product: Product) -> str:
         level = f"[{factor.name} {factor.shown(factor.levels[which[1]])}]" if factor and kind == 1 else "[centre points]"
         words.append((named(factor) if factor and kind == 0 else level) + "²" * (len(list(same)) - 1))
     return "·".join(words)
-
-
-def effects_page(
-    study: Study, cautions: Sequence[str], responses: Sequence[ResponseEffects], figures: Mapping[str, Any], files: Mapping[str, bytes]
-) -> str:
-    """The page of ``plateau sweep effects``."""
-    factors = []
-    for factor in study.factors:
-        factors.append([factor.name, factor.keys, (" … " if factor.is_range else ", ").join(map(factor.shown, factor.levels))])
-    states = ", ".join(f"{count} {state}" for state, count in study.runs["state"].value_counts().items())
-    about = [f"design: {study.design}", f"runs: {states}", f"sets of seeds: {study.seeds}", *(f"caution: {said}" for said in cautions)]
-    parts = [listed(about), table(["factor", "keys", "values"], factors, "words")]
-    for one, stem in zip(responses, file_names([one.response.name for one in responses]), strict=True):
-        (name, *said), rows, below = told(one)
-        parts += [f"<h2>{escape(name)}</h2>", listed(said)]
-        parts += [table(rows[0], rows[1:])] if rows else []
-        parts += [f"<pre>{escape(chr(10).join(below))}</pre>"] if below else []
-        own = [f"{stem}-{kind}" for kind in ("pareto", "main-effects", "interactions", "residuals", "surface")]
-        parts.append(pictures({name: figures[name] for name in own if name in figures}, files))
-    return page(f"{study.title}: effects", *parts)

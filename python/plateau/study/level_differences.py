@@ -80,9 +80,7 @@ def levels(study: Study | str | os.PathLike[str], control: str | None = None, mo
             fit = fitted(opened, response, model, confidence=confidence)
         except NothingToFit:
             continue
-        for at in range(len(fit.codings)):
-            if fit.codings[at].classes is not None and len(fit.codings[at].classes or ()) > 2:
-                rows.append(_of_factor(fit, at, control))
+        rows += [_of_factor(fit, at, control) for at, coding in enumerate(fit.codings) if len(coding.classes or ()) > 2]
     if rows and all(part is None for part in rows):
         raise InputError(f"{opened.title}: nothing tells the error of differences between levels; give [replicates] of seeds")
     if not any(part is not None and len(part) for part in rows):
@@ -105,8 +103,8 @@ def _of_factor(fit: Fitted, at: int, control: str | None) -> pandas.DataFrame | 
     if control is not None and control not in names:
         return pandas.DataFrame()
     # The others are averaged: their contrasts are 0.
-    zeros = [np.zeros((len(classes), other.width)) for other in fit.codings]
-    means = fit.products([*zeros[:at], coding.numbers(pandas.Series(classes)), *zeros[at + 1 :]])
+    numbers = [one.numbers(pandas.Series(classes)) if one is coding else np.zeros((len(classes), one.width)) for one in fit.codings]
+    means = fit.products(numbers)
     pairs = [(one, other) for other, one in itertools.combinations(range(len(classes)), 2)]
     if control is not None:
         pairs = [(one, names.index(control)) for one in range(len(classes)) if names[one] != control]
@@ -132,12 +130,10 @@ def _of_factor(fit: Fitted, at: int, control: str | None) -> pandas.DataFrame | 
             return float(together.cdf(np.full(len(pairs), size), lower_limit=np.full(len(pairs), -size), random_state=0, maxpts=100_000))
 
         tail = (1.0 - fit.confidence) / 2.0
-        single, most = float(stats.t.isf(tail, freedom)), float(stats.t.isf(tail / len(pairs), freedom))
-        reach = float(optimize.brentq(lambda size: within(size) - fit.confidence, 0.98 * single, 1.02 * most, xtol=1e-4))
+        ends = 0.98 * stats.t.isf(tail, freedom), 1.02 * stats.t.isf(tail / len(pairs), freedom)
+        reach = float(optimize.brentq(lambda size: within(size) - fit.confidence, *ends, xtol=1e-4))
         chances = np.array([1.0 - within(abs(size)) for size in differences / errors])
-    table = pandas.DataFrame([(names[one], names[other]) for one, other in pairs], columns=["level", "other"])
-    table = table.assign(difference=differences, standard_error=errors, freedom=freedom, low=differences - reach * errors)
-    table = table.assign(high=differences + reach * errors, p=np.clip(chances, 0.0, 1.0), unit=fit.response.unit_of_fit)
-    table.insert(0, "response", fit.response.name)
-    table.insert(1, "factor", coding.factor.name)
-    return table[table["difference"].notna()]
+    whole = [(fit.response.name, coding.factor.name, names[one], names[other]) for one, other in pairs]
+    table = pandas.DataFrame(whole, columns=["response", "factor", "level", "other"]).assign(difference=differences, standard_error=errors)
+    table = table.assign(freedom=freedom, low=differences - reach * errors, high=differences + reach * errors, p=np.clip(chances, 0.0, 1.0))
+    return table.assign(unit=fit.response.unit_of_fit)[table["difference"].notna()]

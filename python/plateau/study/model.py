@@ -8,7 +8,6 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 import pandas
 from scipy import stats
 
@@ -46,11 +45,6 @@ class NothingToFit(InputError):
 def contrasts(levels: int) -> Numbers:
     """Contrasts that sum to zero, a row for each level: the first has -1 in all of them, each other one 1 in one of its own."""
     return np.vstack([-np.ones(levels - 1), np.eye(levels - 1)])
-
-
-def rank(values: "pandas.Series | Numbers") -> "npt.NDArray[np.intp]":
-    """Numbers of equal values, from 0, in ascending order."""
-    return np.unique(np.asarray(values), axis=0, return_inverse=True)[1].reshape(-1)
 
 
 @dataclass(frozen=True)
@@ -149,7 +143,7 @@ class LeastSquares:
 class Squares:
     """A sum of squares with its degrees of freedom; the mean is NaN without any."""
 
-    freedom: int
+    freedom: float
     sum: float
 
     @property
@@ -161,7 +155,7 @@ class Squares:
 class Fitted:
     """A model that was fitted to a response, on the scale of the response.
 
-    Its `runs` were fitted, each once, with equal settings as one `point`; sets of seeds are blocks. `columns` are those of the mean, the
+    Its `runs` were fitted, each once, with equal settings as one `point`; their `sets` of seeds are blocks. `columns` are those of the mean, the
     blocks and each term in `design`, and `coefficients` are 0 where others have the estimate. `centre` has the coded places of the term of
     centre points, and `error` is the mean square of the residual, NaN where nothing but rounding is left.
     """
@@ -173,16 +167,16 @@ class Fitted:
         self.study, self.response, self.model, self.reason, self.confidence = study, response, model, reason, confidence
         self.values, self.missing = values, missing
         self.codings = [Coding.of(factor, runs[factor.name], model) for factor in study.factors]
-        keys = [np.round(one.coded(runs[one.name]) * 1e9) if one.is_number else rank(runs[one.name]) for one in study.factors]
-        self.is_curved = [coding.classes is None and len(set(key)) > 2 for coding, key in zip(self.codings, keys, strict=True)]
-        self.runs = runs.assign(point=rank(np.column_stack(keys)))
-        self.seeds, self.point_count = int(runs["replicate"].nunique()), int(self.runs["point"].max()) + 1
+        keys = pandas.DataFrame({one.name: np.round(one.coded(runs[one.name]) * 1e9) if one.is_number else runs[one.name] for one in study.factors})
+        self.is_curved = [coding.classes is None and keys[coding.factor.name].nunique() > 2 for coding in self.codings]
+        self.runs, self.sets = runs.assign(point=keys.groupby(list(keys)).ngroup().to_numpy()), pandas.factorize(runs["replicate"], sort=True)[0]
+        self.seeds, self.point_count = int(self.sets.max()) + 1, int(self.runs["point"].max()) + 1
         self.centre = self._centre() if centre and model != "quadratic" else {}
         self.terms = self._terms() + ([()] if self.centre else [])
         widths = [1, self.seeds - 1, *(math.prod(self.codings[at].width for at in term) for term in self.terms)]
         self.columns = [slice(int(end) - width, int(end)) for end, width in zip(np.cumsum(widths), widths, strict=True)]
         self.design = self.matrix(runs)
-        self.design[:, self.columns[1]] = contrasts(self.seeds)[rank(runs["replicate"])]
+        self.design[:, self.columns[1]] = contrasts(self.seeds)[self.sets]
         self.fit, self.mean = LeastSquares(self.design), float(values.mean())
         self.rounding = float(ROUNDING * np.abs(values).max())
         self.coefficients = np.zeros(self.design.shape[1])
@@ -218,12 +212,11 @@ class Fitted:
 
     def _centre(self) -> dict[int, float]:
         """Coded middles of the numbers, if those with more than two values have them at the same points and are at their ends elsewhere."""
-        curved = {at: factor for at, factor in enumerate(self.study.factors) if self.is_curved[at]}
-        coded = {at: factor.coded(self.runs[factor.name]) for at, factor in curved.items()}
+        coded = {at: factor.coded(self.runs[factor.name]) for at, factor in enumerate(self.study.factors) if self.is_curved[at]}
         middles = {at: float(values[np.abs(values).argmin()]) for at, values in coded.items()}
         marks = [np.abs(values - middles[at]) < SAME for at, values in coded.items()]
-        at_ends = [np.abs(np.abs(values[~mark]) - 1.0) < SAME for values, mark in zip(coded.values(), marks, strict=True)]
-        return middles if all(ends.all() for ends in at_ends) and all((mark == marks[0]).all() for mark in marks) else {}
+        are_ends = [(np.abs(np.abs(values[~mark]) - 1.0) < SAME).all() for values, mark in zip(coded.values(), marks, strict=True)]
+        return middles if all(are_ends) and all((mark == marks[0]).all() for mark in marks) else {}
 
     def label(self, term: Term) -> str:
         """Label of a term, such as ``load × speed`` or ``load²``."""
@@ -321,7 +314,7 @@ class Fitted:
         without[:, self.columns[1]] = 0.0
         leaves = np.eye(len(self.values)) - without[:, self.fit.kept] @ self.fit.root @ self.fit.basis.T
         left = leaves @ (self.values - self.mean)
-        member = np.eye(self.seeds)[rank(self.runs["replicate"])]
+        member = np.eye(self.seeds)[self.sets]
         variances, freedoms = np.full(len(weights), np.nan), np.full(len(weights), np.nan)
         for at, weight in enumerate(weights):
             by_set = (weight[:, None] * member).T

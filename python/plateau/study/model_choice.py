@@ -22,11 +22,6 @@ def fitted(study: Study, response: Response, model: str | None = None, confidenc
     reason = "as asked for"
     if model is None:
         model, reason = _choice(study, response)
-    return _whole(study, response, model, reason, confidence, centre)
-
-
-def _whole(study: Study, response: Response, model: str, reason: str = "", confidence: float = 0.95, centre: bool = False) -> Fitted:
-    """The fit of a model."""
     runs = study.runs
     # What was measured elsewhere was measured for each run by itself.
     own = np.ones(len(runs), bool) if not response.series else ~runs["same_as"].duplicated().to_numpy()
@@ -54,7 +49,7 @@ def _choice(study: Study, response: Response) -> tuple[str, str]:
     if study.design == "plackett-burman":
         return "main", "a Plackett-Burman design mixes interactions with main effects"
     if study.design not in ("full-factorial", "fractional-factorial"):
-        problem = no_squares(_whole(study, response, "quadratic"))
+        problem = no_squares(fitted(study, response, "quadratic"))
     else:
         problem = NO_CURVE
         if any(factor.is_range and study.runs[factor.name].nunique() > 2 for factor in study.factors):
@@ -91,7 +86,10 @@ def misfit(fit: Fitted) -> dict[str, Any] | None:
     if by_replicates := p < level:
         found = [(f, p, other) for other in others if other.residual.mean < own.mean and other.residual.sum < own.sum]
     else:
-        larger = [other for other in others if other.residual_freedom < own.freedom and _contains(other, fit)]
+        # Those of which each column of the model is a combination.
+        most = CONTRIBUTES * np.maximum(np.linalg.norm(fit.design, axis=0), 1.0)
+        larger = [other for other in others if (np.linalg.norm(other.fit.residuals(fit.design), axis=0) <= most).all()]
+        larger = [other for other in larger if other.residual_freedom < own.freedom]
         added = [Squares(own.freedom - other.residual_freedom, max(own.sum - other.residual.sum, 0.0)) for other in larger]
         tests = [f_test(new, other.residual) if other.residual.sum > 0 else (np.inf, 0.0) for new, other in zip(added, larger, strict=True)]
         found = [(*test, other) for test, other in zip(tests, larger, strict=True) if test[1] < level / len(larger)]
@@ -105,18 +103,12 @@ def misfit(fit: Fitted) -> dict[str, Any] | None:
 def _other(fit: Fitted, model: str) -> Fitted | None:
     """Another model of the same response; None if it cannot be fitted or leaves no error."""
     try:
-        other = _whole(fit.study, fit.response, model, "", fit.confidence, bool(fit.centre))
+        other = fitted(fit.study, fit.response, model, fit.confidence, bool(fit.centre))
     except InputError:
         return None
     # Squares that the runs do not allow are no advice.
     is_told = other.design.shape[1] <= MOST_TRIED and other.residual_freedom > 0
     return other if is_told and not (model == "quadratic" and no_squares(other)) else None
-
-
-def _contains(larger: Fitted, smaller: Fitted) -> bool:
-    """Whether each column of a model is a combination of those of the larger one."""
-    left = np.linalg.norm(larger.fit.residuals(smaller.design), axis=0)
-    return bool((left <= CONTRIBUTES * np.maximum(np.linalg.norm(smaller.design, axis=0), 1.0)).all())
 
 
 def cautions(fit: Fitted) -> list[str]:

@@ -73,13 +73,11 @@ class Prediction:
         """What ``plateau sweep predict --json`` prints, SI units."""
         places = []
         for (_, rows), (_, place) in zip(self.table.groupby("place", sort=False), self.places.iterrows(), strict=True):
-            beyond = [one for one in rows["beyond"].iloc[0].split("; ") if one]
-            responses, confirmed = [], []
-            for row, surrogate in zip(plain(rows.to_dict("records")), self.surrogates, strict=True):
-                said = {"leverage": row["leverage"], "cautions": [caution for caution in row["cautions"].split("; ") if caution]}
-                responses.append(reported(row, surrogate.error) | said)
-                confirmed.append(confirmed_by(row))
-            made = confirmed if any(confirmed) else None
+            told, beyond = plain(rows.to_dict("records")), list(filter(None, rows["beyond"].iloc[0].split("; ")))
+            responses = [reported(row, one.error) for row, one in zip(told, self.surrogates, strict=True)]
+            for report, row in zip(responses, told, strict=True):
+                report |= {"leverage": row["leverage"], "cautions": list(filter(None, row["cautions"].split("; ")))}
+            made = confirmed if any(confirmed := list(map(confirmed_by, told))) else None
             settings = settings_at(self.study, place, self.given)
             places.append({"settings": settings, "beyond": beyond, "responses": responses, "confirmed": made})
         found = {"study": self.study.title, "confidence": self.confidence, "region": region_of(self.study), "cautions": self.cautions}
@@ -216,11 +214,9 @@ def predict(
 
 def forecast_table(one: Surrogate, places: pandas.DataFrame, beyond: list[str], confidence: float, made: pandas.DataFrame | None) -> pandas.DataFrame:
     """Forecasts of a response, with what is to be known of each."""
-    names, response = ["value", *INTERVALS, "leverage"], one.response
-    untold = pandas.DataFrame(np.nan, index=places.index, columns=names)
-    found = one.forecast(places, confidence)[names] if one.fit else untold
+    names, response, notes = ["value", *INTERVALS, "leverage"], one.response, list(one.cautions)
+    found = one.forecast(places, confidence)[names] if one.fit else pandas.DataFrame(np.nan, index=places.index, columns=names)
     said: list[list[str]] = [[] for _ in range(len(places))]
-    notes = list(one.cautions)
     most = one.fit.most_leverage if one.fit else np.inf
     bounds = [bound for bound in (response.low, response.high) if np.isfinite(bound)]
     is_cut = found[["value", *INTERVALS]].isin(bounds).any(axis=1)
@@ -260,10 +256,11 @@ def _rows(study: Study, points: Any, held: dict[str, Any], is_curved: bool) -> t
         count = len(points)
     else:
         table = read_text_table(Path(points))
-        for column, count in enumerate([len(table.rows)] * len(table.heads)):
-            factor = factor_named(study, table.named(column)[0], f"{table.path}: column {table.heads[column]!r}")
-            values = ((factor_value(table, row, column, factor), table.place(row)) for row in range(count))
-            columns[factor.name] = [value_of(factor, value, place, is_curved) for value, place in values]
+        count = len(table.rows)
+        for column, head in enumerate(table.heads):
+            factor = factor_named(study, table.named(column)[0], f"{table.path}: column {head!r}")
+            values = (factor_value(table, row, column, factor) for row in range(count))
+            columns[factor.name] = [value_of(factor, value, table.place(row), is_curved) for row, value in enumerate(values)]
     rest = {one.name: held.get(one.name, axis_of(one, None, is_curved)[0]) for one in study.factors}
     places = pandas.DataFrame({one.name: columns.get(one.name, rest[one.name]) for one in study.factors}, index=range(count))
     return places, [*columns, *held]

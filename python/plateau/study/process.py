@@ -1,12 +1,14 @@
 """Gaussian process: a smooth response of noisy runs, with lengths and noise that are not taken for certain.
 
-A constant plus Matérn's correlations (ν = 5/2) along the axes. Constant and variance are integrated out exactly (prior 1/σ²), lengths and noise
-by weighted draws about the likeliest places and from what is known beforehand (M. S. Handcock, M. L. Stein, Technometrics 35, 403-410 (1993)).
-Points that are missed when they are left out (O. Dubrule, Math. Geol. 15, 687-699 (1983)) by more than is expected widen all intervals.
+A constant plus Matérn's correlations (ν = 5/2). Constant and variance are integrated out (prior 1/σ²), lengths and noise by weighted draws about
+the likeliest places and from what is known beforehand (M. S. Handcock, M. L. Stein, Technometrics 35, 403-410 (1993)).
 """
+
+from functools import partial
 
 import numpy as np
 import numpy.typing as npt
+import pandas
 from scipy import optimize, special, stats
 
 from plateau.study.data import Numbers
@@ -22,7 +24,7 @@ class Equations:
 
     def __init__(self, x: Numbers, y: Numbers, share: Numbers, replicates: tuple[float, int], logs: Numbers, axes: Numbers) -> None:
         self.x, self.share, self.axes, self.replicates = x, share, axes, replicates
-        self.lengths, self.noise = np.exp(logs[:, axes]), np.exp(logs[:, -1])
+        self.lengths, self.noise = np.exp(np.atleast_2d(logs)[:, axes]), np.exp(np.atleast_2d(logs)[:, -1])
         self.known = self.correlation(x)
         root = np.linalg.inv(np.linalg.cholesky(self.known + self.noise[:, None, None] * np.diag(share)))
         ones, values = root.sum(-1), root @ y
@@ -46,11 +48,10 @@ class Equations:
 
     def gradient(self) -> Numbers:
         """Derivatives of `log_density` by the logarithms."""
-        (within, freedom), noise = self.replicates, self.noise
         pull = self.freedom / self.square[:, None, None] * self.weights[:, :, None] * self.weights[:, None] - self.inverse
         of_axes = [(pull * self.known * (a * a * (1.0 + a) / (3.0 + 3.0 * a + a * a))).sum((1, 2)) for a in self.apart(self.x)]
-        of_noise = noise * (np.diagonal(pull, axis1=1, axis2=2) @ self.share) - freedom + self.freedom * within / (noise * self.square)
-        return 0.5 * np.column_stack([np.transpose(of_axes) @ np.eye(self.axes.max() + 1)[self.axes], of_noise])
+        of_noise = self.noise * (np.diagonal(pull, axis1=1, axis2=2) @ self.share) + self.freedom * self.replicates[0] / self.noise / self.square
+        return 0.5 * np.column_stack([np.transpose(of_axes) @ np.eye(self.axes.max() + 1)[self.axes], of_noise - self.replicates[1]])
 
     def forecast(self, x: Numbers) -> tuple[Numbers, Numbers]:
         """Weights of the points' values in means at places (set, place, point), and variances over σ² (set, place)."""
@@ -59,30 +60,27 @@ class Equations:
         return weights, np.maximum(1.0 - (known * weights).sum(-1) - of_constant + 1.0 / self.information[:, None], 0.0)
 
     def left_out(self) -> tuple[Numbers, Numbers, Numbers]:
-        """Errors of points that are left out, their squared scale, and log density (Student's t): arrays of set and point."""
+        """Errors of points that are left out, squared scale, log density of Student's t (O. Dubrule, Math. Geol. 15, 687-699 (1983)); set, point."""
         diagonal, freedom, whole = np.diagonal(self.inverse, axis1=1, axis2=2), max(self.freedom - 1, 1), self.square[:, None]
         error, square = self.weights / diagonal, np.maximum(whole - self.weights**2 / diagonal, 1e-12 * whole) / freedom / diagonal
         return error, square, stats.t.logpdf(error / np.sqrt(square), freedom) - 0.5 * np.log(square)
 
 
 class Process:
-    """Gaussian process of a response; ValueError where points are too few or responses all the same.
+    """Gaussian process of a response: columns of `x` are coded numbers and indicators of words, equal rows replicates, `groups` sets of seeds.
 
-    Columns of `x` are coded numbers and indicators of words, equal rows replicates, `groups` sets of seeds; `axes` number the length of each
-    column. `loo` has errors of `means` at `points` (observed less expected of the others), and their expected deviations.
+    `axes` number the length of each column; `loo` has errors of `means` at `points` (observed less expected) and their expected deviations.
     """
 
     def __init__(self, x: npt.ArrayLike, y: npt.ArrayLike, groups: npt.ArrayLike | None = None, axes: npt.ArrayLike | None = None) -> None:
-        told = np.isfinite(np.asarray(y, float))
-        places, values = np.asarray(x, float)[told], np.asarray(y, float)[told]
-        _, first, inverse = np.unique(np.round(places, 9), axis=0, return_index=True, return_inverse=True)
-        order = np.argsort(first)
-        point, self.points, runs = np.argsort(order)[inverse.ravel()], places[first[order]], np.bincount(inverse.ravel())[order]
+        table = pandas.DataFrame(np.asarray(x, float)).assign(y=y, seed=0 if groups is None else np.asarray(groups)).dropna(subset="y")
+        places, values = table.drop(columns=["y", "seed"]), table["y"].to_numpy(float)
+        point = places.round(9).groupby(list(places), sort=False).ngroup().to_numpy()
+        self.points, runs = places.to_numpy()[np.unique(point, return_index=True)[1]], np.bincount(point)
         if len(runs) < 3 or np.ptp(values) <= 16.0 * np.finfo(float).eps * np.abs(values).max():
             raise ValueError(f"{len(runs)} points have a response: a Gaussian process needs 3 of which not all are equal")
         # A run is the mean of its point, what its seeds add everywhere, and noise.
-        own = np.zeros(len(values)) if groups is None else np.asarray(groups)[told]
-        seeds, of_point = np.equal.outer(own, np.unique(own)) * 1.0, np.equal.outer(np.arange(len(runs)), point) / runs[:, None]
+        seeds, of_point = pandas.get_dummies(table["seed"]).to_numpy(float), np.equal.outer(np.arange(len(runs)), point) / runs[:, None]
         self.offset, self.seeds = values.mean(), seeds.shape[1]
         added = np.linalg.lstsq(seeds - (of_point @ seeds)[point], values - (of_point @ values)[point], rcond=None)[0]
         added -= added.mean()
@@ -90,76 +88,63 @@ class Process:
         rest, freedom = values - self.offset - means[point] - seeds @ added, max(len(values) + 1 - len(runs) - self.seeds, 0)
         # What each set of seeds adds at each point; where it has no run, what it adds everywhere.
         self._added = added + of_point @ (seeds * rest[:, None]) / np.maximum(of_point @ seeds, 1e-300)
-        self.means, self._axes = means + self.offset, np.asarray(range(places.shape[1]) if axes is None else axes, int)
-        self.runs, self._given = runs, (self.points, means, 1.0 / runs, (float(rest @ rest) if freedom else 0.0, freedom))
-        self._draw()
-
-    def solved(self, logs: Numbers, some: slice | npt.NDArray[np.int64] = slice(None)) -> Equations:
-        """The equations with such logarithms, of all points or some."""
-        x, y, share, replicates = self._given
-        return Equations(x[some], y[some], share[some], replicates, np.atleast_2d(logs), self._axes)
-
-    def _draw(self) -> None:
-        size, some = int(self._axes.max()) + 2, np.sort(np.random.default_rng(0).permutation(len(self.points))[:MOST])
-        middle, spread, low, high = np.array([LENGTH] * (size - 1) + [NOISE]).T
+        self.means, self.runs, of_column = means + self.offset, runs, np.asarray(range(places.shape[1]) if axes is None else axes, int)
+        replicates, some = (float(rest @ rest) if freedom else 0.0, freedom), np.sort(np.random.default_rng(0).permutation(len(runs))[:MOST])
+        self.solved = partial(Equations, self.points, means, 1.0 / runs, replicates, axes=of_column)
+        of_some = partial(Equations, self.points[some], means[some], 1.0 / runs[some], replicates, axes=of_column)
+        middle, spread, low, high = np.array([LENGTH] * (of_column.max() + 1) + [NOISE]).T
 
         def density(logs: Numbers) -> tuple[Numbers, Numbers]:
-            solved, away = self.solved(logs, some), (logs - middle) / spread
+            solved, away = of_some(logs=logs), (logs - middle) / spread
             return 0.5 * (away**2).sum(-1) - solved.log_density, away / spread - solved.gradient()
 
         def evenly(count: int) -> Numbers:
-            return np.asarray(special.ndtri(stats.qmc.Sobol(size, scramble=False).random(count) + 0.5 / count))
+            return np.asarray(special.ndtri(stats.qmc.Sobol(len(middle), scramble=False).random(count) + 0.5 / count))
 
         # A smooth response with noise and a rough one without may both be likely.
-        begin = np.clip(middle + 1.2 * spread * evenly(64), low, high)
-        begin, box = begin[np.argsort(density(begin)[0])], list(zip(low, high, strict=True))
-        is_noisy, step = begin[:, -1] > np.log(1e-2), 1e-3 * np.eye(size)
-        four = [*begin[is_noisy][:2], *begin[~is_noisy][:2]]
+        begin = sorted(np.clip(middle + 1.2 * spread * evenly(64), low, high), key=lambda logs: float(density(logs)[0][0]))
+        four = [start for is_noisy in (True, False) for start in [one for one in begin if (one[-1] > np.log(1e-2)) == is_noisy][:2]]
+        box, sources, step = optimize.Bounds(low, high), [(middle, np.diag(spread), 4)], 1e-3 * np.eye(len(middle))
         tops = [optimize.minimize(lambda logs: [each[0] for each in density(logs)], start, jac=True, bounds=box) for start in four]
-        sources = [(middle, np.diag(spread), 4)]
         for top in [top.x for top in tops if top.fun < min(other.fun for other in tops) + 5.0]:
             curved = spread[:, None] * (density(top + step)[1] - density(top - step)[1]) * spread / 2e-3
             value, vector = np.linalg.eigh((curved + curved.T) / 2.0)
             # Nothing is known less well than beforehand; draws are 1.25 times as wide as the curvature says.
             sources.append((top, 1.25 * spread[:, None] * vector / np.sqrt(np.maximum(value, 1.25**2)), 1))
-        eighth = 1 << int(np.clip(np.log2(2e8 / len(some) ** 3), 6, 9) - 3)
-        drawn = np.vstack([at + evenly(part * eighth) @ root.T for at, root, part in sources])
+        drawn = np.vstack([at + evenly(part << int(np.clip(np.log2(2e8 / len(some) ** 3), 6, 9) - 3)) @ root.T for at, root, part in sources])
         drawn = drawn[((drawn >= low) & (drawn <= high)).all(-1)]
         by = [np.log(part) + stats.multivariate_normal(at, root @ root.T).logpdf(drawn) for at, root, part in sources]
-        solved = self.solved(drawn, some)
+        solved = of_some(logs=drawn)
         log = solved.log_density - 0.5 * (((drawn - middle) / spread) ** 2).sum(-1) - special.logsumexp(by, axis=0)
         if len(self.points) > MOST:
             drawn, log = drawn[np.argsort(-log)[:8]], np.sort(log)[::-1][:8]
-            solved = self.solved(drawn)
-        weights, (error, square, density_left_out) = special.softmax(log), solved.left_out()
+            solved = self.solved(logs=drawn)
+        error, square, density_left_out = solved.left_out()
         # Weights that know nothing of the point that is left out.
         without = special.softmax(log[:, None] - density_left_out, axis=0)
         missed = (without * error).sum(0)
         self.loo = missed, np.sqrt((without * (square + (error - missed) ** 2)).sum(0))
-        # The mean square of Student's t is more than 1 by its degrees of freedom.
-        too_much = ((missed / self.loo[1]) ** 2).mean() * (1.0 - 2.0 / max(solved.freedom - 1, 3))
-        chosen = np.searchsorted(np.cumsum(weights), (np.arange(KEPT) + 0.5) / KEPT).clip(max=len(weights) - 1)
-        chosen, times = np.unique(chosen, return_counts=True)
-        self.logs, self.probabilities, self.sets = drawn[chosen], times / KEPT, self.solved(drawn[chosen])
-        self.calibration, self.freedom, self.variances = max(1.0, float(too_much)), solved.freedom, self.sets.square / solved.freedom
-        self.run_variance = float(self.probabilities @ (self.sets.noise * self.variances))
+        # Points that are missed by more than expected widen all intervals; the mean square of Student's t is more than 1 by its degrees of freedom.
+        self.calibration = max(1.0, float(((missed / self.loo[1]) ** 2).mean() * (1.0 - 2.0 / max(solved.freedom - 1, 3))))
+        chosen, times = np.unique(np.searchsorted(np.cumsum(special.softmax(log))[:-1], (np.arange(KEPT) + 0.5) / KEPT), return_counts=True)
+        self.logs, self.probabilities, self.sets = drawn[chosen], times / KEPT, self.solved(logs=drawn[chosen])
+        self.freedom, self.run_variance = solved.freedom, float(self.probabilities @ (self.sets.noise * self.sets.square)) / solved.freedom
 
     def moments(self, x: npt.ArrayLike) -> Numbers:
         """Means, variances of their own, and of what another set of seeds adds, at places: three rows."""
         places, found = np.atleast_2d(np.asarray(x, float)), []
         for part in np.array_split(places, 1 + len(places) * len(self.points) * len(self.logs) // 10**6):
             each, shares = self.sets.forecast(part)
-            means, weights = each @ self._given[1], np.tensordot(self.probabilities, each, 1)
-            own = self.probabilities @ (self.variances[:, None] * shares + (means - self.probabilities @ means) ** 2)
+            means, weights = each @ (self.means - self.offset), np.tensordot(self.probabilities, each, 1)
+            own = self.probabilities @ (self.sets.square[:, None] / self.freedom * shares + (means - self.probabilities @ means) ** 2)
             seeds = ((weights @ self._added) ** 2).sum(-1) / max(self.seeds - 1, 1) - self.run_variance * (weights**2).sum(-1)
             found.append([self.offset + self.probabilities @ means, self.calibration * own, np.maximum(seeds, 0.0)])
         return np.concatenate(found, axis=1)
 
     def intervals(self, x: npt.ArrayLike, confidence: float) -> Numbers:
         """Means, ends of their intervals, and ends of those of runs: five columns. Degrees of freedom are Satterthwaite's."""
-        columns, (mean, own, seeds) = [], self.moments(x)
-        for one, other in ((own, seeds / self.seeds), (own + self.run_variance, seeds * (1.0 + 1.0 / self.seeds))):
-            freedom = (one + other) ** 2 / (one**2 / self.freedom + other**2 / max(self.seeds - 1, 1))
-            reach = stats.t.ppf(0.5 + confidence / 2.0, freedom) * np.sqrt(one + other)
-            columns += [mean - reach, mean + reach]
-        return np.column_stack([mean, *columns])
+        mean, own, seeds = self.moments(x)
+        own, seeds = np.array([own, own + self.run_variance]), np.outer([1.0 / self.seeds, 1.0 + 1.0 / self.seeds], seeds)
+        freedom = (own + seeds) ** 2 / (own**2 / self.freedom + seeds**2 / max(self.seeds - 1, 1))
+        reach = stats.t.ppf(0.5 + confidence / 2.0, freedom) * np.sqrt(own + seeds)
+        return np.column_stack([mean, mean - reach[0], mean + reach[0], mean - reach[1], mean + reach[1]])

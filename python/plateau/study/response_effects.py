@@ -1,6 +1,7 @@
 """What the factors of a study do to one response: the analysis of variance with effects, means, and what the runs say of its scale."""
 
 import itertools
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -9,7 +10,7 @@ import pandas
 from scipy import optimize, stats
 
 from plateau.output_folder import plain
-from plateau.study.data import Numbers, Response
+from plateau.study.data import Response
 from plateau.study.model import SOLE, Fitted, Squares, f_test, is_same
 from plateau.study.model_choice import fitted, misfit
 from plateau.units import shown_unit
@@ -22,10 +23,11 @@ COLUMNS += ["effect", "coefficient", "standard_error", "t", "low", "high", "marg
 COLUMNS += ["aliased_with", "error_freedom", "seed_ratio", "seed_p", "unit"]
 # Values of a range up to which means are given at each.
 MOST_VALUES = 10
-# Members of the document of a response, null where nothing could be fitted.
-MEMBERS = ["model", "model_reason", "runs", "missing", "mean", "middle", "r_squared", "adjusted_r_squared", "predicted_r_squared"]
-MEMBERS += ["residual_standard_deviation", "error_from", "residual", "lack_of_fit", "pure_error", "misfit", "curvature", "box_cox"]
-MEMBERS += ["equations", "lenth", "terms", "cautions"]
+# Members of the document of a response, null where nothing could be fitted; those of its summary.
+SUMMARY = ["runs", "missing", "mean", "middle", "r_squared", "adjusted_r_squared", "predicted_r_squared", "residual_standard_deviation", "error_from"]
+TESTS = ["residual", "lack_of_fit", "pure_error", "misfit", "curvature", "box_cox"]
+NONE = dict.fromkeys(["model", "model_reason", *SUMMARY, *TESTS]) | {"runs": 0, "missing": 0, "error_from": ""}
+NONE |= {"equations": [], "lenth": None, "terms": [], "cautions": []}
 
 
 @dataclass(frozen=True, repr=False)
@@ -87,7 +89,7 @@ class ResponseEffects:
         press = float(np.square(fit.residuals / (1.0 - fit.leverages)).sum()) if is_free else np.nan
         shares = 1.0 - residual.sum / total.sum, 1.0 - residual.mean / total.mean, 1.0 - press / total.sum
         values = [len(fit.values), fit.missing, fit.mean, float(fit.coefficients[0]), *shares, fit.error**0.5, error_from(fit)]
-        return dict(zip(MEMBERS[2:11], values, strict=True))
+        return dict(zip(SUMMARY, values, strict=True))
 
     def means(self, *factors: str, steps: int = 0) -> pandas.DataFrame:
         """Means of the model at the levels of one factor or two, over all levels of the others and their middles.
@@ -110,22 +112,18 @@ class ResponseEffects:
         codings = {coding.factor.name: coding for coding in fit.codings}
         places: list[list[Any]] = []
         for coding in (codings[name] for name in factors):
-            if coding.classes is not None:
-                places.append(list(coding.classes))
-                continue
-            coded = np.unique(np.round(coding.factor.coded(fit.runs[coding.factor.name]), 9))
+            coded = np.unique(np.round(coding.factor.coded(fit.runs[coding.factor.name]), 9)) if coding.classes is None else np.array([])
             if steps and not places or len(coded) > MOST_VALUES:
                 coded = np.linspace(-1.0, 1.0, 5 if places or not steps else steps)
-            places.append(list(coding.factor.value(coded)))
+            places.append(list(coding.classes or coding.factor.value(coded)))
         cells = pandas.DataFrame(list(itertools.product(*places)), columns=list(factors))
         numbers = [one.numbers(cells[name]) if name in factors else np.zeros((len(cells), one.width)) for name, one in codings.items()]
         found = fit.combined(rows := fit.products(numbers))
         reach = stats.t.ppf(0.5 + 0.5 * fit.confidence, found["freedom"]) * found["standard_error"]
         values = found["value"].where(pandas.Series(fit.fit.tells(rows)))
-        at_cell = [np.logical_and.reduce([is_same(fit.runs[name], row[name]) for name in factors]) for _, row in cells.iterrows()]
-        observed = [fit.values[own].mean() if own.any() else np.nan for own in at_cell]
-        ends = {"mean": values, "low": values - reach, "high": values + reach}
-        return cells.assign(**ends, observed=observed, runs=[int(own.sum()) for own in at_cell], unit=self.unit)
+        there = [fit.values[np.logical_and.reduce([is_same(fit.runs[name], row[name]) for name in factors])] for _, row in cells.iterrows()]
+        means = {"mean": values, "low": values - reach, "high": values + reach, "observed": [own.mean() if len(own) else np.nan for own in there]}
+        return cells.assign(**means, runs=list(map(len, there)), unit=self.unit)
 
     @property
     def residuals(self) -> pandas.DataFrame:
@@ -136,9 +134,9 @@ class ResponseEffects:
         standardised = fit.residuals / np.sqrt(fit.error * free)
         # R. D. Cook, Technometrics 19, 15-18 (1977).
         distance = standardised**2 * fit.leverages / (free * len(fit.fit.kept))
-        which = {"response": self.response.name, "run": fit.runs.index, "made_as": fit.runs["order"], "replicate": fit.runs["replicate"]}
-        values = {"fitted": fit.values - fit.residuals, "residual": fit.residuals, "standardised": standardised}
-        return pandas.DataFrame(which | values | {"leverage": fit.leverages, "cooks_distance": distance, "unit": self.unit})
+        found = pandas.DataFrame({"response": self.response.name, "run": fit.runs.index}, index=fit.runs.index)
+        found = found.assign(made_as=fit.runs["order"], replicate=fit.runs["replicate"], fitted=fit.values - fit.residuals, residual=fit.residuals)
+        return found.assign(standardised=standardised, leverage=fit.leverages, cooks_distance=distance, unit=self.unit)
 
 
 def error_from(fit: Fitted) -> str:
@@ -163,28 +161,28 @@ def report_of(one: ResponseEffects) -> dict[str, Any]:
     """A response in the document of ``plateau sweep effects --json``."""
     fit, response, terms = one.fit, one.response, one.terms
     report: dict[str, Any] = {"name": response.name, "unit": response.unit, "fitted": one.title, "error": one.error or None}
-    report |= {"transform": None if response.transform == "none" else response.transform} | dict.fromkeys(MEMBERS)
+    report |= {"transform": None if response.transform == "none" else response.transform} | NONE
     if fit is None:
-        return report | {"runs": 0, "missing": 0, "error_from": "", "equations": [], "terms": [], "cautions": []}
-    report |= {"model": fit.model, "model_reason": fit.reason} | {key: plain(value) for key, value in one.summary.items()}
+        return report
+    report |= {"model": fit.model, "model_reason": fit.reason, **one.summary, "misfit": misfit(fit), "cautions": one.cautions}
     for row in one.table[one.table["factors"].isna() & (one.table["term"] != "total")].to_dict("records"):
-        squares = {name: plain(row[name]) for name in ("degrees_of_freedom", "sum_of_squares", "f", "p")}
-        report[row["term"].replace(" ", "_")] = squares
+        report[row["term"].replace(" ", "_")] = {name: row[name] for name in ("degrees_of_freedom", "sum_of_squares", "f", "p")}
     for row in terms[(terms["term"] == "centre points") & terms["f"].notna()].to_dict("records"):
         report["curvature"] = {"difference": row["effect"], "interval": [row["low"], row["high"]], "f": row["f"], "p": row["p"]}
-    report |= {"misfit": misfit(fit), "box_cox": one.box_cox and {"lambda": one.box_cox[0], "interval": list(one.box_cox[1:])}}
+    report["box_cox"] = one.box_cox and {"lambda": one.box_cox[0], "interval": list(one.box_cox[1:])}
     report["equations"] = [{"units": units, "terms": products.to_dict("records")} for units, products in one.equations.items()]
-    if np.isnan(fit.error) and (judged := lenth(terms.loc[terms["factors"].str.len() > 0, "effect"], fit.confidence)):
+    if np.isnan(fit.error) and (judged := lenth(terms, fit.confidence)):
         names = ("pseudo_standard_error", "margin_of_error", "simultaneous_margin_of_error")
         report["lenth"] = dict(zip(names, judged, strict=True))
     copied = [*COLUMNS[3:5], "share", "variance_inflation", "f", "p", "effect", "standard_error", "aliased_with", "seed_ratio"]
     report["terms"] = [
         {"label": row["term"], "interval": None if np.isnan(row["low"]) else [row["low"], row["high"]]}
-        | {name: plain(row[name]) for name in copied}
-        | {"error_degrees_of_freedom": plain(row["error_freedom"])}
+        | {name: row[name] for name in copied}
+        | {"error_degrees_of_freedom": row["error_freedom"]}
         for row in terms.to_dict("records")
     ]
-    return report | {"cautions": one.cautions}
+    found: dict[str, Any] = plain(report)
+    return found
 
 
 def _aliases(fit: Fitted) -> tuple[set[int], list[list[str]]]:
@@ -212,61 +210,58 @@ def effect_table(fit: Fitted) -> pandas.DataFrame:
     rows: list[dict[str, Any]] = []
     (untold, aliases), least, values = _aliases(fit), fit.fit, fit.values - fit.mean
     spread = np.square(fit.design - fit.design.mean(axis=0)).sum(axis=0)
+
+    def told(name: str, squares: Squares, aliased_with: Sequence[str] = (), **more: Any) -> dict[str, Any]:
+        row = {"term": name, "degrees_of_freedom": squares.freedom, "sum_of_squares": squares.sum, "mean_square": squares.mean}
+        return row | {"share": squares.sum / fit.total.sum, "aliased_with": list(aliased_with)} | more
+
     for at, columns in list(enumerate(fit.columns))[1 if fit.seeds > 1 else 2 :]:
-        is_blocks, term, width = at == 1, () if at == 1 else fit.terms[at - 2], columns.stop - columns.start
+        is_blocks, term, width, error = at == 1, () if at == 1 else fit.terms[at - 2], columns.stop - columns.start, fit.residual
         places = [place for place, column in enumerate(least.kept) if columns.start <= column < columns.stop]
         weights = least.root[places] @ least.basis.T
         # Orthonormal rows whose products with the responses are what the term explains, all others kept (type III).
         directions = np.linalg.qr(weights.T)[0].T if places else weights
         own = Squares(len(places), float(np.square(directions @ values).sum()))
-        row: dict[str, Any] = {"term": "replicate" if is_blocks else fit.label(term), "factors": term, "aliased_with": aliases[at]}
-        row |= {"degrees_of_freedom": own.freedom, "sum_of_squares": own.sum, "mean_square": own.mean, "share": own.sum / fit.total.sum}
-        is_told = len(places) == width > 0 and not untold & set(range(columns.start, columns.stop))
-        error, freedom = fit.error, float(fit.residual_freedom)
-        if not is_blocks and fit.seeds > 1 and is_told and not np.isnan(fit.error):
-            # The error over all seeds is what the term differs by between them, not what the model leaves.
-            variances, freedoms = fit.errors(directions)
-            error, freedom = float(variances.mean()), float(freedoms.sum())
-            if error > 0:
-                rest = Squares(round(fit.residual_freedom - freedom), max(fit.residual.sum - error * freedom, 0.0))
-                ratio, _ = f_test(Squares(1, error), rest)
-                row |= {"seed_ratio": ratio, "seed_p": float(stats.f.sf(ratio, freedom, rest.freedom))}
-        if is_told and error > 0:
-            f = own.mean / error
-            row |= {"error_freedom": freedom, "f": f, "p": float(stats.f.sf(f, own.freedom, freedom))}
+        row = told("replicate" if is_blocks else fit.label(term), own, aliases[at], factors=term)
+        if len(places) == width > 0 and not untold & set(range(columns.start, columns.stop)):
+            if not is_blocks and fit.seeds > 1 and error.sum > 0:
+                # The error over all seeds is what the term differs by between them, not what the model leaves.
+                variances, freedoms = fit.errors(directions)
+                error = Squares(float(freedoms.sum()), float(variances.mean() * freedoms.sum()))
+                if error.sum > 0:
+                    rest = Squares(round(fit.residual_freedom - error.freedom), max(fit.residual.sum - error.sum, 0.0))
+                    row["seed_ratio"], row["seed_p"] = f_test(error, rest)
+            if error.sum > 0:
+                row["f"], row["p"] = f_test(own, error)
+                row["error_freedom"] = float(error.freedom)
         if width == 1 and places:
             column, variance = least.kept[places[0]], float(weights[0] @ weights[0])
             row["variance_inflation"] = variance * spread[column] or np.nan
             if not is_blocks:
                 # Of centre points the coefficient is the difference.
                 double, coefficient = 2.0 if term else 1.0, float(fit.coefficients[column])
-                row |= {"coefficient": coefficient, "effect": double * coefficient}
-                if "f" in row:
-                    deviation = double * (error * variance) ** 0.5
-                    reach = float(stats.t.ppf(0.5 + 0.5 * fit.confidence, freedom)) * deviation
-                    row |= {"standard_error": deviation, "t": row["effect"] / deviation}
-                    row |= {"low": row["effect"] - reach, "high": row["effect"] + reach}
+                deviation = double * (error.mean * variance) ** 0.5 if "f" in row else np.nan
+                effect, reach = double * coefficient, float(stats.t.ppf(0.5 + 0.5 * fit.confidence, error.freedom)) * deviation
+                row |= {"coefficient": coefficient, "effect": effect, "standard_error": deviation, "t": effect / deviation}
+                row |= {"low": effect - reach, "high": effect + reach}
         rows.append(row)
     missed, f, p = fit.lack_of_fit
-    parts = {"lack of fit": missed, "pure error": fit.scatter[0]} if fit.scatter[0].freedom > 0 else {}
-    for name, squares in {"residual": fit.residual, **parts, "total": fit.total}.items():
-        row = {"term": name, "degrees_of_freedom": squares.freedom, "sum_of_squares": squares.sum, "mean_square": squares.mean}
-        row |= {"f": f, "p": p} if name == "lack of fit" else {}
-        rows.append(row | {"share": squares.sum / fit.total.sum, "aliased_with": []})
-    table = pandas.DataFrame(rows).reindex(columns=COLUMNS)
+    rows.append(told("residual", fit.residual))
+    rows += [told("lack of fit", missed, f=f, p=p), told("pure error", fit.scatter[0])] if fit.scatter[0].freedom > 0 else []
+    table = pandas.DataFrame([*rows, told("total", fit.total)]).reindex(columns=COLUMNS)
     table["response"], table["unit"] = fit.response.name, fit.response.unit_of_fit
-    if np.isnan(fit.error) and (judged := lenth(table.loc[table["factors"].str.len() > 0, "effect"], fit.confidence)) is not None:
+    if np.isnan(fit.error) and (judged := lenth(table, fit.confidence)) is not None:
         table.loc[table["effect"].notna(), ["margin_of_error", "simultaneous_margin_of_error"]] = judged[1:]
     return table
 
 
-def lenth(effects: pandas.Series, confidence: float) -> tuple[float, float, float] | None:
+def lenth(table: pandas.DataFrame, confidence: float) -> tuple[float, float, float] | None:
     """Pseudo standard error and margins of effects without an error, none of fewer than six (R. V. Lenth, Technometrics 31, 469-473 (1989))."""
-    sizes = effects.dropna().abs().to_numpy(float)
+    sizes = table.loc[table["factors"].str.len() > 0, "effect"].dropna().abs().to_numpy(float)
     if len(sizes) < 6 or (first := 1.5 * float(np.median(sizes))) <= 1e-12 * sizes.max():
         return None
     error, freedom = 1.5 * float(np.median(sizes[sizes < 2.5 * first])), len(sizes) / 3.0
-    tails = 0.5 + 0.5 * confidence, 0.5 + 0.5 * confidence ** (1.0 / len(sizes))
+    tails = [0.5 + 0.5 * confidence, 0.5 + 0.5 * confidence ** (1.0 / len(sizes))]
     margin, simultaneous = (float(stats.t.ppf(tail, freedom)) * error for tail in tails)
     return error, margin, simultaneous
 
@@ -292,15 +287,11 @@ def box_cox(fit: Fitted) -> tuple[float, float, float] | None:
     best = float(optimize.minimize_scalar(lambda power: -likelihood(power), bounds=bounds, method="bounded", options={"xatol": 1e-9}).x)
     least = likelihood(best) - 0.5 * float(stats.chi2.ppf(fit.confidence, 1))
 
-    def end(powers: Numbers) -> float:
-        inside = best
-        for power in powers:
-            if likelihood(power) < least:
-                return float(optimize.brentq(lambda at: likelihood(at) - least, inside, power, xtol=1e-12))
-            inside = float(power)
-        return inside
+    def end(powers: list[float]) -> float:
+        beyond = next((power for power in powers if likelihood(power) < least), None)
+        return [best, *powers][-1] if beyond is None else float(optimize.brentq(lambda at: likelihood(at) - least, best, beyond, xtol=1e-12))
 
-    return best, end(grid[grid < best][::-1]), end(grid[grid > best])
+    return best, end(grid[grid < best][::-1].tolist()), end(grid[grid > best].tolist())
 
 
 def transform_advice(fit: Fitted, found: tuple[float, float, float] | None) -> str:

@@ -80,20 +80,22 @@ def _opened(folder: Path, study: Path | None, directory: Path) -> Study:
         if not file.is_file():
             raise MissingFileError(f"{file}: there is no such file; plateau sweep collect makes it")
     try:
-        table, data = read_table(csv), xarray.load_dataset(hdf5, engine="h5netcdf", driver_kwds=locking(hdf5))
+        # Exactly the numbers of the file; from version 3.1, pandas does so by default and no longer accepts the option.
+        exactly: Any = {} if tuple(map(int, pandas.__version__.split(".")[:2])) >= (3, 1) else {"float_precision": "round_trip"}
+        table, data = pandas.read_csv(csv, **exactly), xarray.load_dataset(hdf5, engine="h5netcdf", driver_kwds=locking(hdf5))
         # In CSV, words such as nan and 007 look like numbers, and =1+1 has an apostrophe before it.
         for name in set(table).intersection(data.variables) - {"state", "error"}:
             if data[name].dtype.kind in "OSU":
                 table[name] = data[name].values
         document = tomllib.loads(str(data.attrs["study"]))
-        with_role = {role: [data[name] for name in data.variables if data[name].attrs.get("role") == role] for role in ROLES}
+        variables = [data[name] for name in data.variables]
+        of_factors, of_responses = ([one for one in variables if one.attrs.get("role") == role] for role in ("factor", "response"))
         own = {name: data[name].values for name in ("point", "replicate", "order", "same_as", "state")}
         index = pandas.Index(data["run"].values.astype(int), name="run")
 
-        factors = [_factor(values) for values in with_role["factor"]]
-        taken = {*own, *(factor.name for factor in factors)}
-        named = {_name(values, "response", taken): values for values in with_role["response"]}
-        columns = own | {factor.name: values.values for factor, values in zip(factors, with_role["factor"], strict=True)}
+        factors = [_factor(values) for values in of_factors]
+        columns = own | {factor.name: values.values for factor, values in zip(factors, of_factors, strict=True)}
+        named = {_name(values, "response", set(columns)): values for values in of_responses}
         runs = pandas.DataFrame(columns | {name: values.values for name, values in named.items()}, index=index)
         asked = {str(table.get("name", table.get("dataset", "").rsplit("/")[-1])): table for table in document.get("response", [])}
         responses, (title, design) = [_response(values, asked, name) for name, values in named.items()], map(data.attrs.get, ("title", "design"))
@@ -123,7 +125,6 @@ def _with_imported(study: Study) -> Study:
     return study
 
 
-ROLES = ("factor", "response")
 # Columns that stand beside those of factors in tables of runs and answers.
 COLUMNS = {"point", "replicate", "order", "same_as", "state", "error", "run", "place", "response", "unit", "value", "leverage", "beyond", "cautions"}
 COLUMNS |= {"mean", "low", "high", "observed", "runs", "round", "expected_improvement", "is_within", "confirmed", "check", "forecast", "deviation", "held"}
@@ -178,10 +179,3 @@ def _directory(study: Path, given: str | os.PathLike[str] | None) -> Path:
         raise InputError(f"{study}: cannot be read as a study: {error}") from error
 
 
-def read_table(path: str | os.PathLike[str]) -> pandas.DataFrame:
-    """Reads a table in CSV, with exactly the numbers of the file."""
-    # From version 3.1, pandas does this by default and no longer accepts the option.
-    version = tuple(map(int, pandas.__version__.split(".")[:2]))
-    options: Any = {} if version >= (3, 1) else {"float_precision": "round_trip"}
-    table: pandas.DataFrame = pandas.read_csv(path, **options)
-    return table

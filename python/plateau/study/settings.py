@@ -18,7 +18,8 @@ SAME, ROUNDED = 1e-9, 1e-5
 def held_values(study: Study, said: Mapping[str, Any] | Sequence[str], where: str, is_curved: bool) -> dict[str, Any]:
     """Values of the factors that were set, SI units or words, by name."""
     held: dict[str, Any] = {}
-    for name, value in said.items() if isinstance(said, Mapping) else [_assignment(study, text) for text in said]:
+    names = {name for factor in study.factors for name in factor.names}
+    for name, value in said.items() if isinstance(said, Mapping) else [_assignment(names, text) for text in said]:
         factor = factor_named(study, name, where)
         if factor.name in held:
             raise InputError(f"{where}: {factor.name} is given twice")
@@ -33,9 +34,8 @@ def factor_named(study: Study, name: str, where: str) -> Factor:
     raise InputError(f"{where}: {name!r} is not a factor of the study, expected one of {', '.join(one.name for one in study.factors)}")
 
 
-def _assignment(study: Study, text: str) -> tuple[str, str]:
+def _assignment(names: set[str], text: str) -> tuple[str, str]:
     """Name and value of ``NAME=VALUE``; both may have ``=`` in them."""
-    names = {name for factor in study.factors for name in factor.names}
     parts = [(text[: at.start()].strip(), text[at.end() :].strip()) for at in re.finditer("=", text)]
     return next((part for part in parts if part[0] in names), parts[0] if parts else (text, ""))
 
@@ -106,16 +106,15 @@ def region_of(study: Study) -> str:
 def beyond_of(study: Study, places: pandas.DataFrame) -> list[str]:
     """By place, which factors are beyond the region of the design: the ranges, and around them what is no farther out than runs are."""
     said: list[list[str]] = [[] for _ in range(len(places))]
-    numbers = [factor for factor in study.factors if factor.is_number]
-    coded = np.array([factor.coded(places[factor.name].to_numpy(float)) for factor in numbers]).reshape(len(numbers), len(places))
-    for factor, own in zip(numbers, coded, strict=True):
+    coded = {factor: factor.coded(places[factor.name].to_numpy(float)) for factor in study.factors if factor.is_number}
+    for factor, own in coded.items():
         ends = ends_of(study, factor)
         low, high = (factor.shown(float(factor.value(end)), with_unit=is_last) for end, is_last in zip(ends, (False, True), strict=True))
         for at in np.flatnonzero((own < ends[0] - SAME) | (own > ends[1] + SAME)):
             said[at].append(f"{factor.name} is beyond {low} to {high}")
-    reach = reach_of(study)
-    for at in np.flatnonzero(np.square(coded).sum(axis=0) ** 0.5 > reach + ROUNDED) if numbers else ():
-        names = [factor.name for factor, own in zip(numbers, coded[:, at], strict=True) if abs(own) > 1.0 + SAME]
+    away = np.sqrt(sum((own**2 for own in coded.values()), np.zeros(len(places))))
+    for at in np.flatnonzero(away > reach_of(study) + ROUNDED):
+        names = [factor.name for factor, own in coded.items() if abs(own[at]) > 1.0 + SAME]
         if not said[at]:
             said[at].append(f"{' and '.join(names)} are together farther from the middle than all runs")
     return [joined(one) for one in said]
@@ -123,11 +122,9 @@ def beyond_of(study: Study, places: pandas.DataFrame) -> list[str]:
 
 def no_curve(study: Study, places: pandas.DataFrame) -> list[str]:
     """That the runs show no curve of factors with two values, between which there are places."""
-    names = []
-    for factor in (factor for factor in study.factors if factor.is_number):
-        values = np.unique(np.round(factor.coded(study.runs[factor.name]), 9))
-        if len(values) == 2 and (np.abs(factor.coded(places[factor.name].to_numpy(float))) < 1.0 - SAME).any():
-            names.append(factor.name)
+    numbers = [factor for factor in study.factors if factor.is_number]
+    straight = [factor for factor in numbers if len(np.unique(np.round(factor.coded(study.runs[factor.name]), 9))) == 2]
+    names = [one.name for one in straight if (np.abs(one.coded(places[one.name].to_numpy(float))) < 1.0 - SAME).any()]
     if not names:
         return []
     said = f"{', '.join(names)}: the runs have two values of {'it' if len(names) == 1 else 'each'}, so that they show no curve: between these, "

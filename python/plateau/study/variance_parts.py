@@ -21,7 +21,6 @@ from plateau.output_folder import plain
 from plateau.study.analysis import together, usable
 from plateau.study.data import Numbers, Response, Study
 from plateau.study.figure_axes import file_names
-from plateau.study.model import Fitted
 from plateau.study.process import Process
 from plateau.study.results import analysed
 from plateau.study.surrogate import Surrogate, surrogates
@@ -35,6 +34,8 @@ SEEDS = "seeds"
 # Columns as they are told.
 EFFECTS = {"mean_size": "mean size μ*", "standard_error": "its error", "mean": "mean", "deviation": "deviation σ"}
 PARTS = {"first_order": "alone (first order)", "total": "with interactions (total)"}
+NUMBERS = ["mean_size", "mean", "deviation", "standard_error", "effects"]
+COLUMNS = ["response", "factor", *(f"{name}{end}" for name in PARTS for end in ("", "_low", "_high")), *NUMBERS, "unit"]
 # Part of the variance that a surrogate may miss at points left out before its smoothness is said to matter.
 MISSED = 0.1
 
@@ -65,28 +66,23 @@ class Sensitivity:
         """Whether the table has elementary effects."""
         return self.study.design == "morris"
 
-    def document(self, files: list[str] | None = None) -> dict[str, Any]:
+    def document(self) -> dict[str, Any]:
         """What ``plateau sweep sensitivity --json`` prints."""
         responses = []
         for surrogate in self.surrogates:
-            response, rows = surrogate.response, self.table[self.table["response"] == surrogate.response.name]
-            indices, effects, seeds = [], [], None
-            for row in plain(rows.to_dict("records")):
-                parts = {}
-                for name in ("first_order", "total"):
-                    ends = [row[f"{name}_low"], row[f"{name}_high"]]
-                    parts[name] = {"value": row[name], "interval": None if None in ends else ends}
-                if self.is_morris:
-                    effects.append({name: row[name] for name in ["factor", "mean_size", "mean", "deviation", "standard_error", "effects"]})
-                elif row["factor"] == SEEDS:
-                    seeds = parts["total"]
-                else:
-                    indices.append({"factor": row["factor"], **parts})
+            response, found = surrogate.response, {}
+            rows = plain(self.table[self.table["response"] == surrogate.response.name].to_dict("records"))
+            for row in rows:
+                ends = {name: [row[f"{name}_low"], row[f"{name}_high"]] for name in PARTS}
+                found[row["factor"]] = {name: {"value": row[name], "interval": None if None in ends[name] else ends[name]} for name in PARTS}
+            effects = [{name: row[name] for name in ["factor", *NUMBERS]} for row in rows if self.is_morris]
+            seeds = None if self.is_morris else found.pop(SEEDS, {}).get("total")
+            indices = [] if self.is_morris else [{"factor": factor, **parts} for factor, parts in found.items()]
             said = f"of the {surrogate.words}; {surrogate.reason}" if indices else None
             report: dict[str, Any] = {"name": response.name, "unit": response.unit, "error": surrogate.error or None, "surrogate": said}
             report |= {"variance": self.variances.get(response.name), "indices": indices, "seeds": seeds, "elementary_effects": effects}
             responses.append(report)
-        return {"study": self.study.title, "responses": responses, "cautions": self.cautions, "files": files or []}
+        return {"study": self.study.title, "responses": responses, "cautions": self.cautions}
 
     def ranked(self, response: str) -> pandas.DataFrame:
         """The rows of a response, the largest part or effect first and the seeds last."""
@@ -119,9 +115,16 @@ class Sensitivity:
             lines += [*said, *listed(cells), ""]
         return with_minus("\n".join([*lines, *(f"caution: {caution}" for caution in self.cautions), ""]))
 
-    def figures(self) -> Any:
-        """A figure for each response."""
-        return sensitivity_figures(self)
+    @in_style
+    def figures(self) -> Figures:
+        """A figure for each response: parts of its variance, or elementary effects."""
+        figures: Figures = {}
+        draws, kind = (_drawn_elementary, "elementary-effects") if self.is_morris else (_drawn_indices, "indices")
+        for surrogate, stem in zip(self.surrogates, file_names([one.response.name for one in self.surrogates]), strict=True):
+            table = self.ranked(surrogate.response.name)
+            if not surrogate.error and len(table):
+                figures[f"{stem}-{kind}"] = draws(self, surrogate.response, table)
+        return figures
 
 
 def sensitivity(study: Study | str | os.PathLike[str], confidence: float = 0.95) -> Sensitivity:
@@ -158,34 +161,32 @@ def sensitivity(study: Study | str | os.PathLike[str], confidence: float = 0.95)
         if is_morris:
             tables.append(elementary_effects(opened, one.response.name).assign(response=one.response.name, unit=one.response.unit))
         elif one.fit is not None:
-            table, variance = _indices(opened, one, confidence)
+            table, variances[one.response.name] = _indices(opened, one, confidence)
             tables.append(table.assign(response=one.response.name, unit="1"))
-            variances[one.response.name] = variance
             said = f"points that were left out are missed by {100 * min(one.missed, 1.0):.0f} % of the variance: intervals hold for smooth"
             said += " responses; if it has a threshold or a kink, they are too short, those of totals most"
             cautions += [f"{one.response.name}: {caution}" for caution in [*one.cautions, *([said] if one.missed > MISSED else [])]]
-    numbers = ["mean_size", "mean", "deviation", "standard_error", "effects"]
-    parts = [f"{name}{end}" for name in ("first_order", "total") for end in ("", "_low", "_high")]
-    columns = ["response", "factor", *parts, *numbers, "unit"]
     whole = pandas.concat(tables, ignore_index=True) if tables else pandas.DataFrame()
-    return Sensitivity(opened, whole.reindex(columns=columns), known, variances, confidence, cautions)
+    return Sensitivity(opened, whole.reindex(columns=COLUMNS), known, variances, confidence, cautions)
 
 
 def _indices(study: Study, one: Surrogate, confidence: float) -> tuple[pandas.DataFrame, float]:
     """Indices of what may be true of a response, and the variance of what is expected."""
     count, names = len(study.factors), [factor.name for factor in study.factors]
-    even = stats.qmc.Sobol(2 * count, rng=np.random.default_rng(0)).random(ROWS)
-    halves = (even[:, :count], even[:, count:])
+    halves = np.split(stats.qmc.Sobol(2 * count, rng=np.random.default_rng(0)).random(ROWS), 2, axis=1)
     a, b = (pandas.DataFrame({one.name: _values(one, part[:, at]) for at, one in enumerate(study.factors)}) for part in halves)
     places = pandas.concat([a, b, *(a.assign(**{name: b[name]}) for name in names)], ignore_index=True)
-    drawn = _drawn(one, places)
+    process, random = one.process if one.takes_process else None, np.random.default_rng(1)
+    drawn = drawn_models(one, places, random) if process is None else drawn_processes(process, one.rows(places), random)
     values = one.response.back(drawn).reshape(-1, count + 2, ROWS)
     variance, tail = values[:, :2].reshape(len(values), -1).var(axis=1), 50.0 * (1.0 - confidence)
-    found = stats.sobol_indices(func={"f_A": values[:, 0], "f_B": values[:, 1], "f_AB": values[:, 2:].swapaxes(0, 1)}, n=ROWS)
+    # Of one function of one factor SciPy would make a number of what it takes for an array.
+    more = values if len(values) > 1 else np.repeat(values, 2, axis=0)
+    found = stats.sobol_indices(func={"f_A": more[:, 0], "f_B": more[:, 1], "f_AB": more[:, 2:].swapaxes(0, 1)}, n=ROWS)
     rows: dict[str, Numbers] = {}
     for name, indices in (("first_order", found.first_order), ("total", found.total_order)):
         # What is the same everywhere has no parts.
-        parts = np.where(variance[:, None] > 0.0, indices.reshape(-1, count), np.nan)
+        parts = np.where(variance[:, None] > 0.0, indices.reshape(-1, count)[: len(values)], np.nan)
         low, middle, high = np.nanpercentile(parts, [tail, 50.0, 100.0 - tail], axis=0)
         rows |= {name: middle, f"{name}_low": low, f"{name}_high": high}
     table = pandas.DataFrame({"factor": names, **rows})
@@ -207,19 +208,11 @@ def _values(factor: Any, even: Numbers) -> Any:
     return factor.value(2.0 * even - 1.0) if factor.is_range else np.array(factor.levels)[(even * len(factor.levels)).astype(int)]
 
 
-def _drawn(one: Surrogate, places: pandas.DataFrame) -> Numbers:
-    """Functions that may be true, at places (function, place), on the scale of the fit."""
-    random = np.random.default_rng(1)
-    if one.takes_process and one.process is not None:
-        return drawn_processes(one.process, one.rows(places), FUNCTIONS, random)
-    return drawn_models(one, one._fit, places, random)
-
-
-def drawn_processes(process: Process, places: Numbers, count: int, random: np.random.Generator) -> Numbers:
-    """Functions of a process: one without data, and what the data say of its differences from them."""
-    result, share = [], 1.0 / process.runs
-    for chosen, times in zip(*np.unique(random.choice(len(process.logs), count, p=process.probabilities), return_counts=True), strict=True):
-        own = process.solved(process.logs[chosen])
+def drawn_processes(process: Process, places: Numbers, random: np.random.Generator) -> Numbers:
+    """Functions of a process that may be true (function, place): one without data, and what the data say of its differences from them."""
+    result, share, sets = [], 1.0 / process.runs, random.choice(len(process.logs), FUNCTIONS, p=process.probabilities)
+    for chosen, times in zip(*np.unique(sets, return_counts=True), strict=True):
+        own = process.solved(logs=process.logs[chosen])
         weights = own.forecast(places)[0][0]
         for _ in range(times):
             # The spectrum of the correlation along an axis is Student's t of five degrees of freedom.
@@ -237,14 +230,13 @@ def _cosines(places: tuple[Numbers, ...], frequency: Numbers, random: np.random.
     return [np.cos(where @ frequency.T + phase) @ size for where in places]
 
 
-def drawn_models(one: Surrogate, fit: Fitted, places: pandas.DataFrame, random: np.random.Generator) -> Numbers:
+def drawn_models(one: Surrogate, places: pandas.DataFrame, random: np.random.Generator) -> Numbers:
     """Models with other coefficients, and smooth functions of as much as the model misses."""
-    rows, where = fit.matrix(places), one.rows(places)
-    freedom, (missed, _) = fit.residual_freedom, fit._missed
+    fit, where, result = one._fit, one.rows(places), []
+    rows, freedom, missed = fit.matrix(places), fit.residual_freedom, fit._missed[0]
     if np.isnan(fit.error):
         # Nothing tells the error.
         return np.array([rows @ fit.coefficients])
-    result = []
     for _ in range(FUNCTIONS):
         scale = np.sqrt(freedom / random.chisquare(freedom))
         change = fit.fit.root @ random.standard_normal(len(fit.fit.kept)) * np.sqrt(fit.error) * scale
@@ -258,18 +250,14 @@ def elementary_effects(study: Study, response: str) -> pandas.DataFrame:
     """What a response changes by when one factor does, along the trajectories of a Morris design, per whole range or change of level."""
     # Means over the seeds; a point of which one is missing is left out, for its other seeds would be compared with other ones.
     at_point = study.runs.groupby("point")
-    points = at_point[[factor.name for factor in study.factors]].first()
-    points[response] = at_point[response].mean().where(at_point[response].count() == at_point.size())
-    effects: dict[str, list[float]] = {factor.name: [] for factor in study.factors}
-    for at in range(len(points) - 1):
-        before, after = points.iloc[at], points.iloc[at + 1]
-        changed = [factor for factor in study.factors if before[factor.name] != after[factor.name]]
-        change = after[response] - before[response]
-        if (at + 1) % (len(study.factors) + 1) and len(changed) == 1 and np.isfinite(change):
-            factor = changed[0]
-            step = float(np.diff(factor.coded([before[factor.name], after[factor.name]]))[0]) / 2.0 if factor.is_number else 1.0
-            effects[factor.name].append(change / step)
-    each = pandas.DataFrame({name: pandas.Series(found, dtype=float) for name, found in effects.items()})
+    points, mean = at_point.first(), at_point[response].mean().where(at_point[response].count() == at_point.size())
+    places = {one.name: one.coded(points[one.name]) / 2.0 if one.is_number else pandas.factorize(points[one.name])[0] for one in study.factors}
+    steps = pandas.DataFrame(places, index=points.index, dtype=float).diff()
+    words = [one.name for one in study.factors if not one.is_number]
+    steps[words] = steps[words].ne(0.0).astype(float)
+    # Within trajectories one factor changes at a time.
+    is_step = steps.ne(0.0).sum(axis=1).eq(1) & (np.arange(len(steps)) % (len(study.factors) + 1) > 0)
+    each = steps[is_step].where(steps.ne(0.0)).rdiv(mean.diff()[is_step], axis=0)
     size = each.abs()
     table = {"mean_size": size.mean(), "mean": each.mean(), "deviation": each.std(), "standard_error": size.sem(), "effects": each.count()}
     return pandas.DataFrame(table).rename_axis("factor").reset_index()
@@ -281,19 +269,6 @@ def _part(row: pandas.Series, name: str) -> str:
         return "" if np.isnan(value) else f"{value:.2f}"
     shown = [with_digits(each, max((high - low) / 2.0, 0.01)) for each in (value, low, high)]
     return f"{shown[0]} ({shown[1]} … {shown[2]})"
-
-
-@in_style
-def sensitivity_figures(found: Sensitivity) -> Figures:
-    """Draws parts of the variance of each response, or elementary effects."""
-    figures: Figures = {}
-    draws, kind = (_drawn_elementary, "elementary-effects") if found.is_morris else (_drawn_indices, "indices")
-    names = [surrogate.response.name for surrogate in found.surrogates]
-    for surrogate, stem in zip(found.surrogates, file_names(names), strict=True):
-        table = found.ranked(surrogate.response.name)
-        if not surrogate.error and len(table):
-            figures[f"{stem}-{kind}"] = draws(found, surrogate.response, table)
-    return figures
 
 
 def _drawn_indices(found: Sensitivity, response: Response, table: pandas.DataFrame) -> Any:

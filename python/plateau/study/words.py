@@ -2,20 +2,31 @@
 compare``. Each is a thin layer on a function of `plateau.study`."""
 
 import argparse
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+import pandas
+
+from plateau import study as studies
 from plateau.command_line import Words, count, json_of, of_all, options, progress, several, share, show
 from plateau.errors import RunFailed
 from plateau.output_folder import plain, put, refuse_earlier, refuse_file, relative, write
+from plateau.study.data import Study
+from plateau.study.kept_values import file_of
+from plateau.study.results import analysed
+from plateau.study.text_tables import written_table
+from plateau.style import saved
 
-if TYPE_CHECKING:
-    import pandas
-
-    from plateau.study.data import Study
-
-MODELS = ("main", "interactions", "full", "quadratic")
+EARLIER = "Replace the files of an earlier call, and remove those that this call does not write"
+# Options of several words.
+SHARED: dict[str, dict[str, Any]] = {
+    "--jobs": {"type": count, "metavar": "N", "help": "Runs at a time; as many as there are cores unless given"},
+    "--workers": {"type": count, "default": 1, "metavar": "N", "help": "Threads of each run [default: 1]"},
+    "--model": {"choices": ("main", "interactions", "full", "quadratic"), "help": "What is fitted; unless given, what the design allows"},
+    "--confidence": {"type": share, "default": 0.95, "metavar": "P", "help": "Confidence level of intervals [default: 0.95]"},
+}
+CORES, MODEL = ("--jobs", "--workers"), ("--model", "--confidence")
 
 
 def add(words: Words) -> None:
@@ -30,28 +41,16 @@ def add(words: Words) -> None:
             made.add_argument("--directory", type=Path, metavar="DIR", help="Folder of the results; overrides `directory` of the study")
         return made
 
-    earlier = "Replace the files of an earlier call, and remove those that this call does not write"
-
-    def common(made: Any, *, output: str | None = None, force: str = earlier) -> None:
+    def shared(made: Any, *flags: str, output: str | None = None, force: str = EARLIER) -> None:
+        for flag in flags:
+            made.add_argument(flag, **SHARED[flag])
         if output is not None:
             made.add_argument("-o", "--output", type=Path, metavar="DIR", help=output)
         made.add_argument("--json", action="store_true", help="Print one JSON document instead of text")
         of_all(made, force)
 
-    def confidence(made: Any) -> None:
-        made.add_argument("--confidence", type=share, default=0.95, metavar="P", help="Confidence level of intervals [default: 0.95]")
-
-    def model(made: Any) -> None:
-        made.add_argument("--model", choices=MODELS, help="What is fitted; unless given, what the design allows")
-        confidence(made)
-
-    def cores(made: Any) -> None:
-        made.add_argument("--jobs", type=count, metavar="N", help="Runs at a time; as many as there are cores unless given")
-        made.add_argument("--workers", type=count, default=1, metavar="N", help="Threads of each run [default: 1]")
-
     made = word(study, "effects", "Tell what the factors do: effects, analysis of variance, figures", _effects, "  plateau sweep effects data/studies/published/factors.toml")
-    model(made)
-    common(made, output='Folder for tables, figures and the page; "effects" in the study\'s own unless given')
+    shared(made, *MODEL, output='Folder for tables, figures and the page; "effects" in the study\'s own unless given')
 
     made = word(study, "predict", "Tell what responses are expected to be where no run was made", _predict, "  plateau sweep predict data/studies/answer.toml --at load=\"7 N\"")
     several(made, "--at", "FACTOR=VALUE", 'Set a factor, such as load="7 N"; may be repeated')
@@ -60,9 +59,7 @@ def add(words: Words) -> None:
     made.add_argument("--extrapolate", action="store_true", help="Predict beyond the runs of the study, too")
     made.add_argument("--confirm", action="store_true", help="Make runs there, with all seeds of the study, and compare")
     made.add_argument("-o", "--output", type=Path, metavar="FILE", help="Write the predictions as a table in CSV")
-    cores(made)
-    model(made)
-    common(made, force="Replace that file if it exists")
+    shared(made, *CORES, *MODEL, force="Replace that file if it exists")
 
     made = word(study, "optimize", "Find the settings at which responses are best", _optimize, "  plateau sweep optimize data/studies/answer.toml --minimize \"worn off the pin\"")
     for flag, example in (("maximize", "contact area=1 mm2..2 mm2"), ("minimize", "worn=0..1 mm3"), ("target", "filled=0.5..0.7..0.8")):
@@ -75,37 +72,35 @@ def add(words: Words) -> None:
     made.add_argument("--contour", metavar="FACTOR,FACTOR", help="Draw the desirability over two factors")
     made.add_argument("--runs", type=count, metavar="N", help="Make so many runs on the way to the optimum, where improvement is expected")
     made.add_argument("--confirm", action="store_true", help="Make runs at the optimum, with all seeds of the study, and compare")
-    cores(made)
-    model(made)
-    common(made, output='Folder for figures and table; "optimum" in the study\'s own unless given')
+    shared(made, *CORES, *MODEL, output='Folder for figures and table; "optimum" in the study\'s own unless given')
 
     made = word(study, "sensitivity", "Tell which part of a response's variation each factor has", _sensitivity, "  plateau sweep sensitivity data/studies/answer.toml")
-    confidence(made)
-    common(made, output='Folder for table and figures; "sensitivity" in the study\'s own unless given')
+    shared(made, "--confidence", output='Folder for table and figures; "sensitivity" in the study\'s own unless given')
 
     made = word(study, "import", "Take in responses that were measured or computed elsewhere", _import, "  plateau sweep import study.toml measured.csv")
     about = "Table (CSV) with a column for each factor and for each response with imported = true"
     made.add_argument("table", type=Path, metavar="TABLE", help=about)
-    common(made, force="Replace values that were imported before")
+    shared(made, force="Replace values that were imported before")
 
     made = word(words, "fit", "Find the values of keys with which runs give what was measured", _fit, "  plateau fit data/studies/fit-captured-fraction.toml --plan")
     made.add_argument("--plan", action="store_true", help="Say what is fitted to what and what it will cost, without running any")
     made.add_argument("--retry", action="store_true", help="Make runs again that failed before")
-    cores(made)
-    common(made, output='Folder for tables and figures; "fit" in the study\'s own unless given')
+    shared(made, *CORES, output='Folder for tables and figures; "fit" in the study\'s own unless given')
 
     made = word(words, "compare", "Tell what differs between scenes, and how sure that is: runs of each with the same seeds", _compare, "  plateau compare data/scenes/quick.toml data/scenes/stops.toml --seeds 3")
     made.add_argument("scenes", type=Path, nargs="+", metavar="SCENE", help="Scene files (TOML), two or more; the first is the reference")
     made.add_argument("--seeds", type=count, default=5, metavar="N", help="Sets of seeds with which each scene is run [default: 5]")
     several(made, "--set", "KEY=VALUE", "Change a key of all scenes; may be repeated")
     several(made, "--response", "DATASET", "A response besides those of all runs")
-    cores(made)
-    confidence(made)
-    common(made, output='Folder for runs, tables, figures and the page; "comparison" unless given')
+    shared(made, *CORES, "--confidence", output='Folder for runs, tables, figures and the page; "comparison" unless given')
 
 
-def _told(given: argparse.Namespace, found: Any, folder: Path, files: list[str], title: str = "") -> str:
-    """A document, or a text with the files, under a heading where the text does not end with one."""
+def _told(
+    given: argparse.Namespace, found: Any, folder: Path, content: Mapping[str, Any], inputs: tuple[Path, ...], title: str = "", of: str | None = None
+) -> str:
+    """Writes tables, pages and drawings; gives a document, or a text with the files, under a heading where the text does not end with one."""
+    encoded = {name: one if isinstance(one, bytes) else one.encode() if isinstance(one, str) else csv_of(one) for name, one in content.items()}
+    files = write(folder, encoded, of=of, force=given.force, inputs=inputs)
     if given.json:
         return json_of({**found.document(), "files": files})
     figures = sum(file.endswith(".png") for file in files)
@@ -115,9 +110,8 @@ def _told(given: argparse.Namespace, found: Any, folder: Path, files: list[str],
     return "\n".join([found.text().rstrip("\n"), *heading, *(f"  written  {line}" for line in lines), ""])
 
 
-def csv_of(table: "pandas.DataFrame") -> bytes:
+def csv_of(table: pandas.DataFrame) -> bytes:
     """A table in CSV with all digits, empty where there is no number, and nothing in it that a spreadsheet would compute."""
-    from plateau.study.text_tables import written_table
 
     def cell(value: Any) -> str:
         if isinstance(value, list | tuple):
@@ -128,10 +122,8 @@ def csv_of(table: "pandas.DataFrame") -> bytes:
     return written_table([list(map(str, table)), *(list(map(cell, row)) for row in table.itertuples(index=False, name=None))])
 
 
-def _opened(given: argparse.Namespace, name: str, of: str | None = None) -> tuple["Study", Path, str | None]:
+def _opened(given: argparse.Namespace, name: str, of: str | None = None) -> tuple[Study, Path, str | None]:
     """The study, the folder of the answer, and what its files are of; refuses a folder that is taken before any work is done."""
-    from plateau.study.results import analysed
-
     study = analysed(given.study, given.directory)
     folder = study.directory / name if given.output is None else given.output
     said = None if of is None else f"{of} {relative(given.study, folder)}"
@@ -139,10 +131,8 @@ def _opened(given: argparse.Namespace, name: str, of: str | None = None) -> tupl
     return study, folder, said
 
 
-def _inputs(study: "Study", *others: Path | None) -> tuple[Path, ...]:
+def _inputs(study: Study, *others: Path | None) -> tuple[Path, ...]:
     """Files that are never replaced: the study and what it names."""
-    from plateau.study.kept_values import file_of
-
     here = Path(study.path or ".").parent
     tables = [study.document, *study.document.get("response", [])]
     named = [here / table[key] for table in tables for key in ("base", "file", "measured_file") if isinstance(table.get(key), str)]
@@ -150,28 +140,20 @@ def _inputs(study: "Study", *others: Path | None) -> tuple[Path, ...]:
 
 
 def _effects(given: argparse.Namespace) -> str:
-    from plateau.study.analysis import effects
-    from plateau.style import saved
-
     study, folder, _ = _opened(given, "effects")
-    found = effects(study, **options(given, "model", "confidence"))
-    figures = found.figures()
-    drawn = saved(figures)
-    files = {"effects.csv": csv_of(found.table.drop(columns="factors")), "residuals.csv": csv_of(found.residuals)}
-    files |= {"effects.html": found.page(figures, drawn).encode(), **drawn}
-    return _told(given, found, folder, write(folder, files, force=given.force, inputs=_inputs(study)), study.title)
+    found = studies.effects(study, **options(given, "model", "confidence"))
+    drawn = saved(figures := found.figures())
+    tables = {"effects.csv": found.table.drop(columns="factors"), "residuals.csv": found.residuals}
+    return _told(given, found, folder, {**tables, "effects.html": found.page(figures, drawn), **drawn}, _inputs(study), study.title)
 
 
 def _predict(given: argparse.Namespace) -> str:
-    from plateau.study.prediction import predict
-    from plateau.study.results import analysed
-
     study = analysed(given.study, given.directory)
     inputs = _inputs(study, given.points)
     if given.output is not None:
         refuse_file(given.output, given.force, inputs)
     asked = options(given, "at", "grid", "points", "extrapolate", "confirm", "model", "confidence", "jobs", "workers")
-    found = predict(study, **asked, progress=progress(given))
+    found = studies.predict(study, **asked, progress=progress(given))
     if given.output is not None:
         refuse_file(given.output, given.force, inputs)
         put(given.output, csv_of(found.wide))
@@ -182,15 +164,11 @@ def _predict(given: argparse.Namespace) -> str:
 
 
 def _optimize(given: argparse.Namespace) -> str:
-    from plateau.study.optimum import optimize
-    from plateau.style import saved
-
     study, folder, _ = _opened(given, "optimum")
     asked = options(given, "maximize", "minimize", "target", "limit", "limit_on", "hold", "importance", "model", "confidence")
-    found = optimize(study, **asked, runs=given.runs or 0, **options(given, "confirm", "jobs", "workers"), progress=progress(given))
-    settings = found.settings.set_index("factor")["text"].rename(str.strip)
-    files = {"optimum.csv": csv_of(found.table.assign(**settings)), **saved(found.figures(given.contour))}
-    said = _told(given, found, folder, write(folder, files, force=given.force, inputs=_inputs(study)))
+    found = studies.optimize(study, **asked, runs=given.runs or 0, **options(given, "confirm", "jobs", "workers"), progress=progress(given))
+    table = found.table.assign(**found.settings.set_index("factor")["text"].rename(str.strip))
+    said = _told(given, found, folder, {"optimum.csv": table, **saved(found.figures(given.contour))}, _inputs(study))
     if found.keeps_limits:
         return said
     show(said)
@@ -198,48 +176,33 @@ def _optimize(given: argparse.Namespace) -> str:
 
 
 def _sensitivity(given: argparse.Namespace) -> str:
-    from plateau.study.variance_parts import sensitivity
-    from plateau.style import saved
-
     study, folder, _ = _opened(given, "sensitivity")
-    found = sensitivity(study, confidence=given.confidence)
-    files = {"sensitivity.csv": csv_of(found.table), **saved(found.figures())}
-    return _told(given, found, folder, write(folder, files, force=given.force, inputs=_inputs(study)), study.title)
+    found = studies.sensitivity(study, confidence=given.confidence)
+    return _told(given, found, folder, {"sensitivity.csv": found.table, **saved(found.figures())}, _inputs(study), study.title)
 
 
 def _import(given: argparse.Namespace) -> str:
-    from plateau.study.imports import import_values
-    from plateau.study.results import analysed
-
-    found = import_values(analysed(given.study, given.directory), given.table, force=given.force)
+    found = studies.import_values(analysed(given.study, given.directory), given.table, force=given.force)
     return json_of(found.document()) if given.json else found.text()
 
 
 def _fit(given: argparse.Namespace) -> str:
-    from plateau.study.fit_of_study import fit, plan
-    from plateau.study.results import analysed
-    from plateau.style import saved
+    from plateau.study.fit_of_study import plan
 
     if given.plan:
         planned = plan(analysed(given.study, given.directory))
         return json_of(planned.document()) if given.json else planned.text()
     study, folder, of = _opened(given, "fit", "fit")
-    found = fit(study, **options(given, "jobs", "workers", "retry"), progress=progress(given))
-    files = {**{name: csv_of(table) for name, table in found.tables.items()}, **saved(found.figures())}
-    return _told(given, found, folder, write(folder, files, of=of, force=given.force, inputs=_inputs(study)))
+    found = studies.fit(study, **options(given, "jobs", "workers", "retry"), progress=progress(given))
+    return _told(given, found, folder, {**found.tables, **saved(found.figures())}, _inputs(study), of=of)
 
 
 def _compare(given: argparse.Namespace) -> str:
-    from plateau.study.scene_comparison import compare
-    from plateau.style import saved
-
     folder = given.output or Path("comparison")
     of = "compare " + ", ".join(relative(scene, folder) for scene in given.scenes)
     refuse_earlier(folder, of, given.force)
     asked = options(given, "set", "confidence", "jobs", "workers")
-    found = compare(given.scenes, given.seeds, responses=given.response, output=folder, **asked, progress=progress(given))
-    figures = found.figures()
-    drawn = saved(figures)
-    files = {"comparison.html": found.page(figures, drawn).encode(), "comparison.csv": csv_of(found.table)}
-    files |= {"means.csv": csv_of(found.means), "runs.csv": csv_of(found.runs), "curves.csv": csv_of(found.curves), **drawn}
-    return _told(given, found, folder, write(folder, files, of=of, force=given.force, inputs=tuple(given.scenes)))
+    found = studies.compare(given.scenes, given.seeds, responses=given.response, output=folder, **asked, progress=progress(given))
+    drawn = saved(figures := found.figures())
+    tables = {"comparison.csv": found.table, "means.csv": found.means, "runs.csv": found.runs, "curves.csv": found.curves}
+    return _told(given, found, folder, {"comparison.html": found.page(figures, drawn), **tables, **drawn}, tuple(given.scenes), of=of)
