@@ -67,7 +67,7 @@ def convert(path: str | os.PathLike[str], output: str | os.PathLike[str] | None 
     -------
     str
         Path of the file. It has the heights, m, on coordinates x and y, m, and as attributes of the heights where they come from:
-        name and SHA-256 of the file, and what read it.
+        name and SHA-256 of the file, and what read it. One that was converted from the same content stays as it is.
 
     Raises
     ------
@@ -78,18 +78,22 @@ def convert(path: str | os.PathLike[str], output: str | os.PathLike[str] | None 
     target = source.with_suffix(".h5") if output is None else Path(output)
     if target.suffix.lower() not in (".h5", ".nc"):
         raise InputError(f"{target} has the ending {target.suffix or 'of nothing'}, expected .h5")
-    refuse_file(target, force, (source,))
+    refuse_file(target, True, (source,))
     try:
         content = source.read_bytes()
     except FileNotFoundError as error:
         raise MissingFileError(f"{source}: there is no such file") from error
     except OSError as error:
         raise InputError(f"{source}: cannot be read: {error.strerror}") from error
+    digest = hashlib.sha256(content).hexdigest()
+    if not force and _is_of(target, digest):
+        return str(target)
+    refuse_file(target, force, (source,))
     found = _checked(source, read(source, content))
     for note in found.notes:
         warnings.warn(PlateauNote(f"{source}: {note}"), stacklevel=2)
     with all_or_none(target.parent, [target.name], force, (source,)) as places:
-        _write(places[0], found, source.name, hashlib.sha256(content).hexdigest())
+        _write(places[0], found, source.name, digest)
     return str(target)
 
 
@@ -216,6 +220,15 @@ def _checked(path: Path, found: Heights) -> Heights:
     values = np.array(values, float)
     values[~np.isfinite(values)] = np.nan
     return Heights(values, pitch, found.by, found.notes)
+
+
+def _is_of(path: Path, digest: str) -> bool:
+    """Tells whether a file was converted from a content of this SHA-256."""
+    try:
+        with h5netcdf.File(path, "r") as file:
+            return bool(file["height"].attrs["source_sha256"] == digest)
+    except (OSError, KeyError):
+        return False
 
 
 def _write(path: Path, heights: Heights, name: str, digest: str) -> None:

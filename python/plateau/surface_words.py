@@ -30,4 +30,4 @@ def _describe(given: argparse.Namespace) -> str:
 def _convert(given: argparse.Namespace) -> str:
     if given.output is not None and len(given.files) > 1:
         raise InputError(f"-o names one file, and {len(given.files)} are to be converted: leave it out, or give one FILE")
-    return "".join(f"wrote {convert(path, given.output, force=given.force)}\n" for path in given.files)
+    return "".join(f"{path}: heights are in {convert(path, given.output, force=given.force)}\n" for path in given.files)

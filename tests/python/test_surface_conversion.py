@@ -163,11 +163,22 @@ class Conversion(unittest.TestCase):
         self.assertEqual((told.returncode, told.stdout), (2, ""))
         self.assertIn("this is an X3P file (.x3p), which is not read as it is; convert it: plateau surface convert FILE -o FILE.h5", told.stderr)
         done = program("surface", "convert", "scan.x3p", cwd=self.folder)
-        self.assertEqual((done.returncode, done.stdout), (0, "wrote scan.h5\n"), done.stderr)
+        self.assertEqual((done.returncode, done.stdout), (0, "scan.x3p: heights are in scan.h5\n"), done.stderr)
+        # The same once more is there already; of another file it is not.
+        before = (self.folder / "scan.h5").stat().st_mtime_ns
         again = program("surface", "convert", "scan.x3p", cwd=self.folder)
-        self.assertEqual(again.returncode, 2)
-        self.assertIn("scan.h5 exists; give --force to replace it", again.stderr)
-        (self.folder / "scan.h5").unlink()
+        self.assertEqual((again.returncode, again.stdout), (0, done.stdout), again.stderr)
+        self.assertEqual((self.folder / "scan.h5").stat().st_mtime_ns, before)
+        for content in (b"of somebody else", None):
+            if content is None:
+                shutil.copy(SAMPLES / "float32.x3p", self.folder / "scan.x3p")
+            else:
+                (self.folder / "other.h5").write_bytes(content)
+            target = "scan.h5" if content is None else "other.h5"
+            refused = program("surface", "convert", "scan.x3p", "-o", target, cwd=self.folder)
+            self.assertEqual(refused.returncode, 2)
+            self.assertIn(f"{target} exists; give --force to replace it", refused.stderr)
+        shutil.copy(SAMPLES / "float64.x3p", self.folder / "scan.x3p")
         made = program("new", "mine.toml", "--disc", "scan.x3p", cwd=self.folder)
         self.assertEqual(made.returncode, 0, made.stderr)
         self.assertIn("scan.x3p: converted to scan.h5, which the scene names", made.stdout)
