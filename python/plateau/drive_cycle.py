@@ -110,7 +110,7 @@ def cycle(
         Text with separators, or a workbook: a row for each moment, under headers with units in brackets. ``time`` (also h:mm:ss, from any
         time on) and ``road_speed``; and ``deceleration``, ``brake_torque`` or ``brake_pressure`` (in the line), if one of them is known.
     output : path
-        The scene; the cycle is written beside it, with the ending ``.csv``.
+        The scene, ``NAME.toml``; the cycle is written beside it, as ``NAME-cycle.csv``.
     columns : mapping, optional
         Headers of the table by these names, where it has others: ``{"time": "Zeit", "road_speed": "Tempo [km/h]"}``. A unit is given in
         brackets where the table has none.
@@ -151,7 +151,7 @@ def cycle(
     path = followed(Path(output))
     if path.suffix != ".toml":
         raise InputError(f"-o {path}: expected the name of a scene, such as brake.toml")
-    of_cycle = path.with_suffix(".csv")
+    of_cycle = path.with_name(f"{path.stem}-cycle.csv")
     for one in (path, of_cycle):
         refuse_file(one, force, (Path(table),), "name another scene with -o")
     sizes = {"mass": (mass, "kg"), "wheel_radius": (wheel_radius, "m"), "pad_area": (pad_area, "m2"), "pad_thickness": (pad_thickness, "m")}
@@ -178,7 +178,7 @@ def cycle(
         load, shown = share * found["force"] * size["wheel_radius"] / 2.0, "brake_torque [N m]"
         stands = found["road_speed"].rolling(3, center=True, min_periods=1).max() == 0.0
         load = load.where(~stands, HOLD)
-    made = Made(str(path), *_told(read, found["road_speed"], load, shown))
+    made = Made(str(path), str(of_cycle), *_told(read, found["road_speed"], load, shown))
     for warned in made.warnings:
         warnings.warn(f"{table}: {warned}", PlateauWarning, stacklevel=2)
     lines = [f"time [s],road_speed [km/h],{shown}"]
@@ -193,7 +193,7 @@ def cycle(
     areas = {"pad_area": length("pad_area", 1e4, "cm^2"), "pads_area": length("pad_area", 2e4, "cm^2")}
     thickness = _toml(f"{size['disc_mass'] / (7200.0 * 0.101) * 1e3:.3g} mm")
     tables = SCENE.format(file=_toml(of_cycle.name), piston=piston, thickness=thickness, **millimetres, **areas)
-    put_together(path.parent, {of_cycle.name: csv, path.name: _scene(path, csv, tables, float(found["time"].iloc[-1])).encode()}, force)
+    put_together(path.parent, {of_cycle.name: csv, path.name: _scene(path, of_cycle, csv, tables, float(found["time"].iloc[-1])).encode()}, force)
     return made
 
 
@@ -202,6 +202,8 @@ class Made(os.PathLike[str]):
     """A scene that was made, and what was read for it; it can be used as the path of the scene."""
 
     path: str
+    # The path of its cycle.
+    cycle: str
     # What was read, in words.
     told: str
     warnings: list[str]
@@ -237,20 +239,20 @@ def _toml(text: str) -> str:
     return json.dumps(text, ensure_ascii=False)
 
 
-def _scene(path: Path, csv: bytes, tables: str, duration: float) -> str:
+def _scene(path: Path, of_cycle: Path, csv: bytes, tables: str, duration: float) -> str:
     """The scene, as large an acceleration in it as leaves every braking ten simulated revolutions."""
     with tempfile.TemporaryDirectory() as folder:
-        made = Path(folder, path.name)
+        made, cycle_made = Path(folder, path.name), Path(folder, of_cycle.name)
         listen(["-q", "new", made, "--duration", f"{duration:.10g} s"])
         # The cycle has load and speed.
         text = re.sub(r"(?m)^(normal_force|sliding_speed|rotational_speed) = .*\n", "", made.read_text(encoding="utf-8")).replace(str(made), str(path)) + tables
         first = re.sub(r"(?m)^time_acceleration = .*$", "time_acceleration = 1", text)
         made.write_text(first, encoding="utf-8")
-        made.with_suffix(".csv").write_bytes(csv)
+        cycle_made.write_bytes(csv)
         try:
             largest = call(["-q", "check", made])["cycle"]["largest_acceleration_without_warning"]
         except InputError as error:
-            raise InputError(str(error).replace(str(made), str(path)).replace(str(made.with_suffix(".csv")), str(path.with_suffix(".csv")))) from None
+            raise InputError(str(error).replace(str(made), str(path)).replace(str(cycle_made), str(of_cycle))) from None
         remark = "every braking has ten simulated revolutions" if largest >= LEAST_ACCELERATION else "short brakings have less than ten simulated revolutions"
         line = f"time_acceleration = {max(math.floor(min(largest, 100.0)), LEAST_ACCELERATION):<19} # 1 is the model itself; {remark}"
         return re.sub(r"(?m)^time_acceleration = .*$", line, text)

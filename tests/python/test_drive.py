@@ -1,6 +1,8 @@
 """Drives: what a brake does is what the vehicle asks for, by its speed alone; tables of loggers and regulations."""
 
+import contextlib
 import csv
+import io
 import itertools
 import math
 import unittest
@@ -12,6 +14,7 @@ import pandas
 from package_scenes import ROOT, InFolder
 
 import plateau
+from plateau import command_line
 
 CYCLES = ROOT / "data" / "cycles"
 SCENE = ROOT / "data" / "scenes" / "drive.toml"
@@ -49,7 +52,7 @@ def trips():
 class Drive(InFolder):
     def test_the_shipped_cycle_is_what_the_command_writes(self):
         plateau.cycle(CYCLES / "wltc-class3b.csv", "w.toml")
-        self.assertEqual(Path("w.csv").read_text(), (CYCLES / "wltc-front-brake.csv").read_text())
+        self.assertEqual(Path("w-cycle.csv").read_text(), (CYCLES / "wltc-front-brake.csv").read_text())
 
     def test_friction_work_is_the_braking_energy_of_the_car(self):
         plateau.run(SCENE, "drive.h5", set={"operation.duration": "200 s", "numerics.time_acceleration": 10})
@@ -78,7 +81,7 @@ class Drive(InFolder):
 class Tables(InFolder):
     def cycle(self, text, name="log.csv", **options):
         Path(name).write_text(text, encoding="utf-8")
-        return pandas.read_csv(Path(plateau.cycle(name, "made.toml", force=True, **options)).with_suffix(".csv"))
+        return pandas.read_csv(plateau.cycle(name, "made.toml", force=True, **options).cycle)
 
     def test_a_logger_has_headers_clock_and_commas_of_its_own(self):
         text = "Zeit;Tempo (km/h);Verzögerung [m/s2];Gang\n12:00:05;36,0;-1\n12:00:06,5;36,0;2,5;\n12:00:07;0;2,5;\n".replace(";-1\n", ";-1;3\n")
@@ -121,6 +124,15 @@ class Tables(InFolder):
         quiet = self.cycle("time [s],road_speed [km/h],brake_pressure [bar]\n0,50,0.4\n9,50,0.4\n10,40,5\n", piston_area="25 cm^2")
         self.assertEqual(quiet["brake_pressure [bar]"].tolist(), [0.0, 0.0, 5.0])
 
+    def test_the_command_tells_what_it_wrote(self):
+        Path("glatt.csv").write_text("time [s],road_speed [km/h]\n0,0\n5,0\n10,50\n20,50\n25,0\n30,0\n")
+        printed = io.StringIO()
+        with contextlib.redirect_stdout(printed):
+            self.assertEqual([command_line.main(["cycle", "glatt.csv", "-o", name]) for name in ("glatt.toml", "t/d.toml")], [0, 0])
+        self.assertIn("wrote glatt.toml and glatt-cycle.csv:", printed.getvalue())
+        self.assertIn("wrote t/d.toml and t/d-cycle.csv:", printed.getvalue())
+        self.assertEqual(Path(plateau.Scene("glatt.toml")["operation.cycle.file"]), Path("glatt-cycle.csv").resolve())
+
     def test_pressure_and_torque_are_taken_as_they_are(self):
         rows = "0,36,0\n2,36,10\n4,0,20\n"
         found = self.cycle(f"time [s],road_speed [km/h],brake_pressure [bar]\n{rows}", piston_area="25 cm^2")
@@ -131,7 +143,7 @@ class Tables(InFolder):
     def test_a_workbook_is_read(self):
         table = pandas.DataFrame({"time [s]": [0.0, 5.0], "road_speed [m/s]": [10.0, 0.0], "brake_torque [N m]": [0.0, 300.0]})
         table.to_excel("log.xlsx", index=False)
-        made = pandas.read_csv(Path(plateau.cycle("log.xlsx", "book.toml")).with_suffix(".csv"))
+        made = pandas.read_csv(plateau.cycle("log.xlsx", "book.toml").cycle)
         self.assertEqual(made["road_speed [km/h]"].tolist(), [36.0, 0.0])
         self.assertEqual(made["brake_torque [N m]"].tolist(), [0.0, 300.0])
 
