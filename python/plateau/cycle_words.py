@@ -1,14 +1,11 @@
 """The word ``plateau cycle``: a thin layer on a function."""
 
 import argparse
-import inspect
 from pathlib import Path
 
 from plateau.command_line import Words, of_all, options, several
-from plateau.drive_cycle import COLUMNS, cycle
+from plateau.drive_cycle import COLUMNS, USUAL, cycle
 
-# What is taken unless it is given.
-USUAL = {name: parameter.default for name, parameter in inspect.signature(cycle).parameters.items()}
 # What there is to say of vehicle and brake.
 SIZES = {
     "mass": "Of the vehicle; a choice, as all others",
@@ -41,5 +38,6 @@ def add(words: Words) -> None:
 def _cycle(given: argparse.Namespace) -> str:
     columns = dict(one.split("=", 1) if "=" in one else (one, one) for one in given.column)
     scene = cycle(given.table, given.output, columns=columns, **options(given, *SIZES, "road_load", "force"))
-    written = f"wrote {scene.path} and {scene.cycle}: look at the lines with <-, then"
-    return f"{scene.told}\n{written}\n  plateau check {scene.path}\n  plateau run {scene.path}\n"
+    written = f"wrote {scene.path} and {scene.cycle}"
+    not_own = "not of your car: materials and friction (a cermet-coated disc), the disc's size but for its mass, its cooling (that of drive.toml)"
+    return f"{scene.told}\n{written}\n{not_own}\nlook at the lines with <-, then\n  plateau check {scene.path}\n  plateau run {scene.path}\n"
