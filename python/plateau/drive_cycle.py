@@ -1,5 +1,6 @@
 """A brake in a drive: from what a vehicle's logger, a spreadsheet or a regulation has, to the cycle and the scene of one of its brakes."""
 
+import inspect
 import json
 import math
 import os
@@ -22,8 +23,24 @@ from plateau.program import call, listen
 from plateau.study.text_tables import TextTable, read_text_table
 from plateau.units import NUMBER, in_si, quantity
 
-# What a table may have, with the SI unit; the first two it must have, and at most one of the others.
-COLUMNS = {"time": "s", "road_speed": "m s-1", "deceleration": "m s-2", "brake_torque": "N m", "brake_pressure": "Pa"}
+# What a table may have, with the SI unit and the usual one; the first two it must have, and at most one of the others.
+COLUMNS = {
+    "time": ("s", "s"),
+    "road_speed": ("m s-1", "km/h"),
+    "deceleration": ("m s-2", "m/s^2"),
+    "brake_torque": ("N m", "N m"),
+    "brake_pressure": ("Pa", "bar"),
+}
+# What vehicle and brake have, with the SI unit, and from what to what that is plausible, from a light motorcycle to a lorry.
+RANGES = {
+    "mass": ("kg", "200 kg", "44000 kg"),
+    "wheel_radius": ("m", "150 mm", "600 mm"),
+    "pad_area": ("m2", "10 cm^2", "300 cm^2"),
+    "pad_thickness": ("m", "3 mm", "40 mm"),
+    "effective_radius": ("m", "50 mm", "300 mm"),
+    "disc_mass": ("kg", "2 kg", "60 kg"),
+    "piston_area": ("m2", "3 cm^2", "150 cm^2"),
+}
 # As regulations head the speed of the vehicle.
 ALSO = {"speed": "road_speed"}
 CLOCK = re.compile(r"(\d+):([0-5]?\d):([0-5]?\d(?:[.,]\d+)?)")
@@ -34,6 +51,10 @@ LEAST_PRESSURE = 5e4
 LEAST_ACCELERATION = 3
 # Torque by which a vehicle that stands is held, N m: it has no effect but that the pads touch.
 HOLD = 100.0
+# What short brakings last at most, s: in a drive few do, of a noisy speed most.
+SHORT = 2.0
+
+OF_DISC = "# <- 0: this coating does not wear; grey iron does, with a specific_wear_rate of its own"
 
 SCENE = """
 [operation.cycle]
@@ -110,7 +131,7 @@ def cycle(
         Text with separators, or a workbook: a row for each moment, under headers with units in brackets. ``time`` (also h:mm:ss, from any
         time on) and ``road_speed``; and ``deceleration``, ``brake_torque`` or ``brake_pressure`` (in the line), if one of them is known.
     output : path
-        The scene; the cycle is written beside it, with the ending ``.csv``.
+        The scene, ``NAME.toml``; the cycle is written beside it, as ``NAME-cycle.csv``.
     columns : mapping, optional
         Headers of the table by these names, where it has others: ``{"time": "Zeit", "road_speed": "Tempo [km/h]"}``. A unit is given in
         brackets where the table has none.
@@ -141,7 +162,7 @@ def cycle(
     Warns
     -----
     PlateauWarning
-        Where the table has a gap, or can hardly be meant: a wrong unit.
+        Where the table has a gap, looks like noise, or can hardly be meant, such as by a wrong unit, and of what is not used.
 
     Raises
     ------
@@ -151,18 +172,21 @@ def cycle(
     path = followed(Path(output))
     if path.suffix != ".toml":
         raise InputError(f"-o {path}: expected the name of a scene, such as brake.toml")
-    of_cycle = path.with_suffix(".csv")
+    of_cycle = path.with_name(f"{path.stem}-cycle.csv")
     for one in (path, of_cycle):
         refuse_file(one, force, (Path(table),), "name another scene with -o")
-    sizes = {"mass": (mass, "kg"), "wheel_radius": (wheel_radius, "m"), "pad_area": (pad_area, "m2"), "pad_thickness": (pad_thickness, "m")}
-    sizes |= {"effective_radius": (effective_radius, "m"), "disc_mass": (disc_mass, "kg")}
-    sizes |= {} if piston_area is None else {"piston_area": (piston_area, "m2")}
-    size = {name: quantity(said, si) for name, (said, si) in sizes.items()}
-    wrong = [name for name, value in size.items() if not value > 0.0]
-    if wrong or not (0.0 < share <= 1.0) or len(road_load) != 3 or not np.isfinite(road_load).all():
-        said = f"{wrong[0]}: expected more than 0" if wrong else "expected three numbers as road load, and a share from 0 to 1"
-        raise InputError(said)
+    given = {"mass": mass, "wheel_radius": wheel_radius, "pad_area": pad_area, "pad_thickness": pad_thickness}
+    given |= {"effective_radius": effective_radius, "disc_mass": disc_mass}
+    given |= {} if piston_area is None else {"piston_area": piston_area}
+    size = {name: _size(name, said) for name, said in given.items()}
+    if size["effective_radius"] >= size["wheel_radius"]:
+        raise InputError(f"effective_radius: {effective_radius}, expected less than the wheel_radius of {wheel_radius}")
+    if not 0.0 < share <= 1.0:
+        raise InputError(f"share: {share:g}, expected more than 0 and at most 1, such as 0.7")
+    if len(road_load) != 3 or not np.isfinite(road_load).all():
+        raise InputError("road_load: expected three numbers")
     read = found = _read(Path(table), columns or {})
+    held = ""
     if "brake_pressure" in found:
         if piston_area is None:
             raise InputError('a brake_pressure presses as the pistons are large: give the area of those of one pad, such as --piston-area "25 cm^2"')
@@ -178,7 +202,20 @@ def cycle(
         load, shown = share * found["force"] * size["wheel_radius"] / 2.0, "brake_torque [N m]"
         stands = found["road_speed"].rolling(3, center=True, min_periods=1).max() == 0.0
         load = load.where(~stands, HOLD)
-    made = Made(str(path), *_told(read, found["road_speed"], load, shown))
+        held = f"; while the vehicle stands, {HOLD:g} N m hold it" if stands.any() else ""
+    told, doubts = _told(read, found, load, shown)
+    for name, value in size.items():
+        _, least, most = RANGES[name]
+        if not _size(name, least) <= value <= _size(name, most):
+            doubts.append(f"{name} = {given[name]} is not from {least} to {most}: check its unit")
+    if "force" not in found:
+        # Only what is not the default is known to be given.
+        of_vehicle = {"mass": mass, "road_load": tuple(road_load), "share": share}
+        unused = [name for name, value in of_vehicle.items() if value != USUAL[name]]
+        doubts += [f"no use is made of {' and '.join(unused)}: the table has the {shown.split(' [')[0]}"] if unused else []
+    if piston_area is not None and "brake_pressure" not in found:
+        doubts.append("no use is made of piston_area: the table has no brake_pressure")
+    made = Made(str(path), str(of_cycle), told + held, doubts)
     for warned in made.warnings:
         warnings.warn(f"{table}: {warned}", PlateauWarning, stacklevel=2)
     lines = [f"time [s],road_speed [km/h],{shown}"]
@@ -193,8 +230,12 @@ def cycle(
     areas = {"pad_area": length("pad_area", 1e4, "cm^2"), "pads_area": length("pad_area", 2e4, "cm^2")}
     thickness = _toml(f"{size['disc_mass'] / (7200.0 * 0.101) * 1e3:.3g} mm")
     tables = SCENE.format(file=_toml(of_cycle.name), piston=piston, thickness=thickness, **millimetres, **areas)
-    put_together(path.parent, {of_cycle.name: csv, path.name: _scene(path, csv, tables, float(found["time"].iloc[-1])).encode()}, force)
+    put_together(path.parent, {of_cycle.name: csv, path.name: _scene(path, of_cycle, csv, tables, float(found["time"].iloc[-1])).encode()}, force)
     return made
+
+
+# What is taken unless it is given.
+USUAL = {name: parameter.default for name, parameter in inspect.signature(cycle).parameters.items()}
 
 
 @dataclass(frozen=True)
@@ -202,6 +243,8 @@ class Made(os.PathLike[str]):
     """A scene that was made, and what was read for it; it can be used as the path of the scene."""
 
     path: str
+    # The path of its cycle.
+    cycle: str
     # What was read, in words.
     told: str
     warnings: list[str]
@@ -210,17 +253,22 @@ class Made(os.PathLike[str]):
         return self.path
 
 
-def _told(read: pandas.DataFrame, of_load: "pandas.Series[float]", load: "pandas.Series[float]", shown: str) -> tuple[str, list[str]]:
-    """What a table has, and the load that is made of it at these speeds, in words, and what of it can hardly be meant."""
+def _told(read: pandas.DataFrame, found: pandas.DataFrame, load: "pandas.Series[float]", shown: str) -> tuple[str, list[str]]:
+    """What a table has, and the load that is made of it at these times and speeds, in words, and what of it can hardly be meant."""
     time, speed = read["time"].to_numpy(), read["road_speed"].to_numpy()
     spans = np.diff(time)
     way = float(np.sum(spans * (speed[1:] + speed[:-1]) / 2.0))
     slowing = read["deceleration"].to_numpy() if "deceleration" in read else np.divide(-np.diff(speed), spans, out=np.zeros_like(spans), where=spans > 0)
-    brakes = ((load > 0.0) & (of_load > 0.0)).to_numpy()
-    brakings = int(np.count_nonzero(brakes & ~np.concatenate([[False], brakes[:-1]])))
+    moves = found["road_speed"] > 0.0
+    brakes = ((load > 0.0) & moves).to_numpy()
+    # First row of each braking, and the first one after it.
+    brakings = np.flatnonzero(np.diff(brakes, prepend=False, append=False)).reshape(-1, 2)
+    moments = found["time"].to_numpy()
+    lasts = moments[np.minimum(brakings[:, 1], len(moments) - 1)] - moments[np.maximum(brakings[:, 0] - 1, 0)]
+    short = [load.iloc[start:end].max() for start, end in brakings[lasts <= SHORT]]
     largest, unit = float(load.max()), shown.split("[")[1].rstrip("]")
     told = f"{len(time)} rows, {time[-1]:g} s, {way / 1e3:.3g} km; at most {3.6 * speed.max():.3g} km/h, slows down by at most {slowing.max():.2g} m/s²"
-    told += f", at most {largest:.3g} {unit}; {counted(brakings, 'braking')}"
+    told += f", at most {largest:.3g} {unit}; {counted(len(brakings), 'braking')}"
     warned = []
     usual = float(np.median(spans)) if len(spans) else 0.0
     wide = int(np.argmax(spans))
@@ -228,29 +276,49 @@ def _told(read: pandas.DataFrame, of_load: "pandas.Series[float]", load: "pandas
         warned.append(f"between the rows at {time[wide]:g} and {time[wide + 1]:g} s there are {spans[wide]:g} s, else about {usual:g} s: a straight line is taken")
     limits = [(3.6 * speed.max(), 300.0, "km/h"), (slowing.max(), 15.0, "m/s²"), (largest if unit == "bar" else 0.0, 250.0, "bar")]
     warned += [f"{value:.3g} {unit} is more than {most:g} {unit}: check the unit of the column" for value, most, unit in limits if value > most]
-    if np.count_nonzero(brakes) > 0.7 * np.count_nonzero(of_load > 0.0):
+    if np.count_nonzero(brakes) > 0.7 * np.count_nonzero(moves):
         warned.append("the brake is on in most of the rows in which the vehicle moves: is that noise of a sensor?")
+    if len(short) > max(len(brakings) / 4, 3):
+        weak = sum(peak < 0.05 * largest for peak in short)
+        source, of_load = next(name for name in reversed(COLUMNS) if name in read), shown.split(" [")[0]
+        # Noise of a load has no negative part, so its mean is not 0.
+        advice = f"set it to 0 in {source}" if source == of_load else f"smooth the {source} before, such as by a moving mean over some seconds"
+        of_short = f"{len(short)} of {len(brakings)} brakings last {SHORT:g} s or less, {weak} of them below 5 % of the largest {of_load}"
+        warned.append(f"{of_short}: if that is noise, {advice}")
     return told, warned
+
+
+def _size(name: str, said: float | str) -> float:
+    """A size of vehicle or brake, SI."""
+    si, least, _ = RANGES[name]
+    try:
+        value = quantity(said, si, example=(USUAL[name] or least) if isinstance(said, str) else None)
+    except InputError as error:
+        raise type(error)(f"{name}: {error}") from None
+    if not value > 0.0:
+        raise InputError(f"{name}: expected more than 0")
+    return value
 
 
 def _toml(text: str) -> str:
     return json.dumps(text, ensure_ascii=False)
 
 
-def _scene(path: Path, csv: bytes, tables: str, duration: float) -> str:
+def _scene(path: Path, of_cycle: Path, csv: bytes, tables: str, duration: float) -> str:
     """The scene, as large an acceleration in it as leaves every braking ten simulated revolutions."""
     with tempfile.TemporaryDirectory() as folder:
-        made = Path(folder, path.name)
+        made, cycle_made = Path(folder, path.name), Path(folder, of_cycle.name)
         listen(["-q", "new", made, "--duration", f"{duration:.10g} s"])
         # The cycle has load and speed.
         text = re.sub(r"(?m)^(normal_force|sliding_speed|rotational_speed) = .*\n", "", made.read_text(encoding="utf-8")).replace(str(made), str(path)) + tables
+        text = re.sub(r"(?m)^disc_primary = .*$", rf"\g<0>     {OF_DISC}", text)
         first = re.sub(r"(?m)^time_acceleration = .*$", "time_acceleration = 1", text)
         made.write_text(first, encoding="utf-8")
-        made.with_suffix(".csv").write_bytes(csv)
+        cycle_made.write_bytes(csv)
         try:
             largest = call(["-q", "check", made])["cycle"]["largest_acceleration_without_warning"]
         except InputError as error:
-            raise InputError(str(error).replace(str(made), str(path)).replace(str(made.with_suffix(".csv")), str(path.with_suffix(".csv")))) from None
+            raise InputError(str(error).replace(str(made), str(path)).replace(str(cycle_made), str(of_cycle))) from None
         remark = "every braking has ten simulated revolutions" if largest >= LEAST_ACCELERATION else "short brakings have less than ten simulated revolutions"
         line = f"time_acceleration = {max(math.floor(min(largest, 100.0)), LEAST_ACCELERATION):<19} # 1 is the model itself; {remark}"
         return re.sub(r"(?m)^time_acceleration = .*$", line, text)
@@ -305,7 +373,7 @@ def _columns(table: TextTable, columns: Mapping[str, str]) -> Iterator[tuple[str
     """Columns by name, SI."""
     parts = [found.groups() if (found := HEAD.fullmatch(head)) else (head, "") for head in table.heads]
     missing, loads = [], []
-    for name, si in COLUMNS.items():
+    for name in COLUMNS:
         wanted = columns.get(name, name)
         # The whole header first, then its name, then what else it is called.
         own = (found.groups() if (found := HEAD.fullmatch(wanted)) else (wanted, ""))[0]
@@ -322,9 +390,9 @@ def _columns(table: TextTable, columns: Mapping[str, str]) -> Iterator[tuple[str
         if told and parts[same[0]][1] and told != parts[same[0]][1]:
             raise InputError(f'{table.path}: column "{table.heads[same[0]]}" is in {parts[same[0]][1]}, not in {told}')
         unit = parts[same[0]][1] or told
-        scale = _scale(table, same[0], unit, si)
-        yield name, pandas.Series([_number(table, row, same[0], scale, si) for row in range(len(table.rows))], dtype=float)
-        loads += [name] if si not in ("s", "m s-1") else []
+        scale = _scale(table, same[0], name, unit)
+        yield name, pandas.Series([_number(table, row, same[0], name, scale) for row in range(len(table.rows))], dtype=float)
+        loads += [name] if name not in ("time", "road_speed") else []
     if missing:
         there = ", ".join(f'"{head}"' for head in table.heads)
         said = " and ".join(f'"{columns.get(name, name)}"' for name in missing)
@@ -333,23 +401,28 @@ def _columns(table: TextTable, columns: Mapping[str, str]) -> Iterator[tuple[str
         raise InputError(f"{table.path}: it has {' and '.join(loads)}, expected one of them: give the others another header")
 
 
-def _scale(table: TextTable, column: int, unit: str, si: str) -> float:
+def _scale(table: TextTable, column: int, name: str, unit: str) -> float:
     """How many SI units one of a column is; NaN of a column without a unit, which may have times of a clock."""
     if unit:
-        return 1.0 if si == "s" and unit in CLOCKS else in_si(1.0, unit, si)
-    if si == "s":
+        return 1.0 if name == "time" and unit in CLOCKS else in_si(1.0, unit, COLUMNS[name][0])
+    if name == "time":
         return math.nan
-    raise InputError(f'{table.path}: "{table.heads[column]}" has no unit: give it in brackets behind the header, such as {table.heads[column]} [{si}]')
+    raise InputError(f'{table.path}: "{table.heads[column]}" has no unit: give {_unit(table, column, name)}')
 
 
-def _number(table: TextTable, row: int, column: int, scale: float, si: str) -> float:
+def _unit(table: TextTable, column: int, name: str) -> str:
+    """Where a column's unit may stand, in words."""
+    return f'one in brackets behind the header, in the file or as --column {name}="{table.heads[column]} [{COLUMNS[name][1]}]"'
+
+
+def _number(table: TextTable, row: int, column: int, name: str, scale: float) -> float:
     """The value of a cell, SI."""
     cell = table.rows[row][column].replace("\N{MINUS SIGN}", "-")
-    if si == "s" and (clock := CLOCK.fullmatch(cell)):
+    if name == "time" and (clock := CLOCK.fullmatch(cell)):
         return 3600.0 * int(clock[1]) + 60.0 * int(clock[2]) + float(clock[3].replace(",", "."))
-    expected = "a number of seconds with a unit in the header, or h:mm:ss" if math.isnan(scale) else "a number"
+    expected = f"h:mm:ss, or a number and for its unit {_unit(table, column, name)}" if math.isnan(scale) else "a number"
     if math.isnan(scale) or not re.fullmatch(NUMBER, cell) or not math.isfinite(float(cell)):
         raise InputError(f'{table.place(row)}: "{table.heads[column]}" is "{cell}", expected {expected}')
-    if float(cell) < 0.0 and si != "m s-2":
+    if float(cell) < 0.0 and name != "deceleration":
         raise InputError(f'{table.place(row)}: "{table.heads[column]}" is {cell}, expected 0 or more')
     return float(cell) * scale

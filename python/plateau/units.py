@@ -233,7 +233,7 @@ def text_of(number: Any) -> str:
         raise InputTypeError(f"{number!r} is no number with a unit, as of pint: {error}") from None
 
 
-def quantity(said: object, si: str, *, is_difference: bool = False, needs_unit: bool = True) -> float:
+def quantity(said: object, si: str, *, is_difference: bool = False, needs_unit: bool = True, example: str | None = None) -> float:
     """A number in SI units, or text with a unit.
 
     Parameters
@@ -245,6 +245,8 @@ def quantity(said: object, si: str, *, is_difference: bool = False, needs_unit: 
         Whether it is a difference, of which 5 °C are 5 K.
     needs_unit : bool
         Whether text must have a unit; otherwise text without one is in the SI unit, too.
+    example : str, optional
+        A text that messages give where a number cannot be given, as on a command line.
 
     Returns
     -------
@@ -264,6 +266,7 @@ def quantity(said: object, si: str, *, is_difference: bool = False, needs_unit: 
     plateau.errors.InputError: "30 sec": unknown unit "sec", expected a number in s, or text with a unit
     """
     expected = "expected a number, or text with %" if si == "1" else f"expected a number in {si}, or text with a unit"
+    expected = expected if example is None else f'expected text with a unit, such as "{example}"'
     if hasattr(said, "magnitude") and hasattr(said, "units"):  # of pint
         said = text_of(said)
     is_number = isinstance(said, Real) and not isinstance(said, bool)
@@ -279,6 +282,8 @@ def quantity(said: object, si: str, *, is_difference: bool = False, needs_unit: 
     unit = (found and found[2] or "").strip() or ("" if needs_unit else si)
     if found is None or not unit or not math.isfinite(float(found[1])) or si == "1" and unit not in ("%", "1" if not needs_unit else "%"):
         raise InputError(f"{told}, {expected}")
+    if re.match(r",\d", unit):
+        raise InputError(f"{told}: decimal marks are points, {expected}")
     try:
         return in_si(found[1], unit, si, is_difference=is_difference)
     except InputError as error:

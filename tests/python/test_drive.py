@@ -1,9 +1,13 @@
 """Drives: what a brake does is what the vehicle asks for, by its speed alone; tables of loggers and regulations."""
 
+import contextlib
 import csv
+import io
 import itertools
 import math
+import re
 import unittest
+import warnings
 from pathlib import Path
 
 import h5py
@@ -12,6 +16,7 @@ import pandas
 from package_scenes import ROOT, InFolder
 
 import plateau
+from plateau import command_line
 
 CYCLES = ROOT / "data" / "cycles"
 SCENE = ROOT / "data" / "scenes" / "drive.toml"
@@ -49,7 +54,7 @@ def trips():
 class Drive(InFolder):
     def test_the_shipped_cycle_is_what_the_command_writes(self):
         plateau.cycle(CYCLES / "wltc-class3b.csv", "w.toml")
-        self.assertEqual(Path("w.csv").read_text(), (CYCLES / "wltc-front-brake.csv").read_text())
+        self.assertEqual(Path("w-cycle.csv").read_text(), (CYCLES / "wltc-front-brake.csv").read_text())
 
     def test_friction_work_is_the_braking_energy_of_the_car(self):
         plateau.run(SCENE, "drive.h5", set={"operation.duration": "200 s", "numerics.time_acceleration": 10})
@@ -78,7 +83,7 @@ class Drive(InFolder):
 class Tables(InFolder):
     def cycle(self, text, name="log.csv", **options):
         Path(name).write_text(text, encoding="utf-8")
-        return pandas.read_csv(Path(plateau.cycle(name, "made.toml", force=True, **options)).with_suffix(".csv"))
+        return pandas.read_csv(plateau.cycle(name, "made.toml", force=True, **options).cycle)
 
     def test_a_logger_has_headers_clock_and_commas_of_its_own(self):
         text = "Zeit;Tempo (km/h);Verzögerung [m/s2];Gang\n12:00:05;36,0;-1\n12:00:06,5;36,0;2,5;\n12:00:07;0;2,5;\n".replace(";-1\n", ";-1;3\n")
@@ -121,6 +126,76 @@ class Tables(InFolder):
         quiet = self.cycle("time [s],road_speed [km/h],brake_pressure [bar]\n0,50,0.4\n9,50,0.4\n10,40,5\n", piston_area="25 cm^2")
         self.assertEqual(quiet["brake_pressure [bar]"].tolist(), [0.0, 0.0, 5.0])
 
+    def test_a_noisy_speed_is_told_from_brakings(self):
+        between = np.random.default_rng(1)
+        time, speed = np.arange(400.0), np.zeros(400)
+        for start in range(0, 400, 80):
+            speed[start : start + 75] = 50.0 * np.clip(np.minimum(np.arange(75) / 15, (74 - np.arange(75)) / 8), 0.0, 1.0)
+        noise = np.where(speed > 0.0, between.uniform(-0.6, 0.6, 400), 0.0)
+
+        def said(speed):
+            rows = "".join(f"{one:g},{max(of, 0.0):.3f}\n" for one, of in zip(time, speed, strict=True))
+            Path("log.csv").write_text(f"time [s],road_speed [km/h]\n{rows}")
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore")
+                made = plateau.cycle("log.csv", "made.toml", force=True)
+            return int(re.search(r"(\d+) brakings", made.told)[1]), " ".join(made.warnings)
+
+        self.assertEqual(said(speed), (5, ""))
+        brakings, warned = said(speed + noise)
+        counts = re.search(r"(\d+) of (\d+) brakings last 2 s or less, (\d+) of them below 5 % of the largest brake_torque", warned)
+        short, of_all, weak = map(int, counts.groups())
+        self.assertEqual((short, of_all), (brakings - 5, brakings))
+        self.assertGreaterEqual(weak, 5)
+        self.assertIn("smooth the road_speed before, such as by a moving mean", warned)
+        # What is advised helps.
+        self.assertEqual(said(pandas.Series(speed + noise).rolling(5, center=True, min_periods=1).mean()), (5, ""))
+        # A mean would not take away the noise of a load, which is never negative.
+        loads = "".join(f"{one:g},50,{200 if one % 80 < 8 else 3 * (one % 3 == 0):g}\n" for one in time)
+        with self.assertWarnsRegex(plateau.PlateauWarning, "if that is noise, set it to 0 in brake_torque"):
+            self.cycle(f"time [s],road_speed [km/h],brake_torque [N m]\n{loads}")
+
+    def test_sizes_that_can_hardly_be_meant_and_those_of_no_use_are_told(self):
+        speeds = "time [s],road_speed [km/h]\n0,50\n10,50\n15,0\n"
+        pressures = "time [s],road_speed [km/h],brake_pressure [bar]\n0,50,0\n10,50,10\n15,0,10\n"
+        for text, options, expected in [
+            (speeds, {"pad_area": "104 cm^2"}, []),
+            (speeds, {"disc_mass": "0.65 kg"}, ["disc_mass = 0.65 kg is not from 2 kg to 60 kg: check its unit"]),
+            (speeds, {"piston_area": "25 cm^2"}, ["no use is made of piston_area: the table has no brake_pressure"]),
+            (pressures, {"piston_area": "25 cm^2"}, []),
+            (
+                pressures,
+                {"piston_area": "25 cm^2", "mass": "1600 kg", "share": 0.6},
+                ["no use is made of mass and share: the table has the brake_pressure"],
+            ),
+        ]:
+            Path("log.csv").write_text(text)
+            with self.subTest(options), warnings.catch_warnings():
+                warnings.simplefilter("ignore")
+                self.assertEqual(plateau.cycle("log.csv", "made.toml", force=True, **options).warnings, expected)
+        # In gram so light a car brakes nothing: it is told why.
+        Path("log.csv").write_text(speeds)
+        with self.assertRaises(plateau.InputError), self.assertWarnsRegex(plateau.PlateauWarning, "mass = 1600 g is not from 200 kg to 44000 kg"):
+            plateau.cycle("log.csv", "made.toml", force=True, mass="1600 g")
+
+    def test_the_command_tells_what_it_wrote_and_what_is_not_of_the_car(self):
+        Path("glatt.csv").write_text("time [s],road_speed [km/h]\n0,0\n5,0\n10,50\n20,50\n25,0\n30,0\n")
+        printed = io.StringIO()
+        with contextlib.redirect_stdout(printed):
+            self.assertEqual([command_line.main(["cycle", "glatt.csv", "-o", name]) for name in ("glatt.toml", "t/d.toml")], [0, 0])
+        for said in (
+            "wrote glatt.toml and glatt-cycle.csv\n",
+            "wrote t/d.toml and t/d-cycle.csv\n",
+            "while the vehicle stands, 100 N m hold it",
+            "not of your car: materials and friction (a cermet-coated disc), the disc's size but for its mass, its cooling",
+        ):
+            self.assertIn(said, printed.getvalue())
+        held = pandas.read_csv("glatt-cycle.csv")
+        self.assertEqual(held["brake_torque [N m]"].iloc[[0, -1]].tolist(), [100.0, 100.0])
+        scene = Path("glatt.toml").read_text()
+        self.assertRegex(scene, r"(?m)^disc_primary = .* # <- 0: .* grey iron does, with a specific_wear_rate of its own$")
+        self.assertEqual(Path(plateau.Scene("glatt.toml")["operation.cycle.file"]), Path("glatt-cycle.csv").resolve())
+
     def test_pressure_and_torque_are_taken_as_they_are(self):
         rows = "0,36,0\n2,36,10\n4,0,20\n"
         found = self.cycle(f"time [s],road_speed [km/h],brake_pressure [bar]\n{rows}", piston_area="25 cm^2")
@@ -131,14 +206,18 @@ class Tables(InFolder):
     def test_a_workbook_is_read(self):
         table = pandas.DataFrame({"time [s]": [0.0, 5.0], "road_speed [m/s]": [10.0, 0.0], "brake_torque [N m]": [0.0, 300.0]})
         table.to_excel("log.xlsx", index=False)
-        made = pandas.read_csv(Path(plateau.cycle("log.xlsx", "book.toml")).with_suffix(".csv"))
+        made = pandas.read_csv(plateau.cycle("log.xlsx", "book.toml").cycle)
         self.assertEqual(made["road_speed [km/h]"].tolist(), [36.0, 0.0])
         self.assertEqual(made["brake_torque [N m]"].tolist(), [0.0, 300.0])
 
     def test_what_is_wrong_is_said_with_what_to_do(self):
         for text, options, said in [
             ("time [s],v [km/h]\n0,1\n1,0\n", {}, 'no column "road_speed"; there are "time [s]", "v [km/h]": name it by --column road_speed=HEADER'),
-            ("time [s],road_speed\n0,1\n1,0\n", {}, '"road_speed" has no unit: give it in brackets behind the header, such as road_speed [m s-1]'),
+            ("time [s],road_speed\n0,1\n1,0\n", {}, 'file or as --column road_speed="road_speed [km/h]"'),
+            ("Zeit,road_speed [km/h]\n0,1\n1,0\n", {"columns": {"time": "Zeit"}}, "h:mm:ss, or a number and for its unit one in brackets"),
+            ("time [s],road_speed [km/h],brake_pressure\n0,1,2\n1,0,2\n", {}, '"brake_pressure" has no unit: give one in brackets'),
+            ("time [s],road_speed [km/h],brake_pressure\n0,1,2\n1,0,2\n", {}, '--column brake_pressure="brake_pressure [bar]"'),
+            ("time [s],road_speed [km/h],brake_torque\n0,1,2\n1,0,2\n", {}, '--column brake_torque="brake_torque [N m]"'),
             ("time [s],road_speed [km/h]\n0,1\n1,x\n", {}, 'log.csv:3: "road_speed [km/h]" is "x", expected a number'),
             ("time [s],road_speed [km/h]\n0,1\n1,-3\n", {}, '"road_speed [km/h]" is -3, expected 0 or more'),
             ("time [s],road_speed [kg]\n0,1\n1,3\n", {}, '"kg" measures something else than m s-1'),
@@ -146,7 +225,11 @@ class Tables(InFolder):
             ("time [s],road_speed [km/h],brake_torque [N m],brake_pressure [bar]\n0,1,2,3\n1,0,2,3\n", {}, "expected one of them"),
             ("time [s],road_speed [km/h],brake_pressure [bar]\n0,1,2\n1,0,2\n", {}, "give the area of those of one pad"),
             ("time [s],road_speed [km/h]\n0,50\n1,50\n", {}, "nowhere between two rows is there load and speed"),
-            ("time [s],road_speed [km/h]\n0,50\n9,0\n", {"share": 2.0}, "a share from 0 to 1"),
+            ("time [s],road_speed [km/h]\n0,50\n9,0\n", {"share": 70.0}, "share: 70, expected more than 0 and at most 1, such as 0.7"),
+            ("time [s],road_speed [km/h]\n0,50\n9,0\n", {"road_load": (1, 2)}, "road_load: expected three numbers"),
+            ("time [s],road_speed [km/h]\n0,50\n9,0\n", {"mass": "1600"}, 'mass: "1600", expected text with a unit, such as "1500 kg"'),
+            ("time [s],road_speed [km/h]\n0,50\n9,0\n", {"mass": "1,6 Mg"}, 'mass: "1,6 Mg": decimal marks are points, expected text with a unit'),
+            ("time [s],road_speed [km/h]\n0,50\n9,0\n", {"effective_radius": "400 mm"}, "expected less than the wheel_radius of 310 mm"),
             ("", {}, "no points, expected a line"),
             ("time [s],road_speed [km/h]\n0,1\n", {}, "expected two rows or more, with times that go on"),
             ("time [s],v [m/s],v [km/h]\n0,1,3.6\n1,0,0\n", {"columns": {"road_speed": "v"}}, "are both road_speed: give the whole header"),
