@@ -12,8 +12,8 @@ use crate::engine::lanes::LANES;
 use crate::engine::strips::strips;
 use crate::model::mesh::Mesh;
 
-/// Columns of work that a boundary under the pin costs a group: its first column is swept apart and handed on, and the
-/// one that enters is taken over and read on its own. Measured on the paper's mesh.
+/// Columns of work that a boundary under the pin costs a group: what lies ahead of it is found and told, its first column handed on, and
+/// the one that enters taken over and read on its own. Between what was measured on the paper's mesh with AVX-512 and with AVX2.
 const BOUNDARY_COST: f64 = 25.0;
 
 /// Partition of the mesh.
@@ -39,12 +39,12 @@ pub struct Segment {
     pub pin: Range<usize>,
     /// Column within the sector under the first of them.
     pub over: usize,
-    /// Whether the sector's column before that is at rest, so that the sweep itself can read its pair of the next step.
+    /// Whether the sector's column before that is at rest, so that the pass itself can read its pair of the next step.
     pub joined: bool,
 }
 
-/// A pair that no sweep can read for the next step: of a pin column that the disc's turn carries over another sector, or
-/// over a column that is swept later.
+/// A pair that no pass can read for the next step: of a pin column that the disc's turn carries over another sector, or
+/// over a column that is passed over later.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Entering {
     /// Column of the pin.

@@ -253,15 +253,15 @@ impl Edges {
         sum * L::splat(rules.rules.transport_part)
     }
 
-    /// What the first column means to the one behind it.
+    /// Finds what the first column means to the one behind it.
     #[inline(always)]
-    pub fn reach<L: Lanes, const BUILD_UP: u8, const DISC_WEARS: bool>(
+    pub fn find_reach<L: Lanes, const BUILD_UP: u8, const DISC_WEARS: bool>(
         &mut self,
         rules: &StripRules<L>,
         strip: &Strip,
-    ) -> Reach {
+        reach: &mut Reach,
+    ) {
         let columns = rules.rules.reach;
-        let mut reach = Reach::none(columns);
         let cells = strip.cells::<L, BUILD_UP, DISC_WEARS>(0);
         let worn = wear::<L, BUILD_UP, DISC_WEARS>(rules, cells);
         L::select(worn.resin, L::splat(f64::INFINITY), worn.height()).store(&mut reach.height);
@@ -269,8 +269,9 @@ impl Edges {
         if rules.rules.transport.is_none() {
             let [lost, _] = worn_ahead::<L, BUILD_UP, DISC_WEARS, false>(rules, strip, 0);
             lost.store(&mut reach.lost[0]);
-            return reach;
+            return;
         }
+        L::splat(0.0).store(&mut reach.share);
         let mut open = u8::MAX;
         for next in 1..columns.min(strip.disc_height.len()) {
             open &= !self.touches[next - 1];
@@ -279,7 +280,6 @@ impl Edges {
             L::select(L::Mask::of_byte(edges), share, L::load(&reach.share)).store(&mut reach.share);
         }
         reach.lost.copy_from_slice(&self.lost[..columns]);
-        reach
     }
 }
 
@@ -432,8 +432,7 @@ fn edge_of_strips<L: Lanes, const BUILD_UP: u8, const DISC_WEARS: bool>(
     moved: &mut Moved,
     edge: &mut Edge,
 ) {
-    edge.strips.clear();
-    for index in 0..pin.height.strips() {
+    for (index, reach) in edge.reaches(pin.height.strips(), rules.reach).iter_mut().enumerate() {
         let strip = Strip::new::<L, BUILD_UP>(index, pin, disc, span, false);
         let strip_rules = StripRules::<L>::new(rules, conditions, index);
         let edges = &mut moved.edges;
@@ -441,6 +440,6 @@ fn edge_of_strips<L: Lanes, const BUILD_UP: u8, const DISC_WEARS: bool>(
         if rules.transport.is_some() {
             edges.wear::<L, BUILD_UP, DISC_WEARS>(&strip_rules, &strip, &rules.nothing_ahead);
         }
-        edge.strips.push(edges.reach::<L, BUILD_UP, DISC_WEARS>(&strip_rules, &strip));
+        edges.find_reach::<L, BUILD_UP, DISC_WEARS>(&strip_rules, &strip, reach);
     }
 }

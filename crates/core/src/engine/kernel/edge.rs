@@ -55,7 +55,13 @@ impl Edge {
     /// Takes over one that another worker wrote.
     pub fn read(&mut self, columns: usize, words: &[u64]) {
         let strips = words.chunks_exact(Reach::words(columns));
-        self.strips = strips.map(|words| Reach::read(columns, words)).collect();
+        self.reaches(strips.len(), columns).iter_mut().zip(strips).for_each(|(reach, words)| reach.read(words));
+    }
+
+    /// What so many strips must know, with debris that is spread over so many columns, to be written anew.
+    pub(super) fn reaches(&mut self, strips: usize, columns: usize) -> &mut [Reach] {
+        self.strips.resize_with(strips, || Reach::none(columns));
+        &mut self.strips
     }
 }
 
@@ -86,17 +92,12 @@ impl Reach {
     }
 
     /// Takes over one that another worker wrote.
-    fn read(columns: usize, words: &[u64]) -> Self {
-        let (chunks, bytes) = words.split_at((2 + columns) * LANES);
-        let chunk = |words: &[u64]| Chunk(std::array::from_fn(|lane| f64::from_bits(words[lane])));
-        let mut chunks = chunks.chunks_exact(LANES).map(chunk);
-        let mut next = || chunks.next().unwrap_or(Chunk([0.0; LANES]));
-        let [height, share] = [next(), next()];
-        Self {
-            height,
-            share,
-            touches: bytes.iter().map(|word| *word as u8).collect(),
-            lost: (0..columns).map(|_| next()).collect(),
+    fn read(&mut self, words: &[u64]) {
+        let Self { height, share, touches, lost } = self;
+        let (chunks, bytes) = words.split_at((2 + lost.len()) * LANES);
+        for (chunk, words) in [height, share].into_iter().chain(lost).zip(chunks.chunks_exact(LANES)) {
+            *chunk = Chunk(std::array::from_fn(|lane| f64::from_bits(words[lane])));
         }
+        touches.iter_mut().zip(bytes).for_each(|(touches, word)| *touches = *word as u8);
     }
 }
