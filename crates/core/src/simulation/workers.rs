@@ -27,7 +27,7 @@ pub(super) enum Workers {
     /// This thread.
     One(Box<Worker<Single>>),
     /// Threads of their own.
-    Threads(WorkerThreads),
+    Threads(Box<WorkerThreads>),
     /// This thread and, each for itself, the other ranks of an MPI job.
     #[cfg(feature = "mpi")]
     Rank(Box<Worker<Mpi>>),
@@ -79,7 +79,8 @@ impl Workers {
         let workers = Threads::connect(execution.workers, messages, halo_words).into_iter().map(worker).collect();
         let refused =
             |error: std::io::Error| SimulationError::Threads { workers: execution.workers, message: error.to_string() };
-        WorkerThreads::start(workers, execution.pin).map(Self::Threads).map_err(refused)
+        let threads = WorkerThreads::start(workers, execution.pin).map_err(refused)?;
+        Ok(Self::Threads(Box::new(threads)))
     }
 
     /// This rank of an MPI job.
