@@ -9,8 +9,9 @@ import unittest
 import warnings
 
 import numpy as np
+from made_studies import number, study_of, word
 from plateau.errors import InputError
-from plateau.study.scene_comparison import _seed_keys, compare, difference, response_of
+from plateau.study.scene_comparison import _compared, _seed_keys, compare, difference, response_of
 from scipy import stats
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
@@ -52,6 +53,14 @@ class Differences(unittest.TestCase):
         self.assertTrue(np.isnan(difference([1.0], [3.0])["low"]))
         self.assertTrue(np.isnan(difference([], [])["difference"]))
         self.assertEqual([difference([1.0, 1.0], two)["p"] for two in ([1.0, 1.0], [2.0, 2.0])], [1.0, 0.0])
+
+    def test_a_scene_without_seeds_stands_beside_all_runs_of_another(self):
+        alone = study_of([word("seed", "none")], {"seed": ["none"], "y": [2.0]})
+        for seeds in ([1.0], [1.0, 2.0]):
+            seeded = study_of([number("seed", *seeds)], {"seed": seeds, "y": [3.0, 5.0][: len(seeds)]})
+            found = _compared({"a": seeded, "b": alone}, {"a": "", "b": ""}, 0.95, [], pathlib.Path(), False)
+            # Of 3 and 2, and of the mean of 3 and 5 and 2.
+            self.assertEqual(found.table[["runs", "difference"]].to_numpy().tolist(), [[len(seeds), -float(len(seeds))]])
 
     @unittest.skipUnless("PLATEAU_LONG" in os.environ, "a simulation of what the values of R say already")
     def test_intervals_cover_in_95_of_100(self):

@@ -11,8 +11,8 @@ from plateau.output_folder import plain
 from plateau.study.data import Factor
 from plateau.study.figure_axes import set_axis
 from plateau.style import number
-from plateau.study.fit_answer import fit_figures
-from plateau.study.scene_comparison import comparison_figures
+from plateau.study.fit_answer import Fit
+from plateau.study.scene_comparison import Comparison
 from plateau.style import in_style, new
 from plateau.units import Unit, shown_unit, with_digits, with_hyphen, with_minus
 
@@ -56,7 +56,7 @@ class Figures(unittest.TestCase):
         profiles = pandas.DataFrame({"key": "recess", "value": [2e-6, 6e-6, 20e-6], "rise": [5.0, 0.0, 5.0], "threshold": 3.84})
         keys = pandas.DataFrame({"key": ["recess"], "low": [3e-6], "high": [9e-6]})
         study = SimpleNamespace(factors=[RECESS])
-        found = fit_figures(SimpleNamespace(study=study, confidence=0.95, profiles=profiles, keys=keys, regions=[], series=series))
+        found = Fit.figures(SimpleNamespace(study=study, confidence=0.95, profiles=profiles, keys=keys, series=series))
         axis = found["series-area"].axes[0]
         (measured, *_), (runs, _, (bars,)) = axis.containers
         np.testing.assert_allclose(measured.get_xydata(), [[1, 1], [2, 2], [9, 3]])
@@ -69,7 +69,7 @@ class Figures(unittest.TestCase):
         rows = itertools.product(("old", "new"), (0.0, 72000.0))
         curves = pandas.DataFrame(rows, columns=["scene", "time"]).assign(series="worn_pin", unit="m3", mean=2e-9, deviation=1e-9)
         curves = curves.assign(difference=[math.nan, math.nan, 0.0, -1e-9], low=math.nan, high=math.nan)
-        figure = comparison_figures(SimpleNamespace(scenes={"old": "", "new": ""}, curves=curves, confidence=0.95))["worn_pin"]
+        figure = Comparison.figures(SimpleNamespace(scenes={"old": "", "new": ""}, curves=curves, confidence=0.95))["worn_pin"]
         top, below = figure.axes
         self.assertEqual(" ".join(top.get_title(loc="left").split()), "volume worn off plateaus of the simulated pin")
         self.assertEqual((top.get_ylabel(), below.get_ylabel(), below.get_xlabel()), ("mean, mm³", "difference, mm³", "time, h"))

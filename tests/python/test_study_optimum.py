@@ -15,8 +15,7 @@ import pandas
 from made_studies import span, study_of
 from plateau.errors import InputError, RunFailed
 from plateau.study.data import Response
-from plateau.study.goals import Goal, Limit, Problem, beyond_runs, overall
-from plateau.study.improvement import expected_improvement, improved
+from plateau.study.goals import Goal, Limit, Problem, beyond_runs, expected_improvement, improved, overall
 from plateau.study.optimum import canonical, optimize
 from plateau.study.prediction import predict
 from plateau.study.results import analysed

@@ -8,7 +8,6 @@ from typing import Any
 import numpy as np
 from scipy import stats
 
-from plateau.errors import RunFailed
 from plateau.study.data import Numbers
 from plateau.study.likelihood import SETTLED, Likelihood, Runs, Target
 
@@ -35,9 +34,14 @@ class Outcome:
     checks: list[dict[str, Any]]
 
     @property
+    def check(self) -> str:
+        """Whether the forecast at the most likely place ``"held"``, ``"failed"``, or met ``"none"``."""
+        return "none" if not self.checks else "held" if self.checks[-1]["held"] else "failed"
+
+    @property
     def has_failed(self) -> bool:
         """Whether runs contradict the forecast at the most likely place."""
-        return bool(self.checks) and not self.checks[-1]["held"]
+        return self.check == "failed"
 
 
 def calibrated(target: Target, runs: Runs, make: Callable[[Numbers], Runs], seeds: int, most: int, can_run: Sequence[bool]) -> Outcome:
@@ -49,14 +53,12 @@ def calibrated(target: Target, runs: Runs, make: Callable[[Numbers], Runs], seed
     for rounds in itertools.count(1):
         likelihood = Likelihood(target, runs)
         asked = np.array([can_run[term.of] for term in likelihood.terms])
+        left = (most - len(runs.x)) // seeds if asked.any() else 0
         if checks:
             # What the runs say themselves: the place that they were made at is still the most likely one, or nearly.
-            last = checks[-1]
-            last["rise"] = float(likelihood.rise(last["place"])[0])
-            last["held"] = last["held"] and last["rise"] <= SAME and not likelihood.agrees_by_ignorance
-            if last["held"]:
-                return Outcome(likelihood, rounds, ended, checks)
-        left = (most - len(runs.x)) // seeds if asked.any() else 0
+            checks[-1]["held"] &= bool(likelihood.rise(checks[-1]["place"])[0] <= SAME and not likelihood.agrees_by_ignorance)
+            if checks[-1]["held"]:
+                break
         free = left - min(RESERVE, left)
         places, _ = likelihood.next_places(min(AT_A_TIME, free), seeds, can_run)
         share = float(likelihood.share_by_term()[asked].max()) if asked.any() else 0.0
@@ -75,26 +77,22 @@ def calibrated(target: Target, runs: Runs, make: Callable[[Numbers], Runs], seed
             runs = runs.with_more(make(places))
             continue
         place = likelihood.snapped(likelihood.best)
-        known = np.abs(runs.x - place).max(axis=1) < 1e-9
-        if asked.any() and known.any():
-            checks.append(_check(likelihood, place, asked, None))
-            if checks[-1]["held"]:
-                checks[-1]["rise"] = float(likelihood.rise(place)[0])
-                return Outcome(likelihood, rounds, ended, checks)
+        if asked.any() and (np.abs(runs.x - place).max(axis=1) < 1e-9).any():
+            check = _check(likelihood, place, asked, None)
             # The same runs would tell the same: others beside it are made.
-            places = likelihood.next_places(min(1, left), seeds, can_run)[0]
+            places = places[:0] if check["held"] else likelihood.next_places(min(1, left), seeds, can_run)[0]
             if not len(places):
-                return Outcome(likelihood, rounds, ended, checks)
+                checks.append(check)
+                break
             runs = runs.with_more(make(places))
-            checks.pop()
-            continue
-        if not left:
-            return Outcome(likelihood, rounds, ended, checks)
-        more = make(place[None])
-        checks.append(_check(likelihood, place, asked, more))
-        runs = runs.with_more(more)
-        shares.clear()
-    raise RunFailed("the fit did not end")
+        elif left:
+            more = make(place[None])
+            checks.append(_check(likelihood, place, asked, more))
+            runs = runs.with_more(more)
+            shares.clear()
+        else:
+            break
+    return Outcome(likelihood, rounds, ended, checks)
 
 
 def _has_no_gain(shares: Sequence[float], then: float) -> bool:
@@ -111,20 +109,19 @@ def _has_no_gain(shares: Sequence[float], then: float) -> bool:
 
 def _check(likelihood: Likelihood, place: Numbers, asked: Any, more: Runs | None) -> dict[str, Any]:
     """What was forecast at a place against what runs give there; against the runs left out where there are some already."""
-    means, own, _ = (each[0] for each in likelihood.moments(place[None]))
     processes = [term.process for term in likelihood.terms]
     if more is None:
         at = [int(np.abs(process.points - place).max(axis=1).argmin()) for process in processes]
-        errors, deviations = (np.array([process.loo[which][one] for process, one in zip(processes, at, strict=True)]) for which in (0, 1))
-        found, variances = np.array([process.means[one] for process, one in zip(processes, at, strict=True)]), deviations**2
+        told = [(process.means[one], process.loo[0][one], process.loo[1][one] ** 2) for process, one in zip(processes, at, strict=True)]
+        found, errors, variances = np.array(told).T
         means = found - errors
     else:
+        means, own, _ = (each[0] for each in likelihood.moments(place[None]))
         found = np.nanmean(likelihood.of_runs(more), axis=0)
         variances = own + np.array([process.run_variance for process in processes]) / len(more.x)
     # What is small against the measurement does not count.
     squares = (found - means) ** 2 / (variances + SETTLED * np.diag(likelihood.covariance))
-    told = asked & np.isfinite(squares)
-    held = told.any() and bool(squares[told].sum() <= stats.chi2.ppf(CHECK, told.sum()))
+    known = asked & np.isfinite(squares)
+    held = bool(known.any() and squares[known].sum() <= stats.chi2.ppf(CHECK, known.sum()))
     said = {"place": place, "forecast": means, "deviation": np.sqrt(variances), "runs": found}
     return {**said, "held": held, "of": [term.of for term in likelihood.terms]}
-

@@ -16,7 +16,8 @@ from plateau.study.calibration import ENDS, Outcome
 from plateau.study.data import Factor, Numbers, Study
 from plateau.study.figure_axes import dots, file_names, set_axis
 from plateau.study.likelihood import SETTLED, Likelihood, Target, products, profile, region
-from plateau.study.text_tables import aligned
+from plateau.study.measured import Measurement
+from plateau.study.text_tables import listed
 from plateau.style import LINES, NARROW, QUIET, WIDE, Figures, in_style, labelled, new
 from plateau.units import shown_unit, unit_for, with_minus
 
@@ -30,8 +31,7 @@ MORE = {
     "no gain": "all runs that [fit] allows besides would hardly lessen it: runs scatter too much. More sets of seeds in [replicates] lessen that.",
     "no runs": "more points in the design make the intervals shorter.",
 }
-RESPONSES = ["response", "unit", "measured", "uncertainty", "forecast", "surrogate_deviation", "seeds_deviation", "seed_to_seed"]
-RESPONSES += ["leave_one_out_error", "discrepancy"]
+OF_COMPONENTS = "uncertainties, of a component"
 
 
 @dataclass(frozen=True, repr=False)
@@ -68,16 +68,21 @@ class Fit:
         return [(one, *profile(self._likelihood, at, self._threshold)) for at, one in enumerate(self.study.factors)]
 
     @cached_property
+    def _intervals(self) -> list[tuple[Factor, float, list[dict[str, Any]]]]:
+        """Each key with its most likely value, NaN where it may be anywhere, and the pieces of its interval, none if runs contradict the forecast."""
+        found, has_failed = [], self.outcome.has_failed
+        for (factor, _, _, pieces), best in zip(self._profiles, self._likelihood.best, strict=True):
+            likely = math.nan if has_failed or pieces == [(-1.0, 1.0)] else float(factor.value(best))
+            ends = [(float(factor.value(low)), float(factor.value(high)), low == -1.0, high == 1.0) for low, high in pieces if not has_failed]
+            found.append((factor, likely, [{"low": low, "high": high, "open_below": below, "open_above": above} for low, high, below, above in ends]))
+        return found
+
+    @cached_property
     def keys(self) -> pandas.DataFrame:
         """A row for each piece of the interval of each key, with its ends; NaN where it may be anywhere, or runs contradict the forecast."""
-        rows, has_failed = [], self.outcome.has_failed
-        for at, (factor, _, _, pieces) in enumerate(self._profiles):
-            likely = math.nan if has_failed or pieces == [(-1.0, 1.0)] else float(factor.value(self._likelihood.best[at]))
-            for low, high in [(math.nan, math.nan)] if has_failed else pieces:
-                about = {"key": factor.name, "unit": factor.unit, "most_likely": likely}
-                ends = {"low": float(factor.value(low)), "high": float(factor.value(high))}
-                rows.append({**about, **ends, "open_below": low == -1.0, "open_above": high == 1.0})
-        return pandas.DataFrame(rows)
+        none = {"low": math.nan, "high": math.nan, "open_below": False, "open_above": False}
+        rows = [(one.name, one.unit, likely, piece) for one, likely, pieces in self._intervals for piece in pieces or [none]]
+        return pandas.DataFrame([{"key": name, "unit": unit, "most_likely": likely, **piece} for name, unit, likely, piece in rows])
 
     @property
     def profiles(self) -> pandas.DataFrame:
@@ -86,65 +91,49 @@ class Fit:
         return pandas.concat(parts, ignore_index=True).assign(threshold=self._threshold)
 
     @cached_property
-    def regions(self) -> list[tuple[str, str, Numbers, Numbers, Numbers]]:
-        """For each pair of keys: their names, values of both, and how far -2 ln L rises, a row for each value of the second."""
-        found = []
-        for (one, x), (other, y) in itertools.combinations(enumerate(self.study.factors), 2):
-            across, along, rises = region(self._likelihood, one, other)
-            found.append((x.name, y.name, x.value(across), y.value(along), rises))
-        return found
-
-    @cached_property
-    def _moments(self) -> tuple[Numbers, Numbers, Numbers]:
-        """Means, variances of the processes and of the seeds at the most likely place, by term."""
-        means, own, seeds = (each[0] for each in self._likelihood.moments(self._likelihood.best[None]))
-        return means, own, seeds
-
-    def _scatter(self, number: int) -> float:
-        """Standard deviation of runs with other seeds, of a term."""
-        process = self._likelihood.terms[number].process
-        return math.sqrt(process.run_variance + self._moments[2][number] * process.seeds) if process.seeds > 1 else math.nan
-
-    def _terms(self, at: int) -> list[int]:
-        return [number for number, term in enumerate(self._likelihood.terms) if term.of == at]
+    def _terms(self) -> pandas.DataFrame:
+        """What runs give of each term at the most likely place, by its measurement."""
+        likelihood = self._likelihood
+        processes = [term.process for term in likelihood.terms]
+        means, own, seeds = (each[0] for each in likelihood.moments(likelihood.best[None]))
+        sets = np.array([one.seeds if one.seeds > 1 else math.nan for one in processes])
+        columns = {"forecast": means, "surrogate_deviation": np.sqrt(own), "seeds_deviation": np.sqrt(seeds)}
+        columns |= {"seed_to_seed": np.sqrt([one.run_variance for one in processes] + seeds * sets)}
+        columns |= {"leave_one_out_error": [float(np.sqrt(np.square(one.loo[0]).mean())) for one in processes]}
+        return pandas.DataFrame(columns, index=[term.of for term in likelihood.terms])
 
     @cached_property
     def responses(self) -> pandas.DataFrame:
         """Single values at the most likely place; ``surrogate_deviation`` is for want of runs, ``seeds_deviation`` for want of seeds."""
-        rows, (means, own, seeds) = [], self._moments
-        for at in self.target.singles:
-            (number,), one = self._terms(at), self.target.measured[at]
-            error = float(np.sqrt(np.square(self._likelihood.terms[number].process.loo[0]).mean()))
-            deviations = [math.sqrt(own[number]), math.sqrt(seeds[number]), self._scatter(number), error]
-            measured = [one.response.name, one.response.unit, one.values[0], one.uncertainties[0], means[number]]
-            rows.append([*measured, *deviations, abs(self.target.discrepancies[at] * one.values[0])])
-        return pandas.DataFrame(rows, columns=RESPONSES)
+        singles, columns = self.target.singles, ["response", "unit", "measured", "uncertainty"]
+        measured = [self.target.measured[at] for at in singles]
+        rows = [(one.response.name, one.response.unit, one.values[0], one.uncertainties[0]) for one in measured]
+        table = pandas.DataFrame(rows, columns=columns, index=singles).join(self._terms)
+        return table.assign(discrepancy=abs(table["measured"] * [self.target.discrepancies[at] for at in singles]))
 
     @cached_property
     def series(self) -> pandas.DataFrame:
         """Measured series beside what runs give at the most likely place, by time."""
-        parts, (means, own, seeds) = [], self._moments
+        parts = [pandas.DataFrame(columns=["response"])]
         for at, components in self._likelihood.components.items():
-            one, terms = self.target.measured[at], self._terms(at)
-            forecast = components.root @ (components.mean + components.basis @ means[terms])
-            deviation = np.sqrt(np.square(components.root @ components.basis) @ (own + seeds)[terms])
+            one, terms, seen = self.target.measured[at], self._terms.loc[[at]], components.root @ components.basis
             columns = {"response": one.response.name, "unit": one.response.unit, "time": one.times, "measured": one.values}
-            columns |= {"uncertainty": one.uncertainties, "forecast": forecast, "forecast_deviation": deviation}
-            parts.append(pandas.DataFrame(columns))
-        return pandas.concat(parts, ignore_index=True) if parts else pandas.DataFrame(columns=["response"])
+            columns |= {"uncertainty": one.uncertainties, "forecast": components.root @ components.mean + seen @ terms["forecast"].to_numpy()}
+            variances = np.square(terms[["surrogate_deviation", "seeds_deviation"]]).sum(axis=1).to_numpy()
+            parts.append(pandas.DataFrame(columns | {"forecast_deviation": np.sqrt(np.square(seen) @ variances)}))
+        return pandas.concat(parts[len(parts) > 1 :], ignore_index=True)
 
     @property
     def checks(self) -> pandas.DataFrame:
         """Runs at most likely places against what was forecast there, for each response (a series as its components)."""
-        rows = []
+        parts = []
         for number, check in enumerate(self.outcome.checks, 1):
             keys = {one.name: float(one.value(at)) for one, at in zip(self.study.factors, check["place"], strict=True)}
-            for at, of in enumerate(check["of"]):
-                one = self.target.measured[of]
-                about = {"response": one.response.name, "unit": "uncertainties, of a component" if one.is_series else one.response.unit}
-                numbers = {what: float(check[what][at]) for what in ("forecast", "deviation", "runs")}
-                rows.append({"check": number, **keys, **about, **numbers, "held": check["held"]})
-        return pandas.DataFrame(rows)
+            of = [self.target.measured[at] for at in check["of"]]
+            names, units = zip(*((one.response.name, OF_COMPONENTS if one.is_series else one.response.unit) for one in of), strict=True)
+            numbers = {name: check[name] for name in ("forecast", "deviation", "runs", "held")}
+            parts.append(pandas.DataFrame({"check": number, **keys, "response": names, "unit": units, **numbers}))
+        return pandas.concat(parts, ignore_index=True) if parts else pandas.DataFrame()
 
     @cached_property
     def misfit(self) -> float:
@@ -152,14 +141,10 @@ class Fit:
         return float(self._likelihood.misfit(self._likelihood.best[None], with_processes=False)[0])
 
     @property
-    def freedom(self) -> int:
-        """Measurements less keys."""
-        return self._likelihood.freedom
-
-    @property
     def p(self) -> float:
         """Probability of a larger misfit; NaN without degrees of freedom."""
-        return float(stats.chi2.sf(self.misfit, self.freedom)) if self.freedom else math.nan
+        freedom = self._likelihood.freedom
+        return float(stats.chi2.sf(self.misfit, freedom)) if freedom else math.nan
 
     @property
     def tables(self) -> dict[str, pandas.DataFrame]:
@@ -187,21 +172,20 @@ class Fit:
             units = " and ".join(shown_unit(factor.study_unit) for factor, _, _ in powers if factor.study_unit)
             return f"{name} = {value:.4g} ({value / times:.4g} … {value * times:.4g}{', with ' + units if units else ''})"
 
-        said = " and ".join(words(*one) for one in found or better)
-        verb = "is" if len(found or better) == 1 else "are"
+        said = f"{' and '.join(words(*one) for one in found or better)} {'is' if len(found or better) == 1 else 'are'}"
         if found is None:
-            return f"{said} {verb} known far better than the keys in it, near the most likely values." if better else None
+            return f"{said} known far better than the keys in it, near the most likely values." if better else None
         if not found:
             is_closed = (~self.keys["open_below"] & ~self.keys["open_above"]).any()
             return None if is_closed else "Near the most likely values these data determine none of the keys."
         if all(np.count_nonzero(row) < 2 for row, _ in found):
             return None
-        return f"Only {said} {verb} determined by these data, near the most likely values."
+        return f"Only {said} determined by these data, near the most likely values."
 
     @cached_property
     def cautions(self) -> list[str]:
         """What is to be known before intervals are used: a sentence each."""
-        said, outcome, measured = list[str](), self.outcome, self.target.measured
+        said, outcome, measured, freedom = list[str](), self.outcome, self.target.measured, self._likelihood.freedom
         if outcome.has_failed:
             check = outcome.checks[-1]
             places = zip(self.study.factors, check["place"], strict=True)
@@ -212,25 +196,25 @@ class Fit:
         elif not outcome.checks:
             said.append("No runs were made at the most likely place, so the forecast there is not checked.")
         if self.p < 0.05:
-            test = f"misfit χ² = {self.misfit:.3g} with {_degrees(self.freedom)}, p = {self.p:.2g}"
+            test = f"misfit χ² = {self.misfit:.3g} with {_degrees(freedom)}, p = {self.p:.2g}"
             said.append(f"No values within these ranges give all that was measured: {test}. [fit] discrepancy lets the model be off.")
         if self.study.seeds < 2 and outcome.ended != "no runs":
             said.append("With one set of surfaces intervals may be too short; [replicates] with several tells what differs between them.")
         for at, one in enumerate(measured):
-            name, terms, uncertainty = one.response.name, self._terms(at), 1.0 if one.is_series else one.uncertainties[0]
-            if max(map(self._scatter, terms)) > uncertainty:
+            name, terms, uncertainty = one.response.name, self._terms.loc[[at]], 1.0 if one.is_series else one.uncertainties[0]
+            if terms["seed_to_seed"].max() > uncertainty:
                 scatter = f"Runs with other seeds scatter in {name} by more than the uncertainty of the measurement"
                 said.append(f"{scatter}; if specimens do so, too, add it to the uncertainty, unless a mean of many was measured.")
-            if self._moments[2][terms].max() > 0.25 * uncertainty**2:
+            if terms["seeds_deviation"].max() > 0.5 * uncertainty:
                 known = f"The mean of {name} over the seeds is known no better than to half the uncertainty of the measurement"
                 said.append(f"{known}: more seeds in [replicates] make the intervals shorter.")
-        for row in self.responses.to_dict("records") if not self.freedom else ():
+        for row in self.responses.to_dict("records") if not freedom else ():
             far = abs(row["forecast"] - row["measured"]) / math.hypot(row["uncertainty"], row["seeds_deviation"], row["discrepancy"])
             if far > 2.0:
                 away = f"{row['response']} of the runs is {far:.2g} standard deviations away at the most likely ones"
                 said.append(f"No values within these ranges give what was measured: {away}.")
-        for at in self._likelihood.components:
-            said += self._of_series(at)
+        for at, components in self._likelihood.components.items():
+            said += _alike(measured[at], components.measured - components.mean - components.basis @ self._terms.loc[[at], "forecast"].to_numpy())
         shares = self._likelihood.share_by_term()
         if shares.max() > SETTLED:
             part = f"{100.0 * shares.max():.0f} % of" if shares.max() < 2.0 else f"{shares.max():.2g} times"
@@ -239,143 +223,124 @@ class Fit:
             said.append(f"Near the most likely values the variance of the forecasts is up to {part} that of the measurement of {name}; {more}")
         return said
 
-    def _of_series(self, at: int) -> list[str]:
-        """Where successive points of a series deviate alike."""
-        one, components = self.target.measured[at], self._likelihood.components[at]
-        # Deviations from what runs give, independent and of deviation 1.
-        away = components.measured - components.mean - components.basis @ self._moments[0][self._terms(at)]
-        alike = float((away[1:] * away[:-1]).sum() / max((away**2).sum(), 1e-300))
-        if len(away) < 8 or alike <= 2.0 / math.sqrt(len(away)):
-            return []
-        time = -float(np.median(np.diff(one.times))) / math.log(min(alike, 0.99))
-        advice = "a longer correlation_time" if one.correlation_time else f'correlation_time = "{time:.2g} s"'
-        said = f"Successive points of {one.response.name} deviate alike (correlation {alike:.2g}), and the intervals are too short"
-        return [f"{said}: the errors of the measurement need {advice} in its [[response]], or the runs cannot follow the series."]
-
-    @property
-    def _check(self) -> str:
-        return "failed" if self.outcome.has_failed else "held" if self.outcome.checks else "none"
-
     def document(self, files: Sequence[str] = ()) -> dict[str, Any]:
         """The JSON of ``plateau fit --json``; None where there is no number."""
         keys = []
-        for factor in self.study.factors:
-            rows = self.keys[self.keys["key"] == factor.name]
-            pieces = rows[rows["low"].notna()][["low", "high", "open_below", "open_above"]].to_dict("records")
+        for factor, likely, pieces in self._intervals:
             is_open = len(pieces) == 1 and pieces[0]["open_below"] and pieces[0]["open_above"]
-            about = {"name": factor.name, "keys": factor.keys.split(", "), "unit": factor.unit, "most_likely": rows["most_likely"].iloc[0]}
+            about = {"name": factor.name, "keys": factor.keys.split(", "), "unit": factor.unit, "most_likely": likely}
             keys.append({**about, "interval": pieces, "undetermined": is_open})
         responses = self.responses.rename(columns={"response": "name"}).to_dict("records")
         found: dict[str, Any] = {"study": self.study.title, "keys": keys, "responses": responses, "confidence": self.confidence}
-        found |= {"misfit": self.misfit, "degrees_of_freedom": self.freedom, "p": self.p}
+        found |= {"misfit": self.misfit, "degrees_of_freedom": self._likelihood.freedom, "p": self.p}
         found |= {"determined": self.determined, "notes": self.cautions, "runs": len(self._likelihood.runs.x), "runs_at_most": self.most}
-        found |= {"rounds": self.outcome.rounds, "ended": self.outcome.ended, "check": self._check}
+        found |= {"rounds": self.outcome.rounds, "ended": self.outcome.ended, "check": self.outcome.check}
         found |= {"surrogate_share": float(self._likelihood.share_by_term().max())}
         return dict(plain(found | {"checks": self.checks.to_dict("records"), "files": list(files)}))
 
     def text(self) -> str:
         """What ``plateau fit`` prints."""
-        keys = []
-        for factor in self.study.factors:
-            rows = self.keys[self.keys["key"] == factor.name]
-            likely, pieces = rows["most_likely"].iloc[0], [_interval(factor, row) for row in rows.to_dict("records") if row["low"] == row["low"]]
-            shown = [factor.shown(likely, 4) if math.isfinite(likely) else "–", " or ".join(pieces) or "none: runs contradict the forecast"]
-            keys.append([factor.name, *shown])
-        lines = ["Keys", *aligned([["key", "most likely", f"{100.0 * self.confidence:g} % interval"], *keys])]
-        rows = [["response", "measured", "runs give", "seed to seed", "apart"]]
+        keys, responses, level = [], [], f"{100.0 * self.confidence:g} % interval"
+        for factor, likely, pieces in self._intervals:
+            ends = " or ".join(_interval(factor, piece) for piece in pieces) or "none: runs contradict the forecast"
+            keys.append({"key": factor.name, "most likely": factor.shown(likely, 4) if math.isfinite(likely) else "–", level: ends})
         for row in self.responses.to_dict("records"):
             unit = unit_for(row["unit"], max(abs(row["measured"]), abs(row["forecast"])))
             deviation, scatter = math.hypot(row["surrogate_deviation"], row["seeds_deviation"]), row["seed_to_seed"]
             away = (row["forecast"] - row["measured"]) / math.hypot(row["uncertainty"], deviation, row["discrepancy"])
-            apart = f"{scatter * unit.per_si:.2g} {unit.symbol}".strip() if math.isfinite(scatter) else "not known"
-            shown = [row["response"], unit.text(row["measured"], row["uncertainty"]), unit.text(row["forecast"], deviation), apart]
-            rows.append([*shown, f"{away:.1f} deviations".replace("-0.0", "0.0")])
-        lines += ["", "Responses at the most likely values", *aligned(rows)] if rows[1:] else []
+            cells = {"response": row["response"], "measured": unit.text(row["measured"], row["uncertainty"])}
+            cells |= {"runs give": unit.text(row["forecast"], deviation)}
+            cells |= {"seed to seed": f"{scatter * unit.per_si:.2g} {unit.symbol}".strip() if math.isfinite(scatter) else "not known"}
+            responses.append(cells | {"apart": f"{away:.1f} deviations".replace("-0.0", "0.0")})
+        lines = ["Keys", *listed(keys)]
+        lines += ["", "Responses at the most likely values", *listed(responses)] if responses else []
         said = [*filter(None, [self.determined]), *self.cautions]
         lines += ["", "To be known", *(f"  {line}" for line in said)] if said else []
-        return with_minus("\n".join([*lines, "", self.study.title, *(f"  {name:<8} {words}" for name, words in self._summary.items())]))
-
-    @property
-    def _summary(self) -> dict[str, str]:
-        """Runs, check, misfit and model in words."""
-        runs, first = self._likelihood.runs, int(self.study.runs["point"].nunique())
+        runs, first, freedom = self._likelihood.runs, int(self.study.runs["point"].nunique()), self._likelihood.freedom
         points = len(np.unique(np.round(runs.x, 9), axis=0))
         each = f", {self.study.seeds} seeds each" if self.study.seeds > 1 else ""
         made = f"{len(runs.x)} of at most {max(self.most, len(runs.x))}: {first} points of the design and {points - first} more{each}"
-        test = f" with {_degrees(self.freedom)}, p = {self.p:.2g}"
-        test = test if self.freedom else "; there are no more measurements than keys, so the misfit cannot be tested"
+        test = f" with {_degrees(freedom)}, p = {self.p:.2g}"
+        test = test if freedom else "; there are no more measurements than keys, so the misfit cannot be tested"
         stated = [(one.response.name, size) for one, size in zip(self.target.measured, self.target.discrepancies, strict=True) if size]
         model = f"standard uncertainty of the model: {', '.join(f'{100.0 * size:.3g} % in {name}' for name, size in stated)}"
         model = model if stated else "taken for exact; [fit] discrepancy = 0.05 gives it an uncertainty of 5 %"
-        check = "none: no runs are made" if self.outcome.ended == "no runs" else CHECKED[self._check]
-        return {"runs": f"{made}; {ENDS[self.outcome.ended]}", "check": check, "misfit": f"χ² = {self.misfit:.3g}{test}", "model": model}
+        check = "none: no runs are made" if self.outcome.ended == "no runs" else CHECKED[self.outcome.check]
+        summary = [f"  runs     {made}; {ENDS[self.outcome.ended]}", f"  check    {check}", f"  misfit   χ² = {self.misfit:.3g}{test}"]
+        return with_minus("\n".join([*lines, "", self.study.title, *summary, f"  model    {model}"]))
 
-    def figures(self) -> dict[str, Any]:
-        """Draws profiles of the keys, regions of their pairs, series."""
-        return dict(fit_figures(self))
+    @in_style
+    def figures(self) -> Figures:
+        """Draws profiles of the keys, regions of their pairs, and series beside what was measured."""
+        factors, level = {factor.name: factor for factor in self.study.factors}, f"{100 * self.confidence:g} %"
+        columns = min(len(factors), 3)
+        caption = f"How far −2 ln L rises where a key is held at a value, the others at their most likely ones; shaded: {level} interval"
+        rows, note = -(-len(factors) // columns), f"Dashed: threshold of the {level} interval, which is shaded"
+        figure, axes = new(WIDE if columns > 1 else NARROW, 14 + 50 * rows, caption, rows, columns, note, sharey=True)
+        for axis, (name, own) in zip(axes.flat, self.profiles.groupby("key", sort=False), strict=False):
+            factor, threshold = factors[str(name)], float(own["threshold"].iloc[0])
+            axis.plot(factor.in_study_unit(own["value"]), own["rise"], color=LINES[0])
+            axis.axhline(threshold, color=QUIET, linestyle="--", linewidth=0.8)
+            for ends in self.keys.loc[self.keys["key"] == name, ["low", "high"]].dropna().to_numpy():
+                axis.axvspan(*factor.in_study_unit(ends), color=LINES[0], alpha=0.15, linewidth=0)
+            axis.set_ylim(-0.05 * threshold, 3.0 * threshold)
+            set_axis(axis, factor)
+        for axis in axes.flat[len(factors) :]:
+            axis.set_axis_off()
+        for axis in axes[:, 0]:
+            axis.set_ylabel("rise of −2 ln L")
+        figures: Figures = {"profiles": figure}
+        for (one, x), (other, y) in itertools.combinations(enumerate(self.study.factors), 2):
+            across, along, rises = region(self._likelihood, one, other)
+            shaded = f"{level} region; " if not self.outcome.has_failed else ""
+            note = f"Shaded: {shaded}dots: runs" if shaded else "Dots: runs"
+            figure, ((axis,),) = new(NARROW, 76, f"Where {x.name} and {y.name} may be: {shaded}dots: runs", note=note)
+            if shaded:
+                threshold, at = float(stats.chi2.ppf(self.confidence, 2)), (x.in_study_unit(x.value(across)), y.in_study_unit(y.value(along)))
+                axis.contourf(*at, rises, [-1.0, threshold], colors=[LINES[0]], alpha=0.2)
+                axis.contour(*at, rises, [threshold], colors=[LINES[0]], linewidths=1.0)
+            dots(axis, x, y, self.runs, size=3.0)
+            set_axis(axis, x)
+            set_axis(axis, y, "y")
+            figures[f"region-{'-'.join(file_names([x.name, y.name]))}"] = figure
+        measured = dict(list(self.series.groupby("response", sort=False)))
+        for (name, rows), stem in zip(measured.items(), file_names(list(map(str, measured))), strict=True):
+            unit, time = unit_for(rows["unit"].iloc[0], float(rows["measured"].abs().max())), unit_for("s", float(rows["time"].max()))
+            caption = f"{name}: measured, and what runs give at the most likely values; bars: one standard deviation"
+            figure, ((axis,),) = new(NARROW, 66, caption, note="Runs: at the most likely values; bars: one standard deviation")
+            # Runs are told at the measured times alone: no line says what is between them.
+            told: dict[str, tuple[str, str, dict[str, Any]]] = {
+                "measured": ("measured", "uncertainty", {"fmt": "o", "color": "black", "ms": 4.0, "mfc": "white", "elinewidth": 0.6, "capsize": 2}),
+                "runs": ("forecast", "forecast_deviation", {"fmt": "s", "color": LINES[0], "ms": 2.5, "elinewidth": 1.4, "zorder": 3}),
+            }
+            for label, (middle, half, style) in told.items():
+                values = unit.value(rows[middle].to_numpy()), unit.per_si * rows[half].to_numpy()
+                axis.errorbar(time.value(rows["time"].to_numpy()), *values, label=label, **style)
+            axis.set(xlabel=labelled("time", time.symbol), ylabel=labelled(str(name), unit.symbol))
+            figure.legend(loc="outside upper left", ncols=2)
+            figures[f"series-{stem}"] = figure
+        return figures
 
 
 def _degrees(count: int) -> str:
     return f"{count} {'degree' if count == 1 else 'degrees'} of freedom"
 
 
-def _interval(factor: Factor, row: dict[Any, Any]) -> str:
-    low, high = factor.shown(row["low"], 4), factor.shown(row["high"], 4)
-    bare = factor.shown(row["low"], 4, with_unit=False)
-    if row["open_below"] and row["open_above"]:
-        return f"not determined by these data: anywhere from {bare} to {high}"
-    if row["open_below"]:
-        return f"up to {high}; the data set no lower limit"
-    return f"from {low} on; the data set no upper limit" if row["open_above"] else f"{bare} … {high}"
+def _interval(factor: Factor, piece: dict[Any, Any]) -> str:
+    low, high = factor.shown(piece["low"], 4), factor.shown(piece["high"], 4)
+    bare = factor.shown(piece["low"], 4, with_unit=False)
+    if piece["open_below"]:
+        everywhere = f"not determined by these data: anywhere from {bare} to {high}"
+        return everywhere if piece["open_above"] else f"up to {high}; the data set no lower limit"
+    return f"from {low} on; the data set no upper limit" if piece["open_above"] else f"{bare} … {high}"
 
 
-@in_style
-def fit_figures(found: Fit) -> Figures:
-    """Draws profiles of the keys, regions of their pairs, and series beside what was measured."""
-    factors, level = {factor.name: factor for factor in found.study.factors}, f"{100 * found.confidence:g} %"
-    columns = min(len(factors), 3)
-    caption = f"How far −2 ln L rises where a key is held at a value, the others at their most likely ones; shaded: {level} interval"
-    rows, note = -(-len(factors) // columns), f"Dashed: threshold of the {level} interval, which is shaded"
-    figure, axes = new(WIDE if columns > 1 else NARROW, 14 + 50 * rows, caption, rows, columns, note, sharey=True)
-    for axis, (name, own) in zip(axes.flat, found.profiles.groupby("key", sort=False), strict=False):
-        factor, threshold = factors[str(name)], float(own["threshold"].iloc[0])
-        axis.plot(factor.in_study_unit(own["value"]), own["rise"], color=LINES[0])
-        axis.axhline(threshold, color=QUIET, linestyle="--", linewidth=0.8)
-        for row in found.keys[(found.keys["key"] == name) & found.keys["low"].notna()].to_dict("records"):
-            axis.axvspan(*factor.in_study_unit(np.array([row["low"], row["high"]])), color=LINES[0], alpha=0.15, linewidth=0)
-        axis.set_ylim(-0.05 * threshold, 3.0 * threshold)
-        set_axis(axis, factor)
-    for axis in axes.flat[len(factors) :]:
-        axis.set_axis_off()
-    for axis in axes[:, 0]:
-        axis.set_ylabel("rise of −2 ln L")
-    figures: Figures = {"profiles": figure}
-    for one, other, across, along, rises in found.regions:
-        x, y = factors[one], factors[other]
-        shaded = f"{level} region; " if not found.outcome.has_failed else ""
-        note = f"Shaded: {shaded}dots: runs" if shaded else "Dots: runs"
-        figure, ((axis,),) = new(NARROW, 76, f"Where {one} and {other} may be: {shaded}dots: runs", note=note)
-        if shaded:
-            threshold, at = float(stats.chi2.ppf(found.confidence, 2)), (x.in_study_unit(across), y.in_study_unit(along))
-            axis.contourf(*at, rises, [-1.0, threshold], colors=[LINES[0]], alpha=0.2)
-            axis.contour(*at, rises, [threshold], colors=[LINES[0]], linewidths=1.0)
-        dots(axis, x, y, found.runs, size=3.0)
-        set_axis(axis, x)
-        set_axis(axis, y, "y")
-        figures[f"region-{'-'.join(file_names([one, other]))}"] = figure
-    measured = dict(list(found.series.groupby("response", sort=False)))
-    for (name, rows), stem in zip(measured.items(), file_names(list(map(str, measured))), strict=True):
-        unit, time = unit_for(rows["unit"].iloc[0], float(rows["measured"].abs().max())), unit_for("s", float(rows["time"].max()))
-        caption = f"{name}: measured, and what runs give at the most likely values; bars: one standard deviation"
-        figure, ((axis,),) = new(NARROW, 66, caption, note="Runs: at the most likely values; bars: one standard deviation")
-        at = time.value(rows["time"].to_numpy())
-        marks = {"measured": ("measured", "uncertainty", "o", "black", 4.0), "runs": ("forecast", "forecast_deviation", "s", LINES[0], 2.5)}
-        # Runs are told at the measured times alone: no line says what is between them.
-        for label, (middle, half, mark, colour, size_of) in marks.items():
-            values = unit.value(rows[middle].to_numpy()), unit.per_si * rows[half].to_numpy()
-            style = {"mfc": "white", "elinewidth": 0.6, "capsize": 2} if label == "measured" else {"elinewidth": 1.4, "zorder": 3}
-            axis.errorbar(at, *values, fmt=mark, color=colour, ms=size_of, label=label, **style)
-        axis.set(xlabel=labelled("time", time.symbol), ylabel=labelled(str(name), unit.symbol))
-        figure.legend(loc="outside upper left", ncols=2)
-        figures[f"series-{stem}"] = figure
-    return figures
+def _alike(one: Measurement, away: Numbers) -> list[str]:
+    """Whether successive points of a series deviate alike; deviations from what runs give are independent and of deviation 1."""
+    alike = float((away[1:] * away[:-1]).sum() / max((away**2).sum(), 1e-300))
+    if len(away) < 8 or alike <= 2.0 / math.sqrt(len(away)):
+        return []
+    time = -float(np.median(np.diff(one.times))) / math.log(min(alike, 0.99))
+    advice = "a longer correlation_time" if one.correlation_time else f'correlation_time = "{time:.2g} s"'
+    said = f"Successive points of {one.response.name} deviate alike (correlation {alike:.2g}), and the intervals are too short"
+    return [f"{said}: the errors of the measurement need {advice} in its [[response]], or the runs cannot follow the series."]

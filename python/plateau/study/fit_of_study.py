@@ -18,8 +18,8 @@ from plateau.study.likelihood import Runs, Target
 from plateau.study.measured import Measurement, measurements
 from plateau.study.results import analysed
 from plateau.study.runs import finished, made_study
-from plateau.study.text_tables import aligned
-from plateau.units import unit_for, with_minus
+from plateau.study.text_tables import listed
+from plateau.units import unit_of, with_minus
 
 
 def fit(
@@ -58,8 +58,7 @@ def fit(
     def make(places: Numbers) -> Runs:
         points = pandas.DataFrame({factor.name: factor.value(column) for factor, column in zip(opened.factors, places.T, strict=True)})
         made = made_study(opened, points, progress=progress, retry=retry, jobs=jobs, workers=workers)
-        table = _table(made)
-        tables.append(table.assign(point=table["point"] + tables[-1]["point"].max()))
+        tables.append(_table(made, tables[-1]["point"].max()))
         return _observed(replace(made, factors=opened.factors), target)
 
     try:
@@ -74,9 +73,11 @@ def fit(
     return Fit(opened, target, outcome, confidence, most, runs)
 
 
-def _table(study: Study) -> pandas.DataFrame:
+def _table(study: Study, before: int = 0) -> pandas.DataFrame:
+    """Runs of a study whose points have numbers from those before on."""
     names = [*(factor.name for factor in study.factors), *(response.name for response in study.responses)]
-    return study.runs[["point", "replicate", "state", *names]].assign(error=study.data["error"].values)
+    runs = study.runs[["point", "replicate", "state", *names]]
+    return runs.assign(point=runs["point"] + before, error=study.data["error"].values)
 
 
 def _task(study: Study) -> tuple[Target, int, float]:
@@ -122,12 +123,9 @@ def _correlations(where: Any, asked: dict[str, Any], measured: list[Measurement]
 def _observed(study: Study, target: Target) -> Runs:
     """What the runs of a study give of all that was measured."""
     is_first = (study.runs["same_as"] == study.runs.index).to_numpy()
-    values = [
-        _at_times(study, one)[is_first] if one.is_series else study.runs[one.response.name].to_numpy(float)[is_first, None]
-        for one in target.measured
-    ]
+    values = [_at_times(study, one) if one.is_series else study.runs[[one.response.name]].to_numpy(float) for one in target.measured]
     x = np.column_stack([factor.coded(study.runs[factor.name]) for factor in study.factors])
-    return Runs(x[is_first], study.runs["replicate"].to_numpy()[is_first], values)
+    return Runs(x[is_first], study.runs["replicate"].to_numpy()[is_first], [one[is_first] for one in values])
 
 
 def _at_times(study: Study, one: Measurement) -> Numbers:
@@ -169,14 +167,15 @@ class Plan:
 
     def text(self) -> str:
         """What ``plateau fit --plan`` prints."""
-        keys, measured = [["key", "between"]], [["response", "measured"]]
+        keys, measured = [], []
         for factor in self.study.factors:
-            keys.append([factor.name, " … ".join(map(factor.shown, factor.ends)) + (", equal ratios" if factor.logarithmic else "")])
+            scale = ", equal ratios" if factor.logarithmic else ""
+            keys.append({"key": factor.name, "between": " … ".join(map(factor.shown, factor.ends)) + scale})
         for one in self.target.measured:
-            unit = unit_for(one.response.unit, float(np.abs(one.values).max()))
-            points = f"{len(one.times)} points from {one.times[0]:g} to {one.times[-1]:g} s" if one.is_series else ""
-            measured.append([one.response.name, points or unit.text(one.values[0], one.uncertainties[0])])
-        lines = ["Looked for", *aligned(keys), "", "Fitted to", *aligned(measured), "", self.study.title]
+            said = unit_of(one.response.unit, one.values).text(one.values[0], one.uncertainties[0])
+            said = f"{len(one.times)} points from {one.times[0]:g} to {one.times[-1]:g} s" if one.is_series else said
+            measured.append({"response": one.response.name, "measured": said})
+        lines = ["Looked for", *listed(keys), "", "Fitted to", *listed(measured), "", self.study.title]
         lines += [f"  first runs  {self.first_runs} runs", f"  at most     {self.most} runs"]
         if math.isfinite(self.estimated_time):
             lines += [f"  estimated   {self.estimated_time:.3g} s for all", f"  memory      {self.memory / 1e6:.3g} MB for each"]
@@ -184,21 +183,12 @@ class Plan:
 
 
 def plan(study: Study | str | os.PathLike[str]) -> Plan:
-    """Tells what a fit will do, without running any.
-
-    Parameters
-    ----------
-    study : path or Study
-
-    Returns
-    -------
-    Plan
-    """
+    """Tells what a fit will do, without running any."""
     opened = analysed(study)
     target, most, _ = _task(opened)
     first, time, memory = len(opened.runs), math.nan, 0
     if opened.path is not None and "base" in opened.document:
         estimate = call(["sweep", "plan", opened.path])
-        jobs, mean = estimate["jobs"], float(np.mean(estimate["run_time"]))
-        time, memory = mean * max(most, first) / jobs, estimate["memory"] // jobs
+        time = float(np.mean(estimate["run_time"])) * max(most, first) / estimate["jobs"]
+        memory = estimate["memory"] // estimate["jobs"]
     return Plan(opened, target, first, max(most, first), time, memory)

@@ -1,4 +1,7 @@
-"""What is wanted of responses: goals, limits, how much is liked, and the search for the point where that is most."""
+"""What is wanted of responses: goals, limits, how much is liked, and the search for the point where that is most.
+
+Expected improvement: runs at points that may be better than all that were run, for responses that are dear and noisy.
+"""
 
 import itertools
 import warnings
@@ -12,9 +15,9 @@ import pandas
 from scipy import optimize, stats
 
 from plateau.errors import InputError
-from plateau.study.data import Numbers, Study
+from plateau.study.data import Factor, Numbers, Study
 from plateau.study.settings import axis_of, beyond_of, ends_of, held_values, reach_of
-from plateau.study.surrogate import Surrogate
+from plateau.study.surrogate import Surrogate, surrogates
 from plateau.units import quantity
 
 # Typed more strictly than it can be called.
@@ -23,6 +26,10 @@ minimize: Any = optimize.minimize
 POINTS, LEAST_POINTS, MOST_COMBINATIONS, STARTS = 4096, 16, 100_000, 4
 # What is missed by less, in differences that count, is missed by rounding.
 ROUNDING = 1e-10
+# Draws of responses, and the improvement, as part of the way to the goal, that is worth no run.
+DRAWS, WORTH = 256, 1e-3
+# Coded places nearer than this are one point: its runs, with the same seeds, would tell nothing new.
+NEAR = 0.02
 
 
 @dataclass(frozen=True)
@@ -88,24 +95,25 @@ class Problem:
     axes: list[list[Any] | None]
     confidence: float
 
+    @property
+    def free(self) -> list[Factor]:
+        """Factors that may be anywhere in their range."""
+        return [factor for factor, axis in zip(self.study.factors, self.axes, strict=True) if axis is None]
+
     def points(self, levels: Sequence[Any], coded: Numbers) -> pandas.DataFrame:
         """Points of the factors at levels, and at coded places of the others."""
-        columns, place = {}, iter(coded.T)
-        for factor, axis, level in zip(self.study.factors, self.axes, levels, strict=True):
-            columns[factor.name] = factor.value(next(place)) if axis is None else [level] * len(coded)
-        return pandas.DataFrame(columns)
+        columns: dict[str, Any] = {factor.name: [level] * len(coded) for factor, level in zip(self.study.factors, levels, strict=True)}
+        return pandas.DataFrame(columns | {factor.name: factor.value(place) for factor, place in zip(self.free, coded.T, strict=True)})
 
     @cached_property
-    def _region(self) -> tuple[Numbers, Numbers, float]:
-        """Coded ends of the factors, and how far from the middle the search goes in all of them together."""
-        ends = [ends_of(self.study, factor) if factor.is_number else (0.0, 0.0) for factor in self.study.factors]
-        return *np.array(ends).T, reach_of(self.study)
+    def _region(self) -> tuple[Numbers, float]:
+        """Coded ends of the factors that may be anywhere, and how far from the middle the search goes in all of them together."""
+        return np.array([ends_of(self.study, factor) for factor in self.free]).reshape(-1, 2), reach_of(self.study)
 
     def within(self, levels: Sequence[Any], cube: Numbers) -> Numbers:
         """Coded places in the region of the design of points of a cube from -1 to 1: what is too far out comes back towards the middle."""
-        low, high, reach = self._region
-        is_free = np.array([axis is None for axis in self.axes])
-        places = low[is_free] + (cube + 1.0) / 2.0 * (high - low)[is_free]
+        ends, reach = self._region
+        places = ends[:, 0] + (cube + 1.0) / 2.0 * (ends[:, 1] - ends[:, 0])
         numbers = [(factor, level) for factor, level in zip(self.study.factors, levels, strict=True) if level is not None and factor.is_number]
         left = reach**2 - sum(float(factor.coded(level)) ** 2 for factor, level in numbers)
         away = np.sqrt(np.square(places).sum(axis=1, keepdims=True))
@@ -144,24 +152,19 @@ class Problem:
         missed = sum((np.maximum(-limit.margin(found[limit.response]), 0.0) for limit in self.limits), np.zeros(len(points)))
         return np.nan_to_num(np.where(missed > ROUNDING, -2.0 - missed, merit), nan=-1e9)
 
-    def spread(self, count: int = POINTS) -> list[tuple[tuple[Any, ...], Numbers]]:
-        """All combinations of levels, each with points spread over a cube from -1 to 1, which stands for the region."""
-        choices = [[None] if axis is None else axis for axis in self.axes]
-        if (combinations := int(np.prod([len(choice) for choice in choices], dtype=float))) > MOST_COMBINATIONS:
-            raise InputError(f"the levels have {combinations} combinations, at most {MOST_COMBINATIONS} are looked at: hold some of the factors")
-        ranges = self.axes.count(None)
-        bits = int(np.ceil(np.log2(max(count // combinations, LEAST_POINTS))))
-        places = 2.0 * stats.qmc.Sobol(ranges, rng=0).random_base2(bits) - 1.0 if ranges else np.zeros((1, 0))
-        return [(levels, places) for levels in itertools.product(*choices)]
-
     def at(self, levels: Sequence[Any], cube: Numbers) -> pandas.DataFrame:
         """Points of the factors at levels, and in the region at points of the cube."""
         return self.points(levels, self.within(levels, np.clip(cube, -1.0, 1.0)))
 
     def starts(self, merit: Callable[[pandas.DataFrame], Numbers], count: int = POINTS) -> list[Start]:
-        """Points at which something is large among many, the largest first."""
+        """Points at which something is large, the largest first, of many: at each combination of levels spread over the region."""
+        choices = [[None] if axis is None else axis for axis in self.axes]
+        if (combinations := int(np.prod([len(choice) for choice in choices], dtype=float))) > MOST_COMBINATIONS:
+            raise InputError(f"the levels have {combinations} combinations, at most {MOST_COMBINATIONS} are looked at: hold some of the factors")
+        bits, ranges = int(np.ceil(np.log2(max(count // combinations, LEAST_POINTS)))), len(self.free)
+        cube = 2.0 * stats.qmc.Sobol(ranges, rng=0).random_base2(bits) - 1.0 if ranges else np.zeros((1, 0))
         starts: list[Start] = []
-        for levels, cube in self.spread(count):
+        for levels in itertools.product(*choices):
             merits = merit(self.at(levels, cube))
             starts += [(float(merits[at]), levels, cube[at]) for at in np.argsort(-merits, kind="stable")[:STARTS]]
             starts = sorted(starts, key=lambda start: -start[0])[:STARTS]
@@ -180,7 +183,7 @@ class Problem:
         """The point of the largest merit, one row."""
         starts = self.starts(self.merit)
         best = starts[0]
-        if self.axes.count(None):
+        if self.free:
             best = max(map(self._climbed, starts), key=lambda found: found[0])
             best = self._climbed(self.simplex(self.merit, best))
         return self.at(best[1], best[2][None])
@@ -200,8 +203,8 @@ class Problem:
             return values[0], ((values[1 : 1 + len(x)] - values[1 + len(x) :]) / 2e-5).T
 
         kept = {"type": "ineq", "fun": lambda x: smooth(x.tobytes())[0][1:], "jac": lambda x: smooth(x.tobytes())[1][1:].copy()}
-        options: dict[str, Any] = {"constraints": kept} if self.limits else {}
-        options |= {"jac": lambda x: smooth(x.tobytes())[1][0].copy(), "options": {"ftol": 1e-13}, "bounds": [(-1.0, 1.0)] * len(place)}
+        options: dict[str, Any] = {"bounds": [(-1.0, 1.0)] * len(place), "constraints": kept if self.limits else (), "options": {"ftol": 1e-13}}
+        options["jac"] = lambda x: smooth(x.tobytes())[1][0].copy()
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", RuntimeWarning)
             x = np.clip(minimize(lambda x: smooth(x.tobytes())[0][0], place, method="SLSQP", **options).x, -1.0, 1.0)
@@ -221,6 +224,102 @@ def beyond_runs(problem: Problem) -> Problem:
             goal = replace(goal, values=(worst, max(best, found) if best > worst else min(best, found)))
         goals.append(goal)
     return replace(problem, goals=goals)
+
+
+def improved(
+    problem: Problem, runs: int, made: Callable[[pandas.DataFrame], pandas.DataFrame], at_a_time: int = 1
+) -> tuple[Problem, pandas.DataFrame]:
+    """Makes so many runs at most where improvement is expected, the last ones where the mean is expected to be best.
+
+    Of a round each point is chosen as if those before it had given what is expected. Gives the problem with all runs, and the points.
+    """
+    rows: list[dict[Any, Any]] = []
+    left, number = runs // problem.study.seeds, 0
+    if left < 1:
+        raise InputError(f"runs = {runs}: expected {problem.study.seeds} or more, one for each set of seeds")
+    problem = with_processes(problem)
+    while left > 0:
+        number, believed = number + 1, problem
+        chosen: list[dict[Any, Any]] = []
+        while len(chosen) < min(at_a_time, left):
+            point, gain = _promising(believed)
+            if is_last := gain < WORTH or len(chosen) + 1 == left:
+                point, left = beyond_runs(believed).best(), len(chosen) + 1
+                gain = float(expected_improvement(believed, point)[0])
+            if not is_run(believed, point).any():
+                chosen.append({**point.iloc[0].to_dict(), "expected_improvement": gain})
+            if is_last:
+                break
+            if len(chosen) < min(at_a_time, left):
+                guess = {name: surrogate.response.back(surrogate.mean(point))[0] for name, surrogate in believed.surrogates.items()}
+                believed = with_processes(believed, *(point.assign(**guess, replicate=1 + at) for at in range(problem.study.seeds)))
+        if not chosen:
+            break
+        left -= len(chosen)
+        new = made(pandas.DataFrame(chosen))
+        means = new.groupby("point")[[response.name for response in problem.study.responses]].mean().to_dict("records")
+        rows += [{"round": number} | point | mean for point, mean in zip(chosen, means, strict=True)]
+        problem = with_processes(problem, new)
+    return problem, pandas.DataFrame(rows)
+
+
+def with_processes(problem: Problem, *new: pandas.DataFrame) -> Problem:
+    """The problem with processes that are fitted to the runs of its study and to new ones."""
+    study = problem.study
+    if new:
+        runs = pandas.concat([study.runs, *(each.assign(state="finished") for each in new)], ignore_index=True)[study.runs.columns]
+        # Equal points have one number.
+        points = runs.groupby([factor.name for factor in study.factors], sort=False).ngroup() + 1
+        numbers = pandas.RangeIndex(1, len(runs) + 1, name="run")
+        study = replace(study, runs=runs.assign(point=points, order=numbers, same_as=numbers).set_axis(numbers))
+    own = replace(study, responses=[response for response in study.responses if response.name in problem.wanted])
+    found = {one.response.name: replace(one, takes_process=one.process is not None) for one in surrogates(own, of_any_design=True)}
+    return replace(problem, study=study, surrogates={**problem.surrogates, **found})
+
+
+def expected_improvement(problem: Problem, points: pandas.DataFrame) -> Numbers:
+    """By how much of the way to the goals points are expected to be better than the best mean of a point that was run.
+
+    It is the best expected mean, as runs are noisy (V. Picheny and others, Struct. Multidisc. Optim. 48, 607-626 (2013)). What is as uncertain
+    at points that were run, too, is nothing that more runs tell.
+    """
+    names = problem.wanted
+    known = problem.study.runs.drop_duplicates("point")
+    draws = stats.norm.ppf(stats.qmc.Sobol(len(names), rng=0).random(DRAWS) * (1.0 - 1e-9) + 0.5e-9)
+    values, kept, forecasts = {}, np.ones((len(points), DRAWS), bool), problem.forecasts(points)
+    for name, z in zip(names, draws.T, strict=True):
+        surrogate = problem.surrogates[name]
+        open_part = np.sqrt(np.maximum(surrogate.deviation(points) ** 2 - surrogate.deviation(known).min() ** 2, 0.0))
+        values[name] = surrogate.response.back(surrogate.mean(points)[:, None] + open_part[:, None] * z)
+    for limit in problem.limits:
+        change = (values[limit.response] - forecasts[limit.response][["value"]].to_numpy()) / limit.scale
+        kept &= limit.margin(forecasts[limit.response])[:, None] + (change if limit.is_least else -change) >= -ROUNDING
+    expected = problem.forecasts(known)
+    reached = overall(problem.goals, [np.maximum(goal.way(expected[goal.response]["value"]), 0.0) for goal in problem.goals])
+    best = float(np.where(problem.keeps(expected), reached, 0.0).max())
+    merit = overall(problem.goals, [np.maximum(goal.way(values[goal.response]), 0.0) for goal in problem.goals])
+    return np.asarray((np.maximum(merit - best, 0.0) * kept).mean(axis=1))
+
+
+def _promising(problem: Problem) -> tuple[pandas.DataFrame, float]:
+    """The point of the largest expected improvement that was not run, and how large that is."""
+
+    def gains(points: pandas.DataFrame) -> Numbers:
+        return np.where(is_run(problem, points), 0.0, expected_improvement(problem, points))
+
+    start, *_ = problem.starts(gains, POINTS // 4)
+    gain, levels, place = problem.simplex(gains, start) if start[0] > 0.0 and start[2].size else start
+    return problem.at(levels, place[None]), gain
+
+
+def is_run(problem: Problem, points: pandas.DataFrame, near: float = NEAR) -> Numbers:
+    """Whether points are at one that was run."""
+    known = problem.study.runs.drop_duplicates("point")
+    is_near = np.ones((len(points), len(known)), bool)
+    for factor in problem.study.factors:
+        own, others = points[factor.name].to_numpy()[:, None], known[factor.name].to_numpy()
+        is_near &= np.abs(factor.coded(own) - factor.coded(others)) < near if factor.is_number else own == others
+    return np.asarray(is_near.any(axis=1))
 
 
 def named(names: Sequence[str], text: str, signs: Sequence[str]) -> tuple[str, str, str]:

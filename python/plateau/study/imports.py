@@ -2,8 +2,6 @@
 
 import fcntl
 import os
-from collections.abc import Iterator
-from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -11,7 +9,7 @@ from typing import Any
 from plateau.errors import InputError, RunFailed
 from plateau.output_folder import put
 from plateau.study.data import Study
-from plateau.study.kept_values import KeptValues, file_of, imported_columns
+from plateau.study.kept_values import KeptValues, file_of
 from plateau.study.results import analysed
 from plateau.study.text_tables import read_text_table
 
@@ -22,8 +20,6 @@ class Imported:
 
     Attributes
     ----------
-    study : str
-        Title.
     lines, new, changed, complete, runs : int
         Lines of the table, values that were not there before and that have changed, runs that have all imported responses, all runs.
     responses : list of str
@@ -78,31 +74,21 @@ def import_values(study: Study | str | os.PathLike[str], table: str | os.PathLik
         If a line fits no point, or a value is wrong or there already; with its line. Then nothing has changed.
     """
     opened = analysed(study)
-    file, given = file_of(opened), read_text_table(Path(table))
-    names = [response.name for response in opened.responses if response.asked.get("imported")]
-    imported_columns(given, opened, strict=True)
-    here = opened.path or opened.directory
+    file, given, here = file_of(opened), read_text_table(Path(table)), opened.path or opened.directory
     inputs = [here, Path(table), *([here.parent / opened.document["file"]] if "file" in opened.document else [])]
     if file.exists() and any(one.exists() and file.samefile(one) for one in inputs):
         raise InputError(f"{file}: it is an input, and imported values would be kept in its place; give the study another directory")
     # A table with a mistake in it leaves no folder.
     KeptValues(opened).take(given, force)
-    with _alone(file):
-        kept = KeptValues(opened)
-        new, changed = kept.take(given, force)
-        put(file, kept.written())
-    columns = [response.name for response in imported_columns(given, opened, strict=True).values()]
-    complete = int(kept.values[names].notna().all(axis=1).sum())
-    return Imported(opened.title, len(given.rows), columns, new, changed, len(opened.runs), complete, kept.idle(), file)
-
-
-@contextmanager
-def _alone(file: Path) -> Iterator[None]:
-    """One import at a time: another one waits."""
     try:
         file.parent.mkdir(parents=True, exist_ok=True)
         with (file.parent / f".{file.name}.lock").open("a") as lock:
+            # One import at a time: another one waits.
             fcntl.flock(lock, fcntl.LOCK_EX)
-            yield
+            kept = KeptValues(opened)
+            responses, new, changed = kept.take(given, force)
+            put(file, kept.written())
     except OSError as error:
         raise RunFailed(f"cannot write {file}: {error.strerror}") from error
+    complete = int(kept.values.notna().all(axis=1).sum())
+    return Imported(opened.title, len(given.rows), responses, new, changed, len(opened.runs), complete, kept.idle(), file)

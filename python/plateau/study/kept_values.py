@@ -22,52 +22,39 @@ def file_of(study: Study) -> Path:
     return study.directory / "imported.csv"
 
 
-def _factors(table: TextTable, study: Study) -> dict[int, Factor]:
-    """Columns of factors, in the order of the study."""
-    found = {}
+def _columns(table: TextTable, study: Study, *, strict: bool) -> tuple[dict[int, Factor], dict[int, tuple[Response, str]]]:
+    """Columns of factors, in the order of the study, and of imported responses with units; with `strict` others than these are refused."""
+    factors: dict[int, Factor] = {}
     for factor in study.factors:
-        column = table.column(factor.names)
-        if column is None:
+        if (column := table.column(factor.names)) is None:
             raise table.missing(f'of the factor "{factor.name}"')
-        found[column] = factor
-    return found
-
-
-def imported_columns(table: TextTable, study: Study, *, strict: bool) -> dict[int, Response]:
-    """Columns of imported responses; with `strict` others than these and factors are refused."""
+        factors[column] = factor
     imported = [response for response in study.responses if response.asked.get("imported")]
-    responses = {name: response for response in imported for name in (response.asked.get("name", response.name), response.name)}
-    factors, found = _factors(table, study), {}
-    for column, head in enumerate(table.heads):
-        name, unit = table.named(column)
+    responses, found = {name: one for one in imported for name in (one.asked.get("name", one.name), one.name)}, {}
+    for at, head in enumerate(table.heads):
+        name, unit = table.named(at)
         response = responses.get(head, responses.get(name))
-        if column in factors or (name, unit) == (REPLICATE, "") or name == "run" or response is None and not strict:
+        if at in factors or (name, unit) == (REPLICATE, "") or name == "run" or response is None and not strict:
             continue
         if response is None:
             there = f"of these the study has {', '.join(one.name for one in imported) or 'none'}"
             raise InputError(f'{table.path}: column "{head}" is neither a factor nor a response with imported = true; {there}')
+        unit = "1" if head == response.name else unit or "1"
         try:
-            in_si(1.0, _unit(table, column, response), response.unit)
+            in_si(1.0, unit, response.unit)
         except InputError:
             wanted = with_unit(response.name, response.unit)
             raise InputError(f'{table.path}: column "{head}": expected "{wanted}", or another unit that measures the same') from None
-        found[column] = response
+        found[at] = response, unit
     if strict and not found:
         raise table.missing("of a response with imported = true")
-    return found
+    return factors, found
 
 
-def _unit(table: TextTable, column: int, response: Response) -> str:
-    return "1" if table.heads[column] == response.name else table.named(column)[1] or "1"
-
-
-def _numbers(table: TextTable, row: int, columns: dict[int, Response]) -> pandas.Series:
+def _numbers(table: TextTable, row: int, columns: dict[int, tuple[Response, str]]) -> pandas.Series:
     """What a line has of the responses, SI, by their names."""
-    found = {}
-    for column, one in columns.items():
-        number, unit = table.number(row, column), _unit(table, column, one)
-        found[one.name] = number if math.isnan(number) or unit == one.unit else in_si(table.rows[row][column], unit, one.unit)
-    return pandas.Series(found, dtype=float).dropna()
+    told = {at: one for at, one in columns.items() if not math.isnan(table.number(row, at))}
+    return pandas.Series({one.name: in_si(table.rows[row][at], unit, one.unit) for at, (one, unit) in told.items()}, dtype=float)
 
 
 def factor_value(table: TextTable, row: int, column: int, factor: Factor) -> Any:
@@ -97,42 +84,37 @@ class KeptValues:
     """The table: ``values`` of imported responses by run, ``others`` (cells of columns that the study does not have), and ``idle`` lines."""
 
     def __init__(self, study: Study) -> None:
-        self.study, self.responses = study, [response for response in study.responses if response.asked.get("imported")]
-        self.values = pandas.DataFrame(math.nan, index=study.runs.index, columns=[response.name for response in self.responses])
+        responses = [response for response in study.responses if response.asked.get("imported")]
+        factors, own = ([with_unit(one.name, one.unit) for one in these] for these in (study.factors, responses))
+        self.study, self.heads, self.idle_lines = study, [*factors, REPLICATE, *own], list[dict[str, str]]()
+        self.values = pandas.DataFrame(math.nan, index=study.runs.index, columns=[response.name for response in responses])
         self.others = pandas.DataFrame(index=study.runs.index)
-        self.idle_lines = pandas.DataFrame(columns=self._heads)
-        if self.responses and file_of(study).exists():
+        if responses and file_of(study).exists():
             self._read(read_text_table(file_of(study)))
 
-    @property
-    def _heads(self) -> list[str]:
-        factors = [with_unit(factor.name, factor.unit) for factor in self.study.factors]
-        return [*factors, REPLICATE, *(with_unit(response.name, response.unit) for response in self.responses)]
-
     def _read(self, table: TextTable) -> None:
-        factors, columns, replicate = _factors(table, self.study), imported_columns(table, self.study, strict=False), table.column([REPLICATE])
-        others = [column for column in range(len(table.heads)) if column not in factors and column not in columns and column != replicate]
-        self.others = self.others.reindex(columns=[table.heads[column] for column in others], fill_value="")
-        taken, idle = set[int](), []
+        (factors, columns), replicate = _columns(table, self.study, strict=False), table.column([REPLICATE])
+        known = factors | {at: one for at, (one, _) in columns.items()}
+        heads = {at: with_unit(one.name, one.unit) for at, one in known.items()} | ({} if replicate is None else {replicate: REPLICATE})
+        others = [at for at in range(len(table.heads)) if at not in heads]
+        self.others = self.others.reindex(columns=[table.heads[at] for at in others], fill_value="")
+        taken = set[int]()
         for row, cells in enumerate(table.rows):
-            numbers, own = _numbers(table, row, columns), {table.heads[column]: cells[column] for column in others}
+            numbers = _numbers(table, row, columns)
             try:
                 run = self._run(table, row, factors, taken)
             except InputError:
-                line = {with_unit(one.name, one.unit): cells[column] for column, one in factors.items()}
-                line |= {} if replicate is None else {REPLICATE: cells[replicate]}
-                idle.append(line | {with_unit(one.name, one.unit): _written(numbers.get(one.name, math.nan)) for one in columns.values()} | own)
+                line = {heads.get(at, table.heads[at]): cell for at, cell in enumerate(cells)}
+                self.idle_lines.append(line | {heads[at]: _written(numbers.get(one.name, math.nan)) for at, (one, _) in columns.items()})
             else:
                 self.values.loc[run, numbers.index] = numbers
-                self.others.loc[run, list(own)] = list(own.values())
-        self.idle_lines = pandas.DataFrame(idle, columns=[*self._heads, *self.others], dtype=object).fillna("")
+                self.others.loc[run, [*self.others]] = [cells[at] for at in others]
 
-    def take(self, table: TextTable, force: bool) -> tuple[int, int]:
-        """Takes in a table: how many values are new, and how many have changed."""
-        factors, columns, taken, new, changed = _factors(table, self.study), imported_columns(table, self.study, strict=True), set[int](), 0, 0
+    def take(self, table: TextTable, force: bool) -> tuple[list[str], int, int]:
+        """Takes in a table: which responses it has, how many values are new, and how many have changed."""
+        (factors, columns), taken, new, changed = _columns(table, self.study, strict=True), set[int](), 0, 0
         for row in range(len(table.rows)):
-            run = self._run(table, row, factors, taken)
-            now = _numbers(table, row, columns)
+            run, now = self._run(table, row, factors, taken), _numbers(table, row, columns)
             before = self.values.loc[run, now.index]
             differs = before.notna() & (before != now)
             self.values.loc[run, now.index] = now
@@ -140,19 +122,19 @@ class KeptValues:
             if differs.any() and not force:
                 said = f"{before[differs].iloc[0]} was imported before and {now[differs].iloc[0]} differs; --force replaces it"
                 raise InputError(f"{table.place(row)}: {said}")
-        return new, changed
+        return [response.name for response, _ in columns.values()], new, changed
 
     def _run(self, table: TextTable, row: int, factors: dict[int, Factor], taken: set[int]) -> int:
         """The run that a line is of: the first of its point that no line before is of."""
-        runs, cells, place = self.study.runs, table.rows[row], table.place(row)
-        at_point = np.ones(len(runs), bool)
+        runs, place = self.study.runs, table.place(row)
+        at_point = pandas.Series(True, index=runs.index)
         for column, factor in factors.items():
-            value, levels = factor_value(table, row, column, factor), runs[factor.name].to_numpy()
-            same = np.abs(levels - value) <= ROUNDED * np.abs(levels).max() if factor.is_number else levels == value
+            value, levels = factor_value(table, row, column, factor), runs[factor.name]
+            same = abs(levels - value) <= ROUNDED * abs(levels).max() if factor.is_number else levels == value
             if not same.any():
                 different = np.unique(levels).tolist()
                 has = ", ".join(map(factor.text, different[:12])) + (", …" if len(different) > 12 else "")
-                raise InputError(f"{place}: {factor.name} = {cells[column]} is in no point of the design, which has {has}")
+                raise InputError(f"{place}: {factor.name} = {table.rows[row][column]} is in no point of the design, which has {has}")
             at_point &= same
         if not at_point.any():
             raise InputError(f"{place}: no point of the design has these levels together; `plateau sweep plan --csv` writes all points")
@@ -160,26 +142,26 @@ class KeptValues:
         number = math.nan if replicate is None else table.number(row, replicate)
         if not math.isnan(number) and number not in range(1, self.study.seeds + 1):
             raise InputError(f"{place}: replicate {number:g}, expected a number from 1 to {self.study.seeds}")
-        is_own = at_point if math.isnan(number) else at_point & (runs[REPLICATE] == number).to_numpy()
-        free = [run for run in runs.index[is_own].tolist() if run not in taken]
-        if not free:
+        is_own = at_point if math.isnan(number) else at_point & (runs[REPLICATE] == number)
+        free = runs.index[is_own].difference(list(taken))
+        if free.empty:
             times = "once" if at_point.sum() == 1 else f"{at_point.sum()} times"
             advice = 'several specimens of a point: design = "csv" with this table as its file'
             raise InputError(f"{place}: the design has this point {times}, and lines before have it as often; {advice}")
-        taken.add(free[0])
+        taken.add(int(free[0]))
         return int(free[0])
 
     def written(self) -> bytes:
         """The table as it is kept."""
         runs = self.study.runs[[*(factor.name for factor in self.study.factors), REPLICATE]]
-        table = pandas.concat([runs, self.values], axis=1).map(_written).set_axis(self._heads, axis=1)
+        table = pandas.concat([runs, self.values], axis=1).map(_written).set_axis(self.heads, axis=1)
         table = pandas.concat([table, self.others], axis=1)[self.values.notna().any(axis=1) | self.others.ne("").any(axis=1)]
-        return written_table([list(table), *table.to_numpy().tolist(), *self.idle_lines.to_numpy().tolist()])
+        return written_table([list(table), *table.to_numpy().tolist(), *([line.get(head, "") for head in table] for line in self.idle_lines)])
 
     def idle(self) -> list[str]:
         """What is kept of nothing that the study has now, in words."""
-        heads = self._heads[: len(self.study.factors)]
-        lines = [f"line of {', '.join(f'{head} = {line[head]}' for head in heads)}" for line in self.idle_lines.to_dict("records")]
+        heads = self.heads[: len(self.study.factors)]
+        lines = [f"line of {', '.join(f'{head} = {line[head]}' for head in heads)}" for line in self.idle_lines]
         return [*lines, *(f'column "{head}"' for head in self.others if self.others[head].ne("").any())]
 
 

@@ -129,13 +129,8 @@ class Likelihood:
         self.covariance = np.zeros((len(single), len(single)))
         self.covariance[np.ix_(single, single)] = target.covariance
         self.covariance[~single, ~single] = variances
-        self.aims = np.array([term.measured for term in self.terms])
+        self.aims, self.keys = np.array([term.measured for term in self.terms]), int(runs.x.shape[1])
         self._search()
-
-    @property
-    def keys(self) -> int:
-        """Number of keys."""
-        return int(self.runs.x.shape[1])
 
     def moments(self, places: Numbers) -> tuple[Numbers, Numbers, Numbers]:
         """Means, variances of the processes, and of the mean over the seeds: arrays of place and term."""
@@ -145,9 +140,7 @@ class Likelihood:
 
     def misfit(self, places: Numbers, *, with_processes: bool) -> Numbers:
         """Squares of forecast less measured over the variances of measurement, model, seeds, and if asked to of the processes."""
-        means, own, seeds = self.moments(places)
-        rest = sum(each.rest for each in self.components.values())
-        return np.asarray(self._squares(means, self._added(own * with_processes, seeds))[0] + rest)
+        return np.asarray(self._squares(places, with_processes)[0] + sum(each.rest for each in self.components.values()))
 
     @property
     def freedom(self) -> int:
@@ -168,15 +161,16 @@ class Likelihood:
         freedom = total**2 / np.maximum(own**2 / freedom[0] + seeds**2 / freedom[1], 1e-9 * total**2)
         return np.asarray(own + seeds + total * ((special.stdtrit(freedom, 0.975) / special.ndtri(0.975)) ** 2 - 1.0))
 
-    def _squares(self, means: Numbers, added: Numbers) -> tuple[Numbers, Numbers]:
-        covariance = self.covariance + added[:, :, None] * np.eye(len(self.terms))
+    def _squares(self, places: Numbers, with_processes: bool) -> tuple[Numbers, Numbers]:
+        """Squares of forecast less measured over all variances, but for what components leave, and the logarithm of their determinant."""
+        means, own, seeds = self.moments(places)
+        covariance = self.covariance + self._added(own * with_processes, seeds)[:, :, None] * np.eye(len(self.terms))
         away = means - self.aims
         return (away * np.linalg.solve(covariance, away[..., None])[..., 0]).sum(-1), np.linalg.slogdet(covariance)[1]
 
     def value(self, places: Numbers) -> Numbers:
         """-2 ln L at places, but for a constant."""
-        means, own, seeds = self.moments(places)
-        squares, logarithm = self._squares(means, self._added(own, seeds))
+        squares, logarithm = self._squares(places, True)
         value = squares + logarithm - np.linalg.slogdet(self.covariance)[1]
         return np.where(np.isfinite(value), value, np.inf)
 
@@ -218,8 +212,7 @@ class Likelihood:
 
     def climbed(self, start: Numbers, held: dict[int, float]) -> tuple[Numbers, float]:
         """The most likely place from a start, with some keys held."""
-        free = [key for key in range(self.keys) if key not in held]
-        place = np.array(start, float)
+        free, place = [key for key in range(self.keys) if key not in held], np.array(start, float)
         place[list(held)] = list(held.values())
         if not free:
             return place, float(self.value(place[None])[0])
@@ -266,19 +259,17 @@ class Likelihood:
 
     def _left(self, process: Process, new: Numbers, seeds: int) -> Numbers:
         """Variances of a process with more points, over those of now, with middle lengths and noise."""
-        sets, middle = process.sets, np.average(process.logs, axis=0, weights=process.probabilities)[None]
-
-        def variances(x: Numbers, share: Numbers) -> Numbers:
-            # The values do not matter.
-            equations = Equations(x, np.linspace(0.0, 1.0, len(x)), share, sets.replicates, middle, sets.axes)
-            return np.asarray(equations.forecast(self.places)[1][0])
-
-        more = variances(np.vstack([sets.x, new]), np.concatenate([sets.share, np.full(len(new), 1.0 / seeds)]))
-        return np.asarray((more + 1e-12) / (variances(sets.x, sets.share) + 1e-12)).clip(max=1.0)
+        middle = np.average(process.logs, axis=0, weights=process.probabilities)
+        now = process.solved(middle)
+        x, share = np.vstack([now.x, new]), np.concatenate([now.share, np.full(len(new), 1.0 / seeds)])
+        # The values do not matter.
+        more = Equations(x, np.linspace(0.0, 1.0, len(x)), share, now.replicates, middle[None], now.axes)
+        before, after = (each.forecast(self.places)[1][0] for each in (now, more))
+        return np.asarray((after + 1e-12) / (before + 1e-12)).clip(max=1.0)
 
     def snapped(self, places: Numbers) -> Numbers:
         """The nearest places at which runs are made, so that rounding asks for no other run; finer where the likelihood is narrow."""
-        step = min(STEP, 2.0 ** np.floor(np.log2(0.2 * self.shape(self.best)[1].min()))) if hasattr(self, "best") else STEP
+        step = min(STEP, 2.0 ** np.floor(np.log2(0.2 * self.shape(self.best)[1].min())))
         return np.asarray(np.clip(np.round(np.asarray(places) / step) * step, -1.0, 1.0))
 
     def of_runs(self, runs: Runs) -> Numbers:

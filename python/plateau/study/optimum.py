@@ -16,8 +16,7 @@ from plateau.output_folder import plain
 from plateau.study.analysis import together, usable
 from plateau.study.data import Factor, Numbers, Study
 from plateau.study.figure_axes import STEPS, dots, drawn_map, grid_points, held, positions, set_axis
-from plateau.study.goals import ROUNDING, Goal, Limit, Problem, axes_of, beyond_runs, overall, wanted
-from plateau.study.improvement import improved, is_run
+from plateau.study.goals import ROUNDING, Goal, Limit, Problem, axes_of, beyond_runs, improved, is_run, overall, wanted
 from plateau.study.prediction import INTERVALS, confirmed_by, confirmed_words, forecast_cells, forecast_table, reported, settings_at
 from plateau.study.results import analysed
 from plateau.study.runs import made_study
@@ -37,10 +36,8 @@ def canonical(function: Callable[[Numbers], Numbers], count: int) -> dict[str, A
     """
     unit = np.eye(count)
     middle, up, down = function(np.zeros((1, count)))[0], function(unit), function(-unit)
-    slope, matrix = (up - down) / 2.0, np.diag((up + down) / 2.0 - middle)
-    for i, j in itertools.combinations(range(count), 2):
-        both = function((unit[i] + unit[j])[None])[0]
-        matrix[i, j] = matrix[j, i] = (both - up[i] - up[j] + middle) / 2.0
+    both = function((unit[:, None] + unit).reshape(-1, count)).reshape(count, count)
+    slope, matrix = (up - down) / 2.0, (both - up - up[:, None] + middle) / 2.0
     eigenvalues, directions = np.linalg.eigh(matrix)
     is_flat = np.abs(eigenvalues).min() <= 1e-6 * max(np.abs(eigenvalues).max(), np.abs(slope).max(), 1e-300)
     stationary = np.full(count, np.nan) if is_flat else -0.5 * np.linalg.solve(matrix, slope)
@@ -92,12 +89,10 @@ class Optimum:
 
     def document(self) -> dict[str, Any]:
         """The JSON of ``plateau sweep optimize --json``, SI units."""
-        problem, rows = self.problem, plain(self.table.to_dict("records"))
+        problem, rows, limits = self.problem, plain(self.table.to_dict("records")), []
         confirmed, worth = list(map(confirmed_by, rows)), {row["response"]: row["desirability"] for row in rows}
-        limits = []
         for limit in problem.limits:
-            ends = {"least": limit.value, "most": None} if limit.is_least else {"least": None, "most": limit.value}
-            margin = self._margin(limit)
+            ends, margin = {"least": None, "most": None, "least" if limit.is_least else "most": limit.value}, self._margin(limit)
             kept = {"is_kept": margin >= -ROUNDING, "holds_back": abs(margin) < ON_LIMIT}
             limits.append({"response": limit.response, **ends, "on": limit.on, **kept})
         names = ("response", "aim", "values", "importance")
@@ -111,23 +106,23 @@ class Optimum:
 
     def text(self) -> str:
         """What ``plateau sweep optimize`` prints."""
-        responses = {response.name: response for response in self.problem.study.responses}
+        problem, study = self.problem, self.problem.study
         found = "best at" if self.keeps_limits else "no settings within the ranges keep all limits; they are missed least at"
-        place = ", ".join(f"{one.name} = {one.shown(value)}" for one, value in zip(self.problem.study.factors, self.settings["value"], strict=True))
-        lines = [self.problem.study.title, f"  {found} {place}", f"  desirability {self.desirability:.3g}, searched in {region_of(self.problem.study)}"]
+        lines = [study.title, f"  {found} {_place(study, self.settings['value'])}"]
+        lines.append(f"  desirability {self.desirability:.3g}, searched in {region_of(study)}")
         cells, confirmed = [], []
         for row in self.table.to_dict("records"):
-            unit, cell = forecast_cells(self.problem.study, row, self.problem.confidence)
-            aims = [(goal.aim, [f"{unit.value(value):.4g}" for value in goal.values]) for goal in self._of(row, self.problem.goals)]
-            limits = [_limit_words(limit, unit) for limit in self._of(row, self.problem.limits)]
+            name, (unit, cell) = row["response"], forecast_cells(study, row, problem.confidence)
+            aims = [(goal.aim, [f"{unit.value(value):.4g}" for value in goal.values]) for goal in problem.goals if goal.response == name]
+            limits = [_limit_words(limit, unit) for limit in problem.limits if limit.response == name]
             wanted = "; ".join([*(f"{AIMS[aim]} {' … '.join(values)}" for aim, values in aims), *limits])
             worth = "" if np.isnan(row["desirability"]) else f"{row['desirability']:.3g}"
             cells.append({**cell, "goal": wanted, "desirability": worth})
-            confirmed += [f"  {row['response']}: {confirmed_words(row, unit)}"] if row["confirmed_runs"] else []
+            confirmed += [f"  {name}: {confirmed_words(row, unit)}"] if row["confirmed_runs"] else []
         lines += listed(cells)
-        for limit in self.problem.limits:
-            unit = unit_of(responses[limit.response].unit, self.problem.study.runs[limit.response])
-            words, margin = f"{limit.response} {_limit_words(limit, unit)}", self._margin(limit)
+        for limit in problem.limits:
+            unit, margin = _unit(problem, limit.response), self._margin(limit)
+            words = f"{limit.response} {_limit_words(limit, unit)}"
             if margin < -ROUNDING:
                 lines.append(f"  {words}: missed; {self._alone(limit, unit)}")
             elif margin < ON_LIMIT:
@@ -135,42 +130,59 @@ class Optimum:
                 lines.append(f"  held back by {words}{risk if limit.on == 'mean' else ''}")
         if self.at_ends:
             lines.append(f"  at an end of the region: {', '.join(self.at_ends)}; the study knows nothing beyond it")
-        factors = {factor.name: factor for factor in self.problem.study.factors}
+        factors = {factor.name: factor for factor in study.factors}
         for each in self.canonical:
-            is_near = all(abs(row["coded"]) <= FAR for row in each["stationary"])
-            at = ", ".join(f"{row['factor']} = {factors[row['factor']].shown(row['value'])}" for row in each["stationary"])
-            where = "" if all(row["is_within"] for row in each["stationary"]) else ", outside the ranges"
-            where = f" at {at}{where}" if at and is_near else " far outside the ranges" if at else ""
+            places, where = each["stationary"], ""
+            if places and all(abs(row["coded"]) <= FAR for row in places):
+                at = ", ".join(f"{row['factor']} = {factors[row['factor']].shown(row['value'])}" for row in places)
+                where = f" at {at}{'' if all(row['is_within'] for row in places) else ', outside the ranges'}"
+            elif places:
+                where = " far outside the ranges"
             lines.append(f"  {each['response']}: the quadratic model has a {each['nature']}{where}")
         if self.looked_for:
-            of = ", ".join(name for name, one in self.problem.surrogates.items() if one.takes_process)
+            of = ", ".join(name for name, one in problem.surrogates.items() if one.takes_process)
             lines.append(f"  {of}: a Gaussian process told where runs may be better, and tells what is predicted")
-            points, gains = len(self.rounds), self.rounds.get("expected_improvement")
-            said = "1 point was" if points == 1 else f"{points} points were"
-            nothing = "nothing new was run: the best place that is expected was run before, and no other is expected to gain anything"
-            lines.append(f"  {nothing if gains is None else f'{said} run on the way, the last one expected to gain {gains.iloc[-1]:.2g}'}")
+            said = "nothing new was run: the best place that is expected was run before, and no other is expected to gain anything"
+            if points := len(self.rounds):
+                gain = self.rounds["expected_improvement"].iloc[-1]
+                said = f"{'1 point was' if points == 1 else f'{points} points were'} run on the way, the last one expected to gain {gain:.2g}"
+            lines.append(f"  {said}")
         if confirmed:
             lines += ["Confirmed by runs at this place, mean ± standard error", *confirmed]
         return with_minus("\n".join([*lines, *(f"  caution: {caution}" for caution in self.cautions), ""]))
-
-    @staticmethod
-    def _of(row: dict[Any, Any], wanted: Sequence[Any]) -> list[Any]:
-        return [one for one in wanted if one.response == row["response"]]
 
     def _alone(self, limit: Limit, unit: Unit) -> str:
         """How near a response comes to its limit if nothing else is wanted."""
         ends = (limit.value - 100.0 * limit.scale, limit.value + 100.0 * limit.scale)
         goal = Goal(limit.response, "maximize" if limit.is_least else "minimize", ends if limit.is_least else ends[::-1])
-        problem = replace(self.problem, goals=[goal], limits=[replace(limit)])
+        problem = replace(self.problem, goals=[goal], limits=[limit])
         point = replace(problem, limits=[]).best()
         forecast = problem.forecasts(point)[limit.response]
-        most = f"the {'most' if limit.is_least else 'least'} within the ranges is {unit.text(float(forecast['value'].iloc[0]))}, at "
+        most = f"the {'most' if limit.is_least else 'least'} within the ranges is {unit.text(float(forecast['value'].iloc[0]))}"
         can = ", so that it can be kept alone, but not with the others" if limit.margin(forecast)[0] >= 0.0 else ""
-        return most + ", ".join(f"{factor.name} = {factor.shown(point[factor.name].iloc[0])}" for factor in self.problem.study.factors) + can
+        return f"{most}, at {_place(problem.study, point.iloc[0])}{can}"
 
-    def figures(self, contour: str | None = None) -> dict[str, Any]:
-        """The profiler, and the desirability over two factors, by their names with a comma between."""
-        return dict(optimum_figures(self, contour))
+    @in_style
+    def figures(self, contour: str | None = None) -> Figures:
+        """Draws the profiler and, where two numbers may be anywhere, the desirability over those that matter most, or over a pair by name."""
+        problem, best, free = self.problem, self.settings.set_index("factor")["value"].to_dict(), self.problem.free
+        pair = _contour_pair(free, contour)
+        axes = {factor: axis for factor, axis in zip(problem.study.factors, problem.axes, strict=True) if axis is None or len(axis) > 1}
+        if not axes:
+            return {}
+        figure, spans = _profiler(problem, best, axes)
+        figures = {"profiler": figure}
+        if pair or len(free) > 1:
+            x, y = pair or sorted(sorted(free, key=lambda factor: -spans[factor.name])[:2], key=problem.study.factors.index)
+            grid = [_range(factor, best[factor.name], 2 * STEPS) for factor in (x, y)]
+            values = problem.worth(grid_points(x, y, grid, best)).reshape(2 * STEPS, 2 * STEPS)
+            if np.isfinite(values).any() and np.nanmax(values) > np.nanmin(values):
+                at = f", at {said}" if (said := held(problem.study.factors, best, (x, y))) else ""
+                note = f"Star: best settings{at}" + ("; grey: a limit is missed" if problem.limits else "")
+                figures["contour"] = drawn_map((x, y), grid, values, "desirability", f"Desirability over {x.name} and {y.name}{at}", note)
+                figures["contour"].axes[0].set_facecolor(APART)
+                dots(figures["contour"].axes[0], x, y, pandas.DataFrame([best]), "*", 9)
+        return figures
 
 
 def optimize(
@@ -237,6 +249,15 @@ def optimize(
     return replace(_told(problem, best, confirming, rounds), looked_for=runs)
 
 
+def _place(study: Study, values: pandas.Series) -> str:
+    """Settings of the factors, in their order, in words."""
+    return ", ".join(f"{factor.name} = {factor.shown(value)}" for factor, value in zip(study.factors, values, strict=True))
+
+
+def _unit(problem: Problem, name: str) -> Unit:
+    return unit_of(problem.surrogates[name].response.unit, problem.study.runs[name])
+
+
 AIMS = {"maximize": "large,", "minimize": "small,", "target": "near the middle of"}
 
 
@@ -273,8 +294,7 @@ def _told(problem: Problem, best: pandas.DataFrame, confirming: pandas.DataFrame
 
 def _canonical(problem: Problem, best: pandas.DataFrame) -> list[dict[str, Any]]:
     """The canonical analysis of each quadratic model over the numbers that may be anywhere, the others as at the best settings."""
-    ranges = [factor for factor, axis in zip(problem.study.factors, problem.axes, strict=True) if axis is None]
-    levels = [best[factor.name].iloc[0] for factor in problem.study.factors]
+    ranges, levels = problem.free, best.iloc[0].tolist()
     found = []
     for name, surrogate in problem.surrogates.items():
         if surrogate.takes_process or surrogate.fit is None or surrogate.fit.model != "quadratic" or not ranges:
@@ -283,8 +303,7 @@ def _canonical(problem: Problem, best: pandas.DataFrame) -> list[dict[str, Any]]
         def value_at(coded: Numbers, of: Surrogate = surrogate) -> Numbers:
             return of.mean(problem.points(levels, coded))
 
-        said = canonical(value_at, len(ranges))
-        places = []
+        said, places = canonical(value_at, len(ranges)), []
         for factor, coded in zip(ranges, said["stationary"], strict=True) if said["nature"] != "ridge" else []:
             low, high = ends_of(problem.study, factor)
             with np.errstate(over="ignore"):
@@ -292,52 +311,25 @@ def _canonical(problem: Problem, best: pandas.DataFrame) -> list[dict[str, Any]]
             place = {"factor": factor.name, "unit": factor.unit, "value": at, "coded": float(coded), "text": factor.text(at)}
             places.append({**place, "is_within": bool(low <= coded <= high)})
         value = float(surrogate.response.back(said["value"])) if places else None
-        numbers = {"eigenvalues": said["eigenvalues"].tolist(), "directions": said["directions"].tolist()}
+        numbers = {of: said[of].tolist() for of in ("eigenvalues", "directions")}
         found.append({"response": name, "nature": said["nature"], "value": value, "stationary": places, **numbers})
     return found
 
 
-@in_style
-def optimum_figures(found: Optimum, contour: str | None = None) -> Figures:
-    """Draws the profiler and, where two numbers may be anywhere, the desirability over those that matter most, or over a pair by name."""
-    problem, best = found.problem, {row.factor: row.value for row in found.settings.itertuples()}
-    axes_of = {factor.name: axis for factor, axis in zip(problem.study.factors, problem.axes, strict=True)}
-    free = [factor for factor in problem.study.factors if axes_of[factor.name] is None]
-    pair = _contour_pair(free, contour)
-    own = [factor for factor in problem.study.factors if (axis := axes_of[factor.name]) is None or len(axis) > 1]
-    if not own:
-        return {}
-    figure, spans = _profiler(found, best, own, axes_of)
-    figures = {"profiler": figure}
-    if pair or len(free) > 1:
-        x, y = pair or sorted(sorted(free, key=lambda factor: -spans[factor.name])[:2], key=problem.study.factors.index)
-        grid = [_range(factor, best[factor.name], 2 * STEPS) for factor in (x, y)]
-        values = problem.worth(grid_points(x, y, grid, best)).reshape(2 * STEPS, 2 * STEPS)
-        if np.isfinite(values).any() and np.nanmax(values) > np.nanmin(values):
-            at = f", at {said}" if (said := held(problem.study.factors, best, (x, y))) else ""
-            note = f"Star: best settings{at}" + ("; grey: a limit is missed" if problem.limits else "")
-            figures["contour"] = drawn_map((x, y), grid, values, "desirability", f"Desirability over {x.name} and {y.name}{at}", note)
-            figures["contour"].axes[0].set_facecolor(APART)
-            dots(figures["contour"].axes[0], x, y, pandas.DataFrame([best]), "*", 9)
-    return figures
-
-
-def _profiler(found: Optimum, best: dict[str, Any], own: Sequence[Factor], axes_of: dict[str, Any]) -> tuple[Any, dict[str, float]]:
+def _profiler(problem: Problem, best: dict[str, Any], factors: Mapping[Factor, Any]) -> tuple[Any, dict[str, float]]:
     """Responses and their desirability along each factor, and how much the desirability changes along it."""
-    problem, spans = found.problem, {}
-    shown, level = problem.wanted, f"{100 * problem.confidence:g} %"
+    shown, level, spans = problem.wanted, f"{100 * problem.confidence:g} %", {}
     caption = "Responses and their desirability along each factor, the others at the best settings"
     note = f"Bands: {level} interval of means; vertical lines: best settings" + ("; dotted: limits" if problem.limits else "")
-    size = (WIDE if len(own) > 2 else NARROW), 14 + 34 * (len(shown) + 1)
-    figure, axes = new(*size, caption, len(shown) + 1, len(own), note, sharex="col", sharey="row")
-    for column, factor in enumerate(own):
-        levels = axes_of[factor.name]
+    size = (WIDE if len(factors) > 2 else NARROW), 14 + 34 * (len(shown) + 1)
+    figure, axes = new(*size, caption, len(shown) + 1, len(factors), note, sharex="col", sharey="row")
+    for column, (factor, levels) in enumerate(factors.items()):
         values = _range(factor, best[factor.name], STEPS) if levels is None else np.array(levels)
         points = pandas.DataFrame([best] * len(values)).assign(**{factor.name: values})
         forecasts, places = problem.forecasts(points, with_intervals=True), positions(factor, values)
         style = {"color": LINES[0], "linestyle": "-" if levels is None else "none", "marker": "" if levels is None else "o"}
         for row, name in enumerate(shown):
-            unit, axis = unit_of(problem.surrogates[name].response.unit, problem.study.runs[name]), axes[row, column]
+            unit, axis = _unit(problem, name), axes[row, column]
             low, middle, high = (unit.value(forecasts[name][end].to_numpy()) for end in ("mean_low", "value", "mean_high"))
             axis.plot(places, middle, **style)
             if levels is None:

@@ -1,10 +1,10 @@
 """Runs at any points of a study: made by the program, kept in the journal of the study, none of them twice."""
 
-import csv
 import math
 import os
 import tempfile
 import warnings
+from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -23,9 +23,7 @@ from plateau.units import whole
 OF_DESIGNS = {"resolution", "generators", "points", "trajectories", "levels", "alpha", "centre_points", "seed", "fit"}
 
 
-def made_study(
-    study: Study, points: pandas.DataFrame, *, progress: bool | None = None, retry: bool = False, **options: Any
-) -> Study:
+def made_study(study: Study, points: pandas.DataFrame, *, progress: bool | None = None, retry: bool = False, **options: Any) -> Study:
     """Makes runs at points of a study that was opened by its file, each with all its seeds, and opens them as a study of their own.
 
     `points` have a column for each factor, SI units or words; ``point`` of the runs is their row, from 1. With `retry`, runs are made again
@@ -39,12 +37,9 @@ def made_study(
         raise InputError(f"points to run: expected at least one, and a column for each factor; missing: {', '.join(missing) or 'points'}")
     # The program knows results by their scenes, so a study of the same folder finds them in its journal.
     with tempfile.TemporaryDirectory() as folder:
-        path = Path(folder) / "points.toml"
-        path.write_text(toml_document(_document(study)), encoding="utf-8")
-        with path.with_suffix(".csv").open("w", newline="", encoding="utf-8") as file:
-            lines = csv.writer(file)
-            lines.writerow(factor.name.removesuffix(" (factor)") for factor in study.factors)
-            lines.writerows([written(factor, point[factor.name]) for factor in study.factors] for _, point in points.iterrows())
+        path, factors = Path(folder) / "points.toml", study.factors
+        values = {one.name.removesuffix(" (factor)"): [written(one, value) for value in points[one.name]] for one in factors}
+        write_study(path, _document(study), pandas.DataFrame(values))
         try:
             made = finished(path, progress, retry, **options)
         except PlateauError as error:
@@ -52,6 +47,13 @@ def made_study(
             raise
     runs = made.runs.assign(**{response.name: math.nan for response in study.responses if response.name not in made.runs})
     return replace(made, title=study.title, runs=runs[study.runs.columns], path=study.path)
+
+
+def write_study(path: Path, document: Mapping[str, Any], points: pandas.DataFrame) -> None:
+    """Writes a study file, and beside it the table of its points."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    points.to_csv(path.parent / document["file"], index=False)
+    path.write_text(toml_document({"version": 1, "design": "csv", **document}), encoding="utf-8")
 
 
 def finished(path: Path, progress: bool | None, retry: bool = False, directory: Path | None = None, **options: Any) -> Study:
@@ -90,17 +92,13 @@ def _document(study: Study) -> dict[str, Any]:
     """The study file for other points of a study."""
     here = Path(study.path or "").parent
     document = {key: value for key, value in study.document.items() if key not in OF_DESIGNS}
-    responses = [
-        {key: os.path.abspath(here / value) if key == "measured_file" else value for key, value in response.items()}
-        for response in document.get("response", [])
-        if not response.get("imported")
-    ]
-    is_number = {factor.name: factor.is_number for factor in study.factors}
-    factors = [
-        # Between levels of numbers there are other values; of words there are no others, and they say what is a word.
-        {key: value for key, value in given.items() if key in ("name", "key") or key == "levels" and not is_number[factor.name]}
-        for given, factor in zip(document["factor"], study.factors, strict=True)
-    ]
+    responses = [dict(response) for response in document.get("response", []) if not response.get("imported")]
+    for response in responses:
+        if "measured_file" in response:
+            response["measured_file"] = os.path.abspath(here / response["measured_file"])
+    # Between levels of numbers there are other values; of words there are no others, and they say what is a word.
+    kept = [("name", "key") if factor.is_number else ("name", "key", "levels") for factor in study.factors]
+    factors = [{key: given[key] for key in keys if key in given} for given, keys in zip(document["factor"], kept, strict=True)]
     places = {"base": os.path.abspath(here / document["base"]), "directory": os.path.abspath(study.directory), "file": "points.csv"}
     return {**document, **places, "design": "csv", "order": "standard", "factor": factors, "response": responses}
 

@@ -1,6 +1,5 @@
 """Comparison of scenes, the same seeds in all: differences of each response with intervals; a study of scenes that are given one by one."""
 
-import csv
 import os
 import re
 import tomllib
@@ -22,10 +21,10 @@ from plateau.program import call, file_name
 from plateau.quantities import series_of
 from plateau.scenes import scene_of
 from plateau.study.data import Numbers, Response, Study
-from plateau.study.runs import finished
+from plateau.study.runs import finished, write_study
 from plateau.study.text_tables import listed
 from plateau.style import NARROW, QUIET, Figures, in_style, labelled, look, new, wrapped
-from plateau.toml_text import toml_document, toml_of
+from plateau.toml_text import toml_of
 from plateau.units import unit_for, unit_of, with_minus
 
 # What is compared unless asked otherwise: name, dataset with question, table of the scene without which there is no such series.
@@ -110,9 +109,37 @@ class Comparison:
         scenes = [{"name": name, "file": file} for name, file in self.scenes.items()]
         return {"scenes": scenes, "reference": scenes[0]["name"], "confidence": self.confidence, **rows, "cautions": self.cautions}
 
-    def figures(self) -> dict[str, Any]:
-        """Draws each series against time, and the differences."""
-        return comparison_figures(self)
+    @in_style
+    def figures(self) -> Figures:
+        """Draws each series against time, mean with the standard deviation of runs, and below it the differences with their intervals."""
+        figures: Figures = {}
+        reference = next(iter(self.scenes))
+        for series, curves in self.curves.groupby("series", sort=False):
+            name, unit = series_of(str(series)).title, unit_for(curves["unit"].iloc[0], float(curves["mean"].abs().max()))
+            of_time = unit_of("s", curves["time"])
+            level = f"{100 * self.confidence:g} %"
+            caption = f"{name} against time: means over the seeds with the standard deviation of runs, and differences with {level} intervals"
+            note = f"Bands: standard deviation of runs; below, {level} interval of the difference from {reference} at each time alone"
+            figure, axes = new(NARROW, 92, caption, 2, 1, note, sharex=True, height_ratios=[2, 1])
+            top, below = axes[:, 0]
+            for number, (scene, curve) in enumerate(curves.groupby("scene", sort=False)):
+                style, time = look(number), of_time.value(curve["time"])
+                band = {"color": style["color"], "alpha": 0.18, "linewidth": 0}
+                middle, half = unit.value(curve["mean"].to_numpy()), unit.per_si * curve["deviation"].fillna(0.0).to_numpy()
+                change, low, high = (unit.per_si * curve[end].to_numpy() for end in ("difference", "low", "high"))
+                top.plot(time, middle, label=wrapped(str(scene), 30), **style)
+                top.fill_between(time, middle - half, middle + half, **band)
+                below.plot(time, change, **style)
+                below.fill_between(time, low, high, **band)
+            # Titles of series are longer than the axis.
+            top.set_title(wrapped(name, 46), loc="left")
+            top.set(ylabel=labelled("mean", unit.symbol))
+            below.set(xlabel=labelled("time", of_time.symbol), ylabel=labelled("difference", unit.of_differences))
+            below.axhline(0.0, color=QUIET, linewidth=0.6)
+            figure.legend(*top.get_legend_handles_labels(), loc="outside upper left", ncols=2, columnspacing=1.0)
+            figure.align_ylabels()
+            figures[str(series)] = figure
+        return figures
 
     def page(self, figures: Mapping[str, Any], files: Mapping[str, bytes]) -> str:
         """The page of ``plateau compare`` with figures and their files."""
@@ -172,16 +199,14 @@ def compare(
             cautions.append(f"{name} has no synthetic surface and so no seeds: it is one run, and no interval says how other specimens scatter")
         elif fixed:
             cautions.append(f"{name}: {', '.join(fixed)} is the same in all runs, so intervals say nothing of other specimens of it")
-        folder = directory / name
-        folder.mkdir(parents=True, exist_ok=True)
-        (folder / "seeds.csv").write_text("\n".join(["seed", *map(str, range(1, seeds + 1) if keys else ["none"]), ""]))
         # A title is no part of what a run is known by.
-        study = {"version": 1, "title": name, "base": os.path.abspath(file), "set": changes, "directory": ".", "order": "standard"}
-        study |= {"design": "csv", "file": "seeds.csv", "factor": [{"name": "seed", "key": keys or "title"}], "response": tables}
-        (folder / "study.toml").write_text(toml_document(study), encoding="utf-8")
+        study: dict[str, Any] = {"title": name, "base": os.path.abspath(file), "set": changes, "directory": "."}
+        study |= {"order": "standard", "file": "seeds.csv", "factor": [{"name": "seed", "key": keys or "title"}], "response": tables}
+        path = directory / name / "study.toml"
+        write_study(path, study, pandas.DataFrame({"seed": range(1, seeds + 1) if keys else ["none"]}))
         with warnings.catch_warnings(record=True) as said:
             warnings.simplefilter("always", PlateauWarning)
-            made[name] = finished(folder / "study.toml", progress, jobs=jobs, workers=workers)
+            made[name] = finished(path, progress, jobs=jobs, workers=workers)
         for one in said:
             warnings.warn(f"{name}: {one.message}", one.category, stacklevel=2)
     if len({scene["operation"].get("duration") for scene in resolved}) > 1:
@@ -194,7 +219,7 @@ def _compared(made: dict[str, Study], scenes: dict[str, str], confidence: float,
     runs = {scene: study.runs.set_index(pandas.Index(seeds[scene], name="seed", dtype=int)) for scene, study in made.items()}
     most = max(runs.values(), key=len).index
     # The one run of a scene without seeds stands beside all of the others.
-    pairs = {scene: own if len(own) == len(most) else pandas.concat([own] * len(most)).set_axis(most) for scene, own in runs.items()}
+    pairs = {scene: own.reindex(most, method="nearest") for scene, own in runs.items()}
     first, *others = made
     asked = [one for one in made[first].responses if not are_usual or any((own[one.name] != 0.0).any() for own in runs.values())]
     rows, means = [], []
@@ -220,16 +245,16 @@ def difference(reference: Any, other: Any, confidence: float = 0.95, comparisons
     one, two = np.asarray(reference, float), np.asarray(other, float)
     mean, low, high, p = _mean(two - one, confidence, comparisons)
     has_ratio = bool((one > 0.0).all() and (two > 0.0).all())
-    ratios = np.exp(_mean(np.log(two / one), confidence, comparisons)[:3]) if has_ratio else [np.nan] * 3
+    ratios = np.exp(_mean(np.log(two / one), confidence, comparisons)[:3]).tolist() if has_ratio else [np.nan] * 3
     found = {"runs": len(one), "difference": mean, "low": low, "high": high, "p": p, "sureness": 1.0 - p / 2.0}
-    return found | dict(zip(("ratio", "ratio_low", "ratio_high"), map(float, ratios), strict=True))
+    return found | dict(zip(("ratio", "ratio_low", "ratio_high"), ratios, strict=True))
 
 
 def _mean(values: Numbers, confidence: float, comparisons: int) -> tuple[float, float, float, float]:
     """Mean, ends of its interval, p."""
+    mean = float(values.mean()) if len(values) else np.nan
     if len(values) < 2:
-        return (float(values[0]) if len(values) else np.nan), np.nan, np.nan, np.nan
-    mean = float(values.mean())
+        return mean, np.nan, np.nan, np.nan
     # What differs by rounding alone is the same.
     if np.ptp(values) <= 1e-14 * np.abs(values).max():
         return mean, mean, mean, float(mean == 0.0)
@@ -290,11 +315,9 @@ def _curves(made: dict[str, Study], asked: Sequence[Response], confidence: float
     return pandas.concat(parts, ignore_index=True) if parts else pandas.DataFrame(columns=["series", "scene"])
 
 
-def _seed_keys(table: Mapping[str, Any], path: str = "") -> list[str]:
-    """The keys of a resolved scene that are seeds of surfaces: of synthetic ones, and of those that are extended by their statistics."""
-    deeper = [key for name, value in table.items() if isinstance(value, Mapping) for key in _seed_keys(value, f"{path}{name}.")]
-    own = [name for name in ("seed" if path.endswith("synthetic.") else "", "extend_seed") if name in table]
-    return deeper + [f"{path}{name}" for name in own]
+def _seed_keys(scene: Mapping[str, Any]) -> list[str]:
+    """Keys of a resolved scene that are seeds: of synthetic surfaces, and of those that are extended by their statistics."""
+    return [key for key, _ in _leaves(scene) if key.endswith((".synthetic.seed", ".extend_seed"))]
 
 
 def response_of(name: str, asked: str) -> dict[str, Any]:
@@ -356,20 +379,15 @@ def of_scenes(
     for key in factors:
         if any(isinstance(one.get(key), list | type(None)) for one in values):
             raise InputError(f"{key}: the scenes differ in it, and it is a list or not in all of them, so it is no factor")
-    asked = [responses] if isinstance(responses, str) else responses
-    tables = {"factor": [{"name": key, "key": key} for key in factors], "response": [response_of("", response) for response in asked]}
-    folder = Path(directory)
-    path = folder / "study.toml"
+    path = Path(directory) / "study.toml"
     if path.exists() and not force:
         raise InputError(f"{path} exists: take another folder, or force=True to write its files anew")
-    folder.mkdir(parents=True, exist_ok=True)
-    (folder / "scene.toml").write_text(made[0].toml, encoding="utf-8")
-    with (folder / "points.csv").open("w", newline="", encoding="utf-8") as file:
-        lines = csv.writer(file)
-        lines.writerow(factors)
-        lines.writerows([str(value).lower() if isinstance(value := one[key], bool) else str(value) for key in factors] for one in values)
-    study = {"version": 1, "title": str(values[0]["title"]), "base": "scene.toml", "directory": ".", "design": "csv", "file": "points.csv"}
-    path.write_text(toml_document({**study, **tables}), encoding="utf-8")
+    asked = [response_of("", one) for one in ([responses] if isinstance(responses, str) else responses)]
+    study: dict[str, Any] = {"title": str(values[0]["title"]), "base": "scene.toml", "directory": ".", "file": "points.csv"}
+    study |= {"factor": [{"name": key, "key": key} for key in factors], "response": asked}
+    texts = [{key: str(one[key]).lower() if isinstance(one[key], bool) else str(one[key]) for key in factors} for one in values]
+    write_study(path, study, pandas.DataFrame(texts))
+    path.with_name("scene.toml").write_text(made[0].toml, encoding="utf-8")
     return path
 
 
@@ -380,36 +398,3 @@ def _leaves(table: Mapping[str, Any], above: str = "") -> Any:
             yield from _leaves(value, f"{above}{name}.")
         else:
             yield f"{above}{name}", value
-
-
-@in_style
-def comparison_figures(found: Comparison) -> Figures:
-    """Draws each series against time, mean with the standard deviation of runs, and below it the differences with their intervals."""
-    figures: Figures = {}
-    reference = next(iter(found.scenes))
-    for series, curves in found.curves.groupby("series", sort=False):
-        name, unit = series_of(str(series)).title, unit_for(curves["unit"].iloc[0], float(curves["mean"].abs().max()))
-        of_time = unit_of("s", curves["time"])
-        level = f"{100 * found.confidence:g} %"
-        caption = f"{name} against time: means over the seeds with the standard deviation of runs, and differences with {level} intervals"
-        note = f"Bands: standard deviation of runs; below, {level} interval of the difference from {reference} at each time alone"
-        figure, axes = new(NARROW, 92, caption, 2, 1, note, sharex=True, height_ratios=[2, 1])
-        top, below = axes[:, 0]
-        for number, (scene, curve) in enumerate(curves.groupby("scene", sort=False)):
-            style, time = look(number), of_time.value(curve["time"])
-            band = {"color": style["color"], "alpha": 0.18, "linewidth": 0}
-            middle, half = unit.value(curve["mean"].to_numpy()), unit.per_si * curve["deviation"].fillna(0.0).to_numpy()
-            change, low, high = (unit.per_si * curve[end].to_numpy() for end in ("difference", "low", "high"))
-            top.plot(time, middle, label=wrapped(str(scene), 30), **style)
-            top.fill_between(time, middle - half, middle + half, **band)
-            below.plot(time, change, **style)
-            below.fill_between(time, low, high, **band)
-        # Titles of series are longer than the axis.
-        top.set_title(wrapped(name, 46), loc="left")
-        top.set(ylabel=labelled("mean", unit.symbol))
-        below.set(xlabel=labelled("time", of_time.symbol), ylabel=labelled("difference", unit.of_differences))
-        below.axhline(0.0, color=QUIET, linewidth=0.6)
-        figure.legend(*top.get_legend_handles_labels(), loc="outside upper left", ncols=2, columnspacing=1.0)
-        figure.align_ylabels()
-        figures[str(series)] = figure
-    return figures

@@ -6,6 +6,7 @@
 The points of 240 real runs with 30 sets of seeds are taken as scenes, too: intervals of a few seeds should cover the difference of all.
 """
 
+import dataclasses
 import itertools
 import math
 import pathlib
@@ -19,8 +20,7 @@ HERE = pathlib.Path(__file__).resolve()
 sys.path[:0] = [str(HERE.parents[3] / "python"), str(HERE.parents[1])]
 
 from made_studies import span, study_of
-from plateau.study.goals import Goal, Problem, beyond_runs
-from plateau.study.improvement import improved, with_processes
+from plateau.study.goals import Goal, Problem, beyond_runs, improved, with_processes
 from plateau.study.results import analysed
 from plateau.study.scene_comparison import difference
 
@@ -55,7 +55,7 @@ def regrets(number, noise, first=8, more=8, count=2):
     found, _ = improved(asked, more * count, make)
     points = found.study.runs.drop_duplicates("point")[["x", "y"]]
     best = points.iloc[int(beyond_runs(found).merit(points).argmax())]
-    other = beyond_runs(with_processes(asked, spread)).best().iloc[0]
+    other = beyond_runs(with_processes(dataclasses.replace(asked, study=spread))).best().iloc[0]
     return [PEAK - branin(place["x"], place["y"]) for place in (best, other)]
 
 
