@@ -1,5 +1,6 @@
 """Comparison of scenes: differences paired by seed, runs that are made once."""
 
+import dataclasses
 import json
 import os
 import pathlib
@@ -9,6 +10,7 @@ import unittest
 import warnings
 
 import numpy as np
+import xarray
 from made_studies import number, study_of, word
 from plateau.errors import InputError
 from plateau.study.scene_comparison import _compared, _seed_keys, compare, difference, response_of
@@ -62,6 +64,27 @@ class Differences(unittest.TestCase):
             # Of 3 and 2, and of the mean of 3 and 5 and 2.
             self.assertEqual(found.table[["runs", "difference"]].to_numpy().tolist(), [[len(seeds), -float(len(seeds))]])
 
+    def test_pulses_that_drift_apart_do_not_hide_a_difference(self):
+        time, made = np.linspace(0.0, 1000.0, 501), {}
+        for scene, level, phases in (("a", 3e-5, (0.0, 2.0, 4.0)), ("b", 2.6e-5, (1.0, 5.0, 3.0))):
+            runs = [level + 1e-5 * np.sin(2 * np.pi * time / 20.0 + phase) for phase in phases]
+            areas = xarray.DataArray(runs, {"time": time}, ("run", "time"), attrs={"units": "m2"})
+            study = study_of([number("seed", 1.0, 2.0, 3.0)], {"seed": [1.0, 2.0, 3.0], "area": [level] * 3}, responses={"area": "m2"}, title=f"Disc {scene}")
+            response = dataclasses.replace(study.responses[0], series="contact_area")
+            made[scene] = dataclasses.replace(study, responses=[response], data=xarray.Dataset({"contact_area_mean": areas}))
+        found = _compared(made, {"a": "", "b": ""}, 0.95, [], pathlib.Path(), False)
+        last = found.curves[found.curves["scene"] == "b"].iloc[-1]
+        # Over three pulses.
+        self.assertEqual(last["window"], 62.5)
+        np.testing.assert_allclose([last["difference"], last["mean"]], [-4e-6, 2.6e-5], atol=3e-7)
+        self.assertLess(last["high"], -1e-6)
+        self.assertEqual(found.titles, {"a": "Disc a", "b": "Disc b"})
+        # A temperature keeps its peaks.
+        for study in made.values():
+            study.data["contact_area_mean"].attrs["units"] = "K"
+        peaks = _compared(made, {"a": "", "b": ""}, 0.95, [], pathlib.Path(), False).curves
+        np.testing.assert_allclose(peaks["mean"].to_numpy()[:501], made["a"].data["contact_area_mean"].mean("run"))
+
     @unittest.skipUnless("PLATEAU_LONG" in os.environ, "a simulation of what the values of R say already")
     def test_intervals_cover_in_95_of_100(self):
         # Runs of a seed are alike in both scenes, and the difference scatters between seeds; three scenes hold together.
@@ -79,6 +102,10 @@ class Words(unittest.TestCase):
     def test_responses(self):
         self.assertEqual(response_of("", "worn_pin"), {"name": "worn pin", "dataset": "/series/worn_pin", "at": "end"})
         self.assertEqual(response_of("", "/series/contact_area")["mean"], "last tenth")
+        # What pulses is a mean, as it is where nothing is asked; totals have none.
+        self.assertEqual([response_of("", name)["mean"] for name in ("mean_pressure", "contact_ratio")], ["last tenth"] * 2)
+        self.assertEqual([response_of("", name)["at"] for name in ("filled_fraction", "brake_pm10_per_distance", "mean_pressure:end")], ["end"] * 3)
+        self.assertEqual(response_of("x", "/event/temperature:mean"), {"name": "x", "dataset": "/event/temperature", "event": "mean"})
         self.assertEqual(response_of("x", "pool:mean 1 s..2 s")["mean"], ["1 s", "2 s"])
         self.assertEqual(response_of("x", "contact_area:reaches .8")["reaches"], 0.8)
         self.assertEqual(response_of("x", "/event/temperature:3"), {"name": "x", "dataset": "/event/temperature", "event": 3})
