@@ -13,7 +13,7 @@ import numpy as np
 import xarray
 from made_studies import number, study_of, word
 from plateau.errors import InputError
-from plateau.study.scene_comparison import _compared, _seed_keys, compare, difference, response_of
+from plateau.study.scene_comparison import _compared, _fixed, _ratio, _seed_keys, _sure, _words, compare, difference, response_of
 from scipy import stats
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
@@ -33,7 +33,7 @@ class Differences(unittest.TestCase):
         self.assertAlmostEqual(found["low"], -2.4598858, places=7)
         self.assertAlmostEqual(found["high"], -0.7001142, places=7)
         self.assertAlmostEqual(found["p"], 0.002833, places=6)
-        self.assertAlmostEqual(found["sureness"], 1 - 0.002833 / 2, places=6)
+        self.assertAlmostEqual(found["sureness"], 1 - 0.002833, places=6)
         self.assertTrue(np.isnan(found["ratio"]))
 
     def test_several_comparisons_hold_together(self):
@@ -49,6 +49,19 @@ class Differences(unittest.TestCase):
         self.assertAlmostEqual(found["ratio"], (2 * 2 * 2.25) ** (1 / 3))
         self.assertAlmostEqual(found["ratio_low"], np.exp(by_log.low))
         self.assertAlmostEqual(found["ratio_high"], np.exp(by_log.high))
+
+    def test_what_is_printed_does_not_contradict_the_interval(self):
+        # Sure at the confidence of the intervals, or not: here by little, with as many digits as tell it.
+        for confidence, is_sure in ((0.9971, True), (0.9972, False)):
+            found = difference(TWO, ONE, confidence)
+            self.assertEqual((_sure(found["sureness"]), found["high"] < 0.0), ("99.7 %", is_sure))
+            self.assertEqual("no sure difference" in _words("b: y", "1", found, confidence), not is_sure)
+        self.assertEqual([_sure(part) for part in (0.94996, 0.95, 0.9991)], ["94.9 %", "95.0 %", "more than 99.9 %"])
+        self.assertIn("sure at 99.7 %", _words("b: y", "1", difference(TWO, ONE), 0.95))
+        near = {"ratio": 1.0042, "ratio_low": 1.0003, "ratio_high": 1.0081}
+        self.assertEqual(_ratio(near), "1.0042 (1.0003 … 1.0081)")
+        self.assertEqual(_ratio({"ratio": 1.2, "ratio_low": 0.02, "ratio_high": 72.0}), "1.2 (0.020 … 70)")
+        self.assertEqual(_ratio({"ratio": 1.5, "ratio_low": np.nan, "ratio_high": np.nan}), "1.5")
 
     def test_few_and_equal_values(self):
         self.assertEqual(difference([1.0], [3.0])["difference"], 2.0)
@@ -115,6 +128,10 @@ class Words(unittest.TestCase):
     def test_seeds_of_a_scene(self):
         scene = {"disc": {"surface": {"synthetic": {"seed": 1}}}, "pin": {"base": {"file": "a"}, "surface": {"synthetic": {"seed": 3}}}}
         self.assertEqual(_seed_keys(scene), ["disc.surface.synthetic.seed", "pin.surface.synthetic.seed"])
+        self.assertEqual(_fixed(scene), ["pin.base"])
+        # Beyond a patch all runs differ.
+        extended = {"disc": {"surface": {"file": "a"}, "prepare": {"extend_seed": 2}}, "pin": {"base": {"file": "b", "extend_seed": 1}}}
+        self.assertEqual(_fixed(extended), ["the patch of disc.surface", "the patch of pin.base"])
         with self.assertRaisesRegex(InputError, "two scenes or more"):
             compare([QUICK])
 

@@ -1,5 +1,6 @@
 """Comparison of scenes, the same seeds in all: differences of each response with intervals; a study of scenes that are given one by one."""
 
+import math
 import os
 import re
 import tomllib
@@ -27,7 +28,7 @@ from plateau.study.runs import finished, write_study
 from plateau.study.text_tables import listed
 from plateau.style import NARROW, QUIET, Figures, in_style, labelled, look, new, wrapped
 from plateau.toml_text import toml_of
-from plateau.units import unit_for, unit_of, with_minus
+from plateau.units import unit_for, unit_of, with_digits, with_minus
 
 # What is compared unless asked otherwise: name, dataset with question, table of the scene without which there is no such series.
 USUAL = [("contact area", "contact_area:mean", ""), ("running-in time", "contact_area:reaches 0.9", "")]
@@ -39,9 +40,10 @@ USUAL += [("PM10", "pm10_mass:end", "emission")]
 QUESTIONS = {series: question for series, _, question in (asked.partition(":") for _, asked, _ in reversed(USUAL))}
 NOTE = (
     "Differences are means over pairs of runs with the same seed, with t intervals ({level}); with more than two scenes, intervals and "
-    "sureness hold for all differences of a response together (Bonferroni). Sure at: 1 − p/2, how sure the sign is."
+    "sureness hold for all differences of a response together (Bonferroni). Sure at: 1 − p, the confidence up to which the interval leaves out 0."
 )
-SURFACES = [("disc", "surface"), ("pin", "base"), ("pin", "surface")]
+# Surfaces, and where it is said how they are extended.
+SURFACES = {"disc.surface": "disc.prepare", "pin.base": "pin.base", "pin.surface": "pin.prepare"}
 
 
 @dataclass(frozen=True)
@@ -52,7 +54,8 @@ class Comparison:
     ----------
     table : pandas.DataFrame
         A row for each response and each scene but the first, the reference: ``runs`` (pairs), ``difference`` to the reference, its interval ``low``,
-        ``high``, ``p``, ``sureness`` of the sign (1 - p/2); ``ratio`` of geometric means, ``ratio_low``, ``ratio_high``; ``words``.
+        ``high``, ``p``, ``sureness`` (1 - p, the confidence up to which the interval leaves out 0); ``ratio`` of geometric means, ``ratio_low``,
+        ``ratio_high``; ``words``.
     means : pandas.DataFrame
         A row for each response and scene: ``runs``, ``mean``, ``deviation`` (standard deviation of a run).
     runs : pandas.DataFrame
@@ -204,7 +207,7 @@ def compare(
     directory, made, cautions = Path(output), {}, []
     for name, file, scene in zip(names, files, resolved, strict=True):
         keys = _seed_keys(scene)
-        fixed = [f"{body}.{part}" for body, part in SURFACES if part in scene.get(body, {}) and "synthetic" not in scene[body][part]]
+        fixed = _fixed(scene)
         if not keys:
             cautions.append(f"{name} has no synthetic surface and so no seeds: it is one run, and no interval says how other specimens scatter")
         elif fixed:
@@ -258,7 +261,7 @@ def difference(reference: Any, other: Any, confidence: float = 0.95, comparisons
     mean, low, high, p = _mean(two - one, confidence, comparisons)
     has_ratio = bool((one > 0.0).all() and (two > 0.0).all())
     ratios = np.exp(_mean(np.log(two / one), confidence, comparisons)[:3]).tolist() if has_ratio else [np.nan] * 3
-    found = {"runs": len(one), "difference": mean, "low": low, "high": high, "p": p, "sureness": 1.0 - p / 2.0}
+    found = {"runs": len(one), "difference": mean, "low": low, "high": high, "p": p, "sureness": 1.0 - p}
     return found | dict(zip(("ratio", "ratio_low", "ratio_high"), ratios, strict=True))
 
 
@@ -291,16 +294,21 @@ def _words(of: str, si: str, found: dict[str, float], confidence: float) -> str:
     # Where its own interval is less sure than that of the difference, it would only confuse.
     ratio = f", {_ratio(found)} times" if found["ratio_low"] > 1.0 or found["ratio_high"] < 1.0 else ""
     is_ = "" if of.endswith(" runs in") else " is"
-    return f"{of}{is_} {more} by {unit.text(abs(change), half, is_difference=True)} ({100 * confidence:g} %){ratio}, sign sure at {_sure(found['sureness'])}"
+    return f"{of}{is_} {more} by {unit.text(abs(change), half, is_difference=True)} ({100 * confidence:g} %){ratio}, sure at {_sure(found['sureness'])}"
 
 
 def _sure(sureness: float) -> str:
-    return "–" if not np.isfinite(sureness) else "more than 99.9 %" if sureness > 0.999 else f"{100 * sureness:.1f} %"
+    # Rounded down, so that nothing below the confidence looks as if it had come there.
+    return "–" if not np.isfinite(sureness) else "more than 99.9 %" if sureness > 0.999 else f"{math.floor(round(1e3 * sureness, 6)) / 10:.1f} %"
 
 
 def _ratio(row: Any) -> str:
-    ends = f" ({row['ratio_low']:.3g} … {row['ratio_high']:.3g})" if np.isfinite(row["ratio_low"]) else ""
-    return f"{row['ratio']:.3g}{ends}" if np.isfinite(row["ratio"]) else "–"
+    if not np.isfinite(row["ratio"]):
+        return "–"
+    # The interval is one of logarithms.
+    half = 0.5 * math.log(row["ratio_high"] / row["ratio_low"])
+    ratio, low, high = (with_digits(row[name], half * row[name]) for name in ("ratio", "ratio_low", "ratio_high"))
+    return f"{ratio} ({low} … {high})" if low else ratio
 
 
 # Columns of the curves.
@@ -335,6 +343,17 @@ def _curves(made: dict[str, Study], asked: Sequence[Response], confidence: float
 def _seed_keys(scene: Mapping[str, Any]) -> list[str]:
     """Keys of a resolved scene that are seeds: of synthetic surfaces, and of those that are extended by their statistics."""
     return [key for key, _ in _leaves(scene) if key.endswith((".synthetic.seed", ".extend_seed"))]
+
+
+def _fixed(scene: Mapping[str, Any]) -> list[str]:
+    """What of the surfaces of a resolved scene is the same with all seeds: of one that is extended by its statistics, the patch."""
+    paths = [path for path, _ in _leaves(scene)]
+
+    def has(place: str) -> bool:
+        return any(path.startswith(place) for path in paths)
+
+    found = {name: extended for name, extended in SURFACES.items() if has(f"{name}.") and not has(f"{name}.synthetic.")}
+    return [f"{'the patch of ' if has(f'{extended}.extend_seed') else ''}{name}" for name, extended in found.items()]
 
 
 def response_of(name: str, asked: str) -> dict[str, Any]:
