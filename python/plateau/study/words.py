@@ -31,6 +31,7 @@ def add(words: Words) -> None:
         return made
 
     earlier = "Replace the files of an earlier call, and remove those that this call does not write"
+    other = "Replace the files of another call, too, not only those of the same one, and remove those that this call does not write"
 
     def common(made: Any, *, output: str | None = None, force: str = earlier) -> None:
         if output is not None:
@@ -92,7 +93,7 @@ def add(words: Words) -> None:
     made.add_argument("--plan", action="store_true", help="Say what is fitted to what and what it will cost, without running any")
     made.add_argument("--retry", action="store_true", help="Make runs again that failed before")
     cores(made)
-    common(made, output='Folder for tables and figures; "fit" in the study\'s own unless given')
+    common(made, output='Folder for tables and figures; "fit" in the study\'s own unless given', force=other)
 
     made = word(words, "compare", "Tell what differs between scenes, and how sure that is: runs of each with the same seeds", _compare, "  plateau compare data/scenes/quick.toml data/scenes/stops.toml --seeds 3")
     made.add_argument("scenes", type=Path, nargs="+", metavar="SCENE", help="Scene files (TOML), two or more; the first is the reference")
@@ -103,7 +104,7 @@ def add(words: Words) -> None:
     several(made, "--response", "DATASET[:QUESTION]", about)
     cores(made)
     confidence(made)
-    common(made, output='Folder for runs, tables, figures and the page; "comparison" unless given')
+    common(made, output='Folder for runs, tables, figures and the page; "comparison" unless given', force=other)
 
 
 def _told(given: argparse.Namespace, found: Any, folder: Path, files: list[str], title: str = "") -> str:
@@ -236,7 +237,9 @@ def _compare(given: argparse.Namespace) -> str:
     from plateau.style import saved
 
     folder = given.output or Path("comparison")
-    of = "compare " + ", ".join(relative(scene, folder) for scene in given.scenes)
+    # Of other responses figures would be removed; more seeds only make an answer surer.
+    of = ", ".join([*(relative(scene, folder) for scene in given.scenes), *given.set, *given.response])
+    of = f"compare {of}".replace("\n", "\\n")
     refuse_earlier(folder, of, given.force)
     asked = options(given, "set", "confidence", "jobs", "workers")
     found = compare(given.scenes, given.seeds, responses=given.response, output=folder, **asked, progress=progress(given))
