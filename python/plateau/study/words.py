@@ -99,7 +99,7 @@ def add(words: Words) -> None:
     made.add_argument("scenes", type=Path, nargs="+", metavar="SCENE", help="Scene files (TOML), two or more; the first is the reference")
     made.add_argument("--seeds", type=count, default=5, metavar="N", help="Sets of seeds with which each scene is run [default: 5]")
     several(made, "--set", "KEY=VALUE", "Change a key of all scenes; may be repeated")
-    about = "What is compared in place of what usually matters, such as mean_pressure, worn_pin:end, contact_area:reaches 0.8; without a "
+    about = "What is compared in place of what usually matters, such as mean_pressure, worn_pin:end or \"contact_area:reaches 0.8\"; without a "
     about += "question the mean over the last tenth of the run, of totals and of filled_fraction the end; may be repeated"
     several(made, "--response", "DATASET[:QUESTION]", about)
     cores(made)
