@@ -25,8 +25,10 @@ from plateau.quantities import CELSIUS, METRE, MM2, MM3, NEWTON, NUMBER, RPM, SE
 from plateau.run_file import array, source
 from plateau.style import NARROW, saved
 from plateau.units import NUMBER as QUANTITY
-from plateau.units import Unit, unit_for, unit_of, with_minus
+from plateau.units import Unit, quantity, unit_for, unit_of, with_minus
 
+# As scenes have it, and as laboratories do.
+WEAR_RATES = (Unit("1/Pa", 1.0), Unit("mm³/(N m)", 1e9))
 UNKNOWN, METRES_PER_SECOND, NOTHING = "–", Unit("m/s", 1.0), Mean(math.nan, math.nan, math.nan, math.nan, math.nan)
 # Columns of runs, or of quantities of events, that fit a printed page.
 MOST_COLUMNS, MOST_QUANTITIES = 3, 8
@@ -69,6 +71,11 @@ class Measure:
 
     @property
     def text(self) -> str:
+        # What is a part of cells may hardly scatter in time: more than four digits would be those of one mesh.
+        if self.unit.symbol == "%" and self.error < 1e-2 * abs(self.value):
+            places = max(3 - math.floor(math.log10(abs(100.0 * self.value))), 0)
+            error = f" ± {100.0 * self.error:.{places}f}" if 100.0 * self.error >= 0.5 * 10.0**-places else ""
+            return f"{100.0 * self.value:.{places}f}{error} %"
         return self.unit.text(self.value, self.error)
 
     def compared(self, first: "Measure") -> str:
@@ -122,6 +129,12 @@ class Told:
         return str(self.scene.get(table, {}).get(key, UNKNOWN))
 
     @property
+    def wear_rate(self) -> float:
+        """The specific wear rate of the whole pin, as a balance shows it, 1/Pa; NaN where the load changes, of which samples know only some."""
+        force, way = self.scene.get("operation", {}).get("normal_force"), self.last("sliding_distance")
+        return math.nan if self.has_cycle or force is None or not way > 0 else self.last("lost_pin") / (quantity(force, "N") * way)
+
+    @property
     def pin_area(self) -> float:
         """The area of the pin, m²; NaN if there was no contact."""
         found = (self.of("contact_area") / self.of("contact_ratio").where(lambda ratio: ratio > 0)).dropna()
@@ -166,7 +179,9 @@ class Told:
             part = f", {100 * share:.3g} % of the pin" if math.isfinite(share) else ""
             yield f"The contact area is {self.area.text}{part}, mean of {self.over}"
         if math.isfinite(worn := self.last("worn_whole_pin")):
-            yield f"Worn off the simulated pin are {_short(unit_for('m3', worn), worn)}"
+            rates = " = ".join(_short(unit, self.wear_rate, 4) for unit in WEAR_RATES)
+            rate = f"; the specific wear rate of the whole pin is {rates}" if math.isfinite(self.wear_rate) else ""
+            yield f"Worn off the simulated pin are {_short(unit_for('m3', worn), worn)}{rate}"
         if math.isfinite(filled := self.last("filled_fraction")):
             yield f"Debris fills {100 * filled:.3g} % of the disc's volume below its highest point"
         if not self.time:
@@ -228,6 +243,7 @@ class Told:
         total = sum(self.last(name) for name in ("worn_pin", "worn_resin", "worn_disc"))
         found += [Measure("Worn volume of the simulated pin and the disc", MM3, total)]
         found += [measure(name, self.last(name)) for name in AT_END]
+        found += [Measure(f"Specific wear rate of the whole pin, {unit.symbol}", unit, self.wear_rate) for unit in WEAR_RATES]
         for name, of in (("load_residual", "load"), ("balance_residual", "debris")):
             found.append(Measure(f"Largest residual of the {of} balance", NUMBER, self.largest(name)))
             found.append(Measure(f"Last residual of the {of} balance", NUMBER, abs(self.last(name))))

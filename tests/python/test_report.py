@@ -77,6 +77,12 @@ class Report(unittest.TestCase):
             self.assertEqual(told["Worn volume of the simulated pin and the disc"],
                              f"{1e9 * (last['worn_pin'] + last['worn_resin'] + last['worn_disc']):.5g} mm³")  # fmt: skip
             self.assertEqual(told["Largest residual of the load balance"], f"{np.abs(series['load_residual']).max():.5g}".replace("-", "−"))
+            # Lost by weight over force and way; a mm³ is 1e-9 m³.
+            rate = last["lost_pin"] / (5.0 * last["sliding_distance"])
+            names = [f"Specific wear rate of the whole pin, {unit}" for unit in ("1/Pa", "mm³/(N m)")]
+            shown = [[float(part.replace("−", "-")) for part in told[name].split(" ")[:1]] for name in names]
+            np.testing.assert_allclose(shown, [[rate], [1e9 * rate]], rtol=1e-4)
+            self.assertIn(f"the specific wear rate of the whole pin is {rate:.4g} 1/Pa = {1e9 * rate:.4g} mm³/(N m)", answer.replace("−", "-"))
             self.assertEqual(told["Samples and times of maps"], f"{len(file['time'])} and {len(file['map_time'])}")
             pin = last["contact_area"] / last["contact_ratio"]
             five = [scene["operation"]["normal_force"], f"{5e-6 / pin:.3g} MPa", f"{850 / 60 * 2 * np.pi * 20.5e-3:.4g} m/s",
@@ -130,6 +136,15 @@ class Report(unittest.TestCase):
         self.assertEqual(Measure("hot", CELSIUS, 433.15).compared(Measure("hot", CELSIUS, 423.15)), "160 °C (+10 K)")
         self.assertEqual(Measure("n", NUMBER, 2.0).compared(Measure("n", NUMBER, 0.0)), "2 (+2)")
         self.assertEqual(Measure("n", NUMBER, 2.0).compared(Measure("n", NUMBER, 2.0)), "2 (same)")
+
+    def test_parts_of_the_area_have_four_digits_at_most(self):
+        for value, error, text in (
+            (0.25023862, 3.9e-7, "25.02 %"),
+            (0.25023862, 3.9e-4, "25.02 ± 0.04 %"),
+            (0.25023862, 3.9e-3, "25.02 ± 0.39 %"),
+            (0.0012344, 0.0, "0.1234 %"),
+        ):
+            self.assertEqual(Measure("part", PERCENT, value, error).text, text)
 
     def test_an_interrupted_run_is_told(self):
         run = plateau.open_run(self.made / "quick.h5").copy()

@@ -1,5 +1,6 @@
 """Comparison of scenes: differences paired by seed, runs that are made once."""
 
+import dataclasses
 import json
 import os
 import pathlib
@@ -9,9 +10,10 @@ import unittest
 import warnings
 
 import numpy as np
+import xarray
 from made_studies import number, study_of, word
 from plateau.errors import InputError
-from plateau.study.scene_comparison import _compared, _seed_keys, compare, difference, response_of
+from plateau.study.scene_comparison import _compared, _fixed, _ratio, _seed_keys, _sure, _words, compare, difference, response_of
 from scipy import stats
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
@@ -31,7 +33,7 @@ class Differences(unittest.TestCase):
         self.assertAlmostEqual(found["low"], -2.4598858, places=7)
         self.assertAlmostEqual(found["high"], -0.7001142, places=7)
         self.assertAlmostEqual(found["p"], 0.002833, places=6)
-        self.assertAlmostEqual(found["sureness"], 1 - 0.002833 / 2, places=6)
+        self.assertAlmostEqual(found["sureness"], 1 - 0.002833, places=6)
         self.assertTrue(np.isnan(found["ratio"]))
 
     def test_several_comparisons_hold_together(self):
@@ -48,6 +50,19 @@ class Differences(unittest.TestCase):
         self.assertAlmostEqual(found["ratio_low"], np.exp(by_log.low))
         self.assertAlmostEqual(found["ratio_high"], np.exp(by_log.high))
 
+    def test_what_is_printed_does_not_contradict_the_interval(self):
+        # Sure at the confidence of the intervals, or not: here by little, with as many digits as tell it.
+        for confidence, is_sure in ((0.9971, True), (0.9972, False)):
+            found = difference(TWO, ONE, confidence)
+            self.assertEqual((_sure(found["sureness"]), found["high"] < 0.0), ("99.7 %", is_sure))
+            self.assertEqual("no sure difference" in _words("b: y", "1", found, confidence), not is_sure)
+        self.assertEqual([_sure(part) for part in (0.94996, 0.95, 0.9991)], ["94.9 %", "95.0 %", "more than 99.9 %"])
+        self.assertIn("sure at 99.7 %", _words("b: y", "1", difference(TWO, ONE), 0.95))
+        near = {"ratio": 1.0042, "ratio_low": 1.0003, "ratio_high": 1.0081}
+        self.assertEqual(_ratio(near), "1.0042 (1.0003 … 1.0081)")
+        self.assertEqual(_ratio({"ratio": 1.2, "ratio_low": 0.02, "ratio_high": 72.0}), "1.2 (0.020 … 70)")
+        self.assertEqual(_ratio({"ratio": 1.5, "ratio_low": np.nan, "ratio_high": np.nan}), "1.5")
+
     def test_few_and_equal_values(self):
         self.assertEqual(difference([1.0], [3.0])["difference"], 2.0)
         self.assertTrue(np.isnan(difference([1.0], [3.0])["low"]))
@@ -61,6 +76,27 @@ class Differences(unittest.TestCase):
             found = _compared({"a": seeded, "b": alone}, {"a": "", "b": ""}, 0.95, [], pathlib.Path(), False)
             # Of 3 and 2, and of the mean of 3 and 5 and 2.
             self.assertEqual(found.table[["runs", "difference"]].to_numpy().tolist(), [[len(seeds), -float(len(seeds))]])
+
+    def test_pulses_that_drift_apart_do_not_hide_a_difference(self):
+        time, made = np.linspace(0.0, 1000.0, 501), {}
+        for scene, level, phases in (("a", 3e-5, (0.0, 2.0, 4.0)), ("b", 2.6e-5, (1.0, 5.0, 3.0))):
+            runs = [level + 1e-5 * np.sin(2 * np.pi * time / 20.0 + phase) for phase in phases]
+            areas = xarray.DataArray(runs, {"time": time}, ("run", "time"), attrs={"units": "m2"})
+            study = study_of([number("seed", 1.0, 2.0, 3.0)], {"seed": [1.0, 2.0, 3.0], "area": [level] * 3}, responses={"area": "m2"}, title=f"Disc {scene}")
+            response = dataclasses.replace(study.responses[0], series="contact_area")
+            made[scene] = dataclasses.replace(study, responses=[response], data=xarray.Dataset({"contact_area_mean": areas}))
+        found = _compared(made, {"a": "", "b": ""}, 0.95, [], pathlib.Path(), False)
+        last = found.curves[found.curves["scene"] == "b"].iloc[-1]
+        # Over three pulses.
+        self.assertEqual(last["window"], 62.5)
+        np.testing.assert_allclose([last["difference"], last["mean"]], [-4e-6, 2.6e-5], atol=3e-7)
+        self.assertLess(last["high"], -1e-6)
+        self.assertEqual(found.titles, {"a": "Disc a", "b": "Disc b"})
+        # A temperature keeps its peaks.
+        for study in made.values():
+            study.data["contact_area_mean"].attrs["units"] = "K"
+        peaks = _compared(made, {"a": "", "b": ""}, 0.95, [], pathlib.Path(), False).curves
+        np.testing.assert_allclose(peaks["mean"].to_numpy()[:501], made["a"].data["contact_area_mean"].mean("run"))
 
     @unittest.skipUnless("PLATEAU_LONG" in os.environ, "a simulation of what the values of R say already")
     def test_intervals_cover_in_95_of_100(self):
@@ -79,6 +115,10 @@ class Words(unittest.TestCase):
     def test_responses(self):
         self.assertEqual(response_of("", "worn_pin"), {"name": "worn pin", "dataset": "/series/worn_pin", "at": "end"})
         self.assertEqual(response_of("", "/series/contact_area")["mean"], "last tenth")
+        # What pulses is a mean, as it is where nothing is asked; totals have none.
+        self.assertEqual([response_of("", name)["mean"] for name in ("mean_pressure", "contact_ratio")], ["last tenth"] * 2)
+        self.assertEqual([response_of("", name)["at"] for name in ("filled_fraction", "brake_pm10_per_distance", "mean_pressure:end")], ["end"] * 3)
+        self.assertEqual(response_of("x", "/event/temperature:mean"), {"name": "x", "dataset": "/event/temperature", "event": "mean"})
         self.assertEqual(response_of("x", "pool:mean 1 s..2 s")["mean"], ["1 s", "2 s"])
         self.assertEqual(response_of("x", "contact_area:reaches .8")["reaches"], 0.8)
         self.assertEqual(response_of("x", "/event/temperature:3"), {"name": "x", "dataset": "/event/temperature", "event": 3})
@@ -88,6 +128,10 @@ class Words(unittest.TestCase):
     def test_seeds_of_a_scene(self):
         scene = {"disc": {"surface": {"synthetic": {"seed": 1}}}, "pin": {"base": {"file": "a"}, "surface": {"synthetic": {"seed": 3}}}}
         self.assertEqual(_seed_keys(scene), ["disc.surface.synthetic.seed", "pin.surface.synthetic.seed"])
+        self.assertEqual(_fixed(scene), ["pin.base"])
+        # Beyond a patch all runs differ.
+        extended = {"disc": {"surface": {"file": "a"}, "prepare": {"extend_seed": 2}}, "pin": {"base": {"file": "b", "extend_seed": 1}}}
+        self.assertEqual(_fixed(extended), ["the patch of disc.surface", "the patch of pin.base"])
         with self.assertRaisesRegex(InputError, "two scenes or more"):
             compare([QUICK])
 

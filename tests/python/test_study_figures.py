@@ -67,9 +67,18 @@ class Figures(unittest.TestCase):
 
     def test_a_comparison_says_what_the_series_is_and_the_time_in_its_unit(self):
         rows = itertools.product(("old", "new"), (0.0, 72000.0))
-        curves = pandas.DataFrame(rows, columns=["scene", "time"]).assign(series="worn_pin", unit="m3", mean=2e-9, deviation=1e-9)
+        curves = pandas.DataFrame(rows, columns=["scene", "time"]).assign(series="worn_pin", unit="m3", mean=2e-9, deviation=1e-9, window=0.0)
         curves = curves.assign(difference=[math.nan, math.nan, 0.0, -1e-9], low=math.nan, high=math.nan)
-        figure = Comparison.figures(SimpleNamespace(scenes={"old": "", "new": ""}, curves=curves, confidence=0.95))["worn_pin"]
+        pulsing = curves.assign(series="pin_secondary", unit="1", mean=0.25, window=7200.0)
+        titles = {"old": "Cast iron", "new": "Steel"}
+        found = Comparison.figures(SimpleNamespace(titles=titles, curves=pandas.concat([curves, pulsing]), confidence=0.95))
+        figure, shares = found["worn_pin"], found["pin_secondary"]
+        self.assertEqual([text.get_text() for text in figure.legends[0].texts], ["Cast iron", "Steel"])
+        said = [" ".join(one.get_supxlabel().split()) for one in (figure, shares)]
+        self.assertEqual(["weighted means over 2 h" in text for text in said], [False, True])
+        self.assertIn("difference from Cast iron", said[0])
+        self.assertEqual([axis.get_ylabel() for axis in shares.axes], ["mean, %", "difference, points"])
+        np.testing.assert_allclose(shares.axes[0].lines[0].get_ydata(), 25.0)
         top, below = figure.axes
         self.assertEqual(" ".join(top.get_title(loc="left").split()), "volume worn off plateaus of the simulated pin")
         self.assertEqual((top.get_ylabel(), below.get_ylabel(), below.get_xlabel()), ("mean, mm³", "difference, mm³", "time, h"))

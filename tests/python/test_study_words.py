@@ -307,6 +307,12 @@ class Words(unittest.TestCase):
         self.assertEqual((done.stderr, done.returncode), ("", 0))
         again = json.loads(done.stdout)
         self.assertEqual((again.pop("files")[:3], again), (document.pop("files")[:3], document))
+        # What was asked for before does not go unasked; its runs are there.
+        *same, _ = words
+        self.refused(*same, "emitted:end", said="comparison has the files of another call, of compare .*worn_whole_pin:end; give --force")
+        self.assertTrue(pathlib.Path("comparison/worn_whole_pin.png").is_file())
+        self.document(*same, "emitted:end", "--force")
+        self.assertFalse(pathlib.Path("comparison/worn_whole_pin.png").is_file())
 
     def test_what_is_not_installed_is_said_in_one_line(self):
         for name in ("numpy", "pandas"):

@@ -68,16 +68,21 @@ def in_windows(values: Any, most: int) -> Any:
 
 
 def line_of(course: Course, duration: float) -> Any:
-    """A line by time: means in windows, or over a duration, s, that fits twice into a run without a cycle, with weights that fall to zero.
-
-    Windows are at the mean time of samples with a value. Such weights need as many values behind as before, so the line ends earlier.
-    """
+    """A line by time: means in windows, at the mean time of samples with a value; in a run without a cycle `weighted` over a duration, s."""
     most, values = MOST_OF_CYCLE if course.subject.has_cycle else MOST, course.values
     times = pandas.DataFrame({"known": values.index.where(values.notna().all(axis=1)), "all": values.index})
     times = in_windows(times, most).mean()
     line = in_windows(values, most).mean().set_index(times["known"].fillna(times["all"]))
-    beside = round(duration * (len(line) - 1) / (course.duration or 1) / 2)
-    if beside < 2 or 2 * duration > course.duration or course.subject.has_cycle:
+    return line if course.subject.has_cycle else weighted(line, duration, course.duration)
+
+
+def weighted(line: Any, duration: float, whole: float) -> Any:
+    """Means of a line over a duration, s, that fits twice into the whole, with weights that fall to zero.
+
+    Such weights need as many values behind as before, so the line ends earlier.
+    """
+    beside = round(duration * (len(line) - 1) / (whole or 1) / 2)
+    if beside < 2 or 2 * duration > whole:
         return line
 
     def around(at: int) -> Any:
@@ -90,9 +95,13 @@ def line_of(course: Course, duration: float) -> Any:
 def calm(every: Sequence[Course]) -> float:
     """How long means are, s: 0 for windows, more if a line goes up and down all along, as with the place on the disc: it looks like waves."""
     long = [one for one in every if not one.is_short]
-    lines = [one.values.mean(axis=1).to_numpy() for one in long]
-    is_any = any(np.nansum(np.abs(np.diff(line))) > MOST_WAY * np.ptp(line) for line in lines)
+    is_any = any(pulses(one.values.mean(axis=1).to_numpy()) for one in long)
     return PART * max(one.duration for one in long) if is_any else 0.0
+
+
+def pulses(line: Any) -> bool:
+    """Whether a line goes up and down all along."""
+    return bool(np.nansum(np.abs(np.diff(line))) > MOST_WAY * np.ptp(line))
 
 
 def draw(axis: Any, course: Course, time: Unit, duration: float, is_exact: bool = False, **options: Any) -> float:

@@ -1,5 +1,6 @@
 """Comparison of scenes, the same seeds in all: differences of each response with intervals; a study of scenes that are given one by one."""
 
+import math
 import os
 import re
 import tomllib
@@ -16,16 +17,18 @@ from scipy import stats
 
 from plateau import html_page
 from plateau.errors import InputError, PlateauWarning
+from plateau.figures.series import PART, pulses, weighted
 from plateau.output_folder import plain
 from plateau.program import call, file_name
 from plateau.quantities import series_of
+from plateau.run_accessor import TOTALS
 from plateau.scenes import scene_of
 from plateau.study.data import Numbers, Response, Study
 from plateau.study.runs import finished, write_study
 from plateau.study.text_tables import listed
 from plateau.style import NARROW, QUIET, Figures, in_style, labelled, look, new, wrapped
 from plateau.toml_text import toml_of
-from plateau.units import unit_for, unit_of, with_minus
+from plateau.units import unit_for, unit_of, with_digits, with_minus
 
 # What is compared unless asked otherwise: name, dataset with question, table of the scene without which there is no such series.
 USUAL = [("contact area", "contact_area:mean", ""), ("running-in time", "contact_area:reaches 0.9", "")]
@@ -33,11 +36,14 @@ USUAL += [("filled fraction", "filled_fraction:end", ""), ("secondary on the pin
 USUAL += [("worn off the pin", "worn_whole_pin:end", ""), ("worn off the disc", "worn_disc:end", ""), ("emitted", "emitted:end", "")]
 USUAL += [("friction coefficient", "friction_coefficient:mean", "friction"), ("temperature of the contact", "contact_temperature:mean", "thermal")]
 USUAL += [("PM10", "pm10_mass:end", "emission")]
+# What is asked of a series of which a response names no question: as above, else of totals, and of what is divided by one, the end.
+QUESTIONS = {series: question for series, _, question in (asked.partition(":") for _, asked, _ in reversed(USUAL))}
 NOTE = (
     "Differences are means over pairs of runs with the same seed, with t intervals ({level}); with more than two scenes, intervals and "
-    "sureness hold for all differences of a response together (Bonferroni). Sure at: 1 − p/2, how sure the sign is."
+    "sureness hold for all differences of a response together (Bonferroni). Sure at: 1 − p, the confidence up to which the interval leaves out 0."
 )
-SURFACES = [("disc", "surface"), ("pin", "base"), ("pin", "surface")]
+# Surfaces, and where it is said how they are extended.
+SURFACES = {"disc.surface": "disc.prepare", "pin.base": "pin.base", "pin.surface": "pin.prepare"}
 
 
 @dataclass(frozen=True)
@@ -48,15 +54,19 @@ class Comparison:
     ----------
     table : pandas.DataFrame
         A row for each response and each scene but the first, the reference: ``runs`` (pairs), ``difference`` to the reference, its interval ``low``,
-        ``high``, ``p``, ``sureness`` of the sign (1 - p/2); ``ratio`` of geometric means, ``ratio_low``, ``ratio_high``; ``words``.
+        ``high``, ``p``, ``sureness`` (1 - p, the confidence up to which the interval leaves out 0); ``ratio`` of geometric means, ``ratio_low``,
+        ``ratio_high``; ``words``.
     means : pandas.DataFrame
         A row for each response and scene: ``runs``, ``mean``, ``deviation`` (standard deviation of a run).
     runs : pandas.DataFrame
         A row for each run: ``scene``, ``seed`` (0 of a scene without seeds), responses.
     curves : pandas.DataFrame
-        Series against ``time``: ``mean`` and ``deviation`` over the seeds, and ``difference``, ``low``, ``high`` at each time alone.
+        Series against ``time``: ``mean`` and ``deviation`` over the seeds, and ``difference``, ``low``, ``high`` at each time alone; where runs
+        pulse, of weighted means over a ``window``, s.
     scenes : dict
         Names and files; the first is the reference.
+    titles : dict
+        Names and what figures call the scenes: their titles, if these differ.
     confidence : float
         Of the intervals.
     cautions : list of str
@@ -69,6 +79,7 @@ class Comparison:
     runs: pandas.DataFrame
     curves: pandas.DataFrame
     scenes: dict[str, str]
+    titles: dict[str, str]
     confidence: float
     cautions: list[str]
     directory: Path
@@ -113,13 +124,14 @@ class Comparison:
     def figures(self) -> Figures:
         """Draws each series against time, mean with the standard deviation of runs, and below it the differences with their intervals."""
         figures: Figures = {}
-        reference = next(iter(self.scenes))
+        reference = next(iter(self.titles.values()))
         for series, curves in self.curves.groupby("series", sort=False):
-            name, unit = series_of(str(series)).title, unit_for(curves["unit"].iloc[0], float(curves["mean"].abs().max()))
-            of_time = unit_of("s", curves["time"])
+            known, of_time, window = series_of(str(series), curves["unit"].iloc[0], curves["mean"]), unit_of("s", curves["time"]), curves["window"].iloc[0]
+            name, unit = known.title, known.unit
             level = f"{100 * self.confidence:g} %"
             caption = f"{name} against time: means over the seeds with the standard deviation of runs, and differences with {level} intervals"
             note = f"Bands: standard deviation of runs; below, {level} interval of the difference from {reference} at each time alone"
+            note += f"; lines: weighted means over {of_time.per_si * window:.3g} {of_time.symbol}, as runs pulse" if window else ""
             figure, axes = new(NARROW, 92, caption, 2, 1, note, sharex=True, height_ratios=[2, 1])
             top, below = axes[:, 0]
             for number, (scene, curve) in enumerate(curves.groupby("scene", sort=False)):
@@ -127,14 +139,14 @@ class Comparison:
                 band = {"color": style["color"], "alpha": 0.18, "linewidth": 0}
                 middle, half = unit.value(curve["mean"].to_numpy()), unit.per_si * curve["deviation"].fillna(0.0).to_numpy()
                 change, low, high = (unit.per_si * curve[end].to_numpy() for end in ("difference", "low", "high"))
-                top.plot(time, middle, label=wrapped(str(scene), 30), **style)
+                top.plot(time, middle, label=wrapped(self.titles[str(scene)], 30), **style)
                 top.fill_between(time, middle - half, middle + half, **band)
                 below.plot(time, change, **style)
                 below.fill_between(time, low, high, **band)
             # Titles of series are longer than the axis.
             top.set_title(wrapped(name, 46), loc="left")
             top.set(ylabel=labelled("mean", unit.symbol))
-            below.set(xlabel=labelled("time", of_time.symbol), ylabel=labelled("difference", unit.of_differences))
+            below.set(xlabel=labelled("time", of_time.symbol), ylabel=labelled("difference", unit.of_differences.replace("%", "points")))
             below.axhline(0.0, color=QUIET, linewidth=0.6)
             figure.legend(*top.get_legend_handles_labels(), loc="outside upper left", ncols=2, columnspacing=1.0)
             figure.align_ylabels()
@@ -164,7 +176,8 @@ def compare(
         Number of sets of surfaces, 1, 2, ...; all synthetic surfaces of a scene have the same seed.
     responses : sequence of str
         Each ``DATASET`` or ``DATASET:QUESTION``, such as ``"worn_pin:end"``, ``"contact_area:mean 10 s..20 s"``, ``"contact_area:reaches 0.8"``,
-        ``"pin_primary:100 s"``, ``"/event/temperature:last"``; by default what usually matters.
+        ``"pin_primary:100 s"``, ``"/event/temperature:last"``; without a question the mean over the last tenth of the run, of totals and of the
+        filled fraction the end. By default what usually matters.
     set : mapping or sequence of str
         Changes of all scenes, as for ``plateau.run``.
     output : path
@@ -194,13 +207,13 @@ def compare(
     directory, made, cautions = Path(output), {}, []
     for name, file, scene in zip(names, files, resolved, strict=True):
         keys = _seed_keys(scene)
-        fixed = [f"{body}.{part}" for body, part in SURFACES if part in scene.get(body, {}) and "synthetic" not in scene[body][part]]
+        fixed = _fixed(scene)
         if not keys:
             cautions.append(f"{name} has no synthetic surface and so no seeds: it is one run, and no interval says how other specimens scatter")
         elif fixed:
             cautions.append(f"{name}: {', '.join(fixed)} is the same in all runs, so intervals say nothing of other specimens of it")
         # A title is no part of what a run is known by.
-        study: dict[str, Any] = {"title": name, "base": os.path.abspath(file), "set": changes, "directory": "."}
+        study: dict[str, Any] = {"title": scene["title"], "base": os.path.abspath(file), "set": changes, "directory": "."}
         study |= {"order": "standard", "file": "seeds.csv", "factor": [{"name": "seed", "key": keys or "title"}], "response": tables}
         path = directory / name / "study.toml"
         write_study(path, study, pandas.DataFrame({"seed": range(1, seeds + 1) if keys else ["none"]}))
@@ -236,8 +249,10 @@ def _compared(made: dict[str, Study], scenes: dict[str, str], confidence: float,
             found = difference(pair[0], pair[1], confidence, len(others))
             rows.append({**common, "scene": scene, **found, "words": _words(f"{scene}: {name}", response.unit, found, confidence)})
     every = pandas.concat(runs, names=["scene"])[[one.name for one in asked]].reset_index()
+    titles = {scene: study.title for scene, study in made.items()}
+    titles = titles if len({*titles.values()}) == len(titles) else {scene: scene for scene in made}
     curves = _curves(made, asked, confidence)
-    return Comparison(pandas.DataFrame(rows), pandas.DataFrame(means), every, curves, scenes, confidence, cautions, directory)
+    return Comparison(pandas.DataFrame(rows), pandas.DataFrame(means), every, curves, scenes, titles, confidence, cautions, directory)
 
 
 def difference(reference: Any, other: Any, confidence: float = 0.95, comparisons: int = 1) -> dict[str, float]:
@@ -246,7 +261,7 @@ def difference(reference: Any, other: Any, confidence: float = 0.95, comparisons
     mean, low, high, p = _mean(two - one, confidence, comparisons)
     has_ratio = bool((one > 0.0).all() and (two > 0.0).all())
     ratios = np.exp(_mean(np.log(two / one), confidence, comparisons)[:3]).tolist() if has_ratio else [np.nan] * 3
-    found = {"runs": len(one), "difference": mean, "low": low, "high": high, "p": p, "sureness": 1.0 - p / 2.0}
+    found = {"runs": len(one), "difference": mean, "low": low, "high": high, "p": p, "sureness": 1.0 - p}
     return found | dict(zip(("ratio", "ratio_low", "ratio_high"), ratios, strict=True))
 
 
@@ -279,16 +294,21 @@ def _words(of: str, si: str, found: dict[str, float], confidence: float) -> str:
     # Where its own interval is less sure than that of the difference, it would only confuse.
     ratio = f", {_ratio(found)} times" if found["ratio_low"] > 1.0 or found["ratio_high"] < 1.0 else ""
     is_ = "" if of.endswith(" runs in") else " is"
-    return f"{of}{is_} {more} by {unit.text(abs(change), half, is_difference=True)} ({100 * confidence:g} %){ratio}, sign sure at {_sure(found['sureness'])}"
+    return f"{of}{is_} {more} by {unit.text(abs(change), half, is_difference=True)} ({100 * confidence:g} %){ratio}, sure at {_sure(found['sureness'])}"
 
 
 def _sure(sureness: float) -> str:
-    return "–" if not np.isfinite(sureness) else "more than 99.9 %" if sureness > 0.999 else f"{100 * sureness:.1f} %"
+    # Rounded down, so that nothing below the confidence looks as if it had come there.
+    return "–" if not np.isfinite(sureness) else "more than 99.9 %" if sureness > 0.999 else f"{math.floor(round(1e3 * sureness, 6)) / 10:.1f} %"
 
 
 def _ratio(row: Any) -> str:
-    ends = f" ({row['ratio_low']:.3g} … {row['ratio_high']:.3g})" if np.isfinite(row["ratio_low"]) else ""
-    return f"{row['ratio']:.3g}{ends}" if np.isfinite(row["ratio"]) else "–"
+    if not np.isfinite(row["ratio"]):
+        return "–"
+    # The interval is one of logarithms.
+    half = 0.5 * math.log(row["ratio_high"] / row["ratio_low"])
+    ratio, low, high = (with_digits(row[name], half * row[name]) for name in ("ratio", "ratio_low", "ratio_high"))
+    return f"{ratio} ({low} … {high})" if low else ratio
 
 
 # Columns of the curves.
@@ -297,21 +317,26 @@ ENDS = ["difference", "low", "high"]
 
 def _curves(made: dict[str, Study], asked: Sequence[Response], confidence: float) -> pandas.DataFrame:
     first, parts = next(iter(made)), []
+    has_cycle = any("normal_force" in study.data for study in made.values())
     # The contact area of single steps pulses.
     for name in dict.fromkeys("contact_area_mean" if one.series == "contact_area" else one.series for one in asked):
         data = {scene: study.data[name] for scene, study in made.items() if name in study.data and "time" in study.data[name].dims}
-        for scene, values in data.items():
-            time, y = values["time"].values, pandas.DataFrame(values.transpose("run", "time").values)
-            part = pandas.DataFrame({"time": time, "mean": y.mean(), "deviation": y.std(), **dict.fromkeys(ENDS, np.nan)})
-            reference = data.get(first)
-            if scene != first and reference is not None and (len(y) == reference.sizes["run"] or min(len(y), reference.sizes["run"]) == 1):
+        runs = {scene: pandas.DataFrame(values.transpose("time", "run").values, values["time"].values) for scene, values in data.items()}
+        unit = next((values.attrs.get("units", "1") for values in data.values()), "1")
+        # As in figures of runs: pulses of runs drift apart; temperatures have peaks that nothing may take away.
+        is_wavy = unit != "K" and not has_cycle and any(pulses(run) for lines in runs.values() for run in lines.to_numpy().T)
+        window = PART * max(float(np.ptp(lines.index)) for lines in runs.values()) if is_wavy else 0.0
+        runs = {scene: weighted(lines, window, float(np.ptp(lines.index))) for scene, lines in runs.items()}
+        for scene, lines in runs.items():
+            part = pandas.DataFrame({"mean": lines.mean(axis=1), "deviation": lines.std(axis=1), **dict.fromkeys(ENDS, np.nan)})
+            reference = runs.get(first)
+            if scene != first and reference is not None and (lines.shape[1] == reference.shape[1] or 1 in (lines.shape[1], reference.shape[1])):
                 # Its samples may be at other times.
-                runs = reference.transpose("run", "time").values
-                others = [np.interp(time, reference["time"].values, run, left=np.nan, right=np.nan) for run in runs]
-                change = pandas.DataFrame(y.to_numpy() - np.array(others))
-                half = stats.t.ppf(0.5 + confidence / 2.0, change.count() - 1) * change.sem()
-                part[ENDS] = np.transpose([change.mean(), change.mean() - half, change.mean() + half])
-            parts.append(part.assign(series=name, unit=values.attrs.get("units", "1"), scene=scene))
+                others = [np.interp(lines.index, reference.index, run, left=np.nan, right=np.nan) for run in reference.to_numpy().T]
+                change = pandas.DataFrame(lines.to_numpy() - np.transpose(others), lines.index)
+                middle, half = change.mean(axis=1), stats.t.ppf(0.5 + confidence / 2.0, change.count(axis=1) - 1) * change.sem(axis=1)
+                part[ENDS] = np.transpose([middle, middle - half, middle + half])
+            parts.append(part.rename_axis("time").reset_index().assign(series=name, unit=unit, scene=scene, window=window))
     return pandas.concat(parts, ignore_index=True) if parts else pandas.DataFrame(columns=["series", "scene"])
 
 
@@ -320,24 +345,37 @@ def _seed_keys(scene: Mapping[str, Any]) -> list[str]:
     return [key for key, _ in _leaves(scene) if key.endswith((".synthetic.seed", ".extend_seed"))]
 
 
+def _fixed(scene: Mapping[str, Any]) -> list[str]:
+    """What of the surfaces of a resolved scene is the same with all seeds: of one that is extended by its statistics, the patch."""
+    paths = [path for path, _ in _leaves(scene)]
+
+    def has(place: str) -> bool:
+        return any(path.startswith(place) for path in paths)
+
+    found = {name: extended for name, extended in SURFACES.items() if has(f"{name}.") and not has(f"{name}.synthetic.")}
+    return [f"{'the patch of ' if has(f'{extended}.extend_seed') else ''}{name}" for name, extended in found.items()]
+
+
 def response_of(name: str, asked: str) -> dict[str, Any]:
     """The table of a response in a study file."""
     dataset, _, question = (part.strip() for part in asked.partition(":"))
     dataset = dataset if dataset.startswith("/") else f"/series/{dataset}"
+    series = dataset.removeprefix("/series/")
+    if not question and not dataset.startswith("/event"):
+        is_at_end = series in TOTALS or series.endswith("_per_distance") or series == "pad_life"
+        question = QUESTIONS.get(series) or ("end" if is_at_end else "mean")
     word, _, rest = question.partition(" ")
     name = name or re.sub(r"^/series/|^/", "", asked).replace("_", " ").replace(":", ", ").replace("/", " ")
     table: dict[str, Any] = {"name": name, "dataset": dataset}
-    if question == "mean" or not question and dataset == "/series/contact_area":
-        return table | {"mean": "last tenth"}
+    if dataset.startswith("/event"):
+        return table | {"event": int(question) if question.isdigit() else question or "mean"}
     if word == "mean":
-        return table | {"mean": [part.strip() for part in rest.split("..")]}
+        return table | {"mean": [part.strip() for part in rest.split("..")] if rest else "last tenth"}
     if word == "reaches":
         if re.fullmatch(r"|0?\.\d+", rest) is None:
             raise InputError(f'--response "{asked}": expected a fraction, such as reaches 0.9')
         return table | {"reaches": float(rest or 0.9)}
-    if dataset.startswith("/event"):
-        return table | {"event": int(question) if question.isdigit() else question or "mean"}
-    return table | {"at": question or "end"}
+    return table | {"at": question}
 
 
 # What tells scenes apart and is no factor.

@@ -19,6 +19,7 @@ from plateau.study.text_tables import written_table
 from plateau.style import saved
 
 EARLIER = "Replace the files of an earlier call, and remove those that this call does not write"
+OTHER = "Replace the files of another call, too, not only those of the same one, and remove those that this call does not write"
 # Options of several words.
 SHARED: dict[str, dict[str, Any]] = {
     "--jobs": {"type": count, "metavar": "N", "help": "Runs at a time; as many as there are cores unless given"},
@@ -85,14 +86,16 @@ def add(words: Words) -> None:
     made = word(words, "fit", "Find the values of keys with which runs give what was measured", _fit, "  plateau fit data/studies/fit-captured-fraction.toml --plan")
     made.add_argument("--plan", action="store_true", help="Say what is fitted to what and what it will cost, without running any")
     made.add_argument("--retry", action="store_true", help="Make runs again that failed before")
-    shared(made, *CORES, output='Folder for tables and figures; "fit" in the study\'s own unless given')
+    shared(made, *CORES, output='Folder for tables and figures; "fit" in the study\'s own unless given', force=OTHER)
 
     made = word(words, "compare", "Tell what differs between scenes, and how sure that is: runs of each with the same seeds", _compare, "  plateau compare data/scenes/quick.toml data/scenes/stops.toml --seeds 3")
     made.add_argument("scenes", type=Path, nargs="+", metavar="SCENE", help="Scene files (TOML), two or more; the first is the reference")
     made.add_argument("--seeds", type=count, default=5, metavar="N", help="Sets of seeds with which each scene is run [default: 5]")
     several(made, "--set", "KEY=VALUE", "Change a key of all scenes; may be repeated")
-    several(made, "--response", "DATASET", "A response besides those of all runs")
-    shared(made, *CORES, "--confidence", output='Folder for runs, tables, figures and the page; "comparison" unless given')
+    about = "What is compared in place of what usually matters, such as mean_pressure, worn_pin:end or \"contact_area:reaches 0.8\"; without a "
+    about += "question the mean over the last tenth of the run, of totals and of filled_fraction the end; may be repeated"
+    several(made, "--response", "DATASET[:QUESTION]", about)
+    shared(made, *CORES, "--confidence", output='Folder for runs, tables, figures and the page; "comparison" unless given', force=OTHER)
 
 
 def _told(
@@ -199,7 +202,9 @@ def _fit(given: argparse.Namespace) -> str:
 
 def _compare(given: argparse.Namespace) -> str:
     folder = given.output or Path("comparison")
-    of = "compare " + ", ".join(relative(scene, folder) for scene in given.scenes)
+    # Of other responses figures would be removed; more seeds only make an answer surer.
+    of = ", ".join([*(relative(scene, folder) for scene in given.scenes), *given.set, *given.response])
+    of = f"compare {of}".replace("\n", "\\n")
     refuse_earlier(folder, of, given.force)
     asked = options(given, "set", "confidence", "jobs", "workers")
     found = studies.compare(given.scenes, given.seeds, responses=given.response, output=folder, **asked, progress=progress(given))
