@@ -66,8 +66,10 @@ def export(
     path = followed(named_like(tree, endings[0]) if output is None else Path(output))
     if path.suffix.lower() not in ("", *endings) and to != "vtk":
         raise InputError(f"-o {path}: {to} is written to a file whose name ends in {' or '.join(endings)}, such as {path.stem}{endings[0]}")
-    single = {"xlsx": _xlsx, "npz": _npz, "netcdf": _netcdf}
-    files = {path.name: partial(single[to], tree)} if to in single else _vtk(tree) if to == "vtk" else _csv(tree, path, maps, sep=sign, decimal=decimal)
+    if to in ("csv", "vtk"):
+        files = _vtk(tree) if to == "vtk" else _csv(tree, path, maps, sep=sign, decimal=decimal)
+    else:
+        files = {path.name: partial({"xlsx": _xlsx, "npz": _npz, "netcdf": _netcdf}[to], tree)}
     return all_or_none(path if to == "vtk" else path.parent, files, force, inputs_of([tree]))
 
 
