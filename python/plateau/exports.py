@@ -5,7 +5,7 @@ import json
 import math
 import os
 import zipfile
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import partial
 from pathlib import Path
 from typing import Any, Literal
@@ -16,7 +16,7 @@ import xarray
 
 from plateau.errors import InputError, MissingPackageError
 from plateau.opened_runs import Run, inputs_of, named_like, note, opened, warn
-from plateau.output_folder import all_or_none, followed
+from plateau.output_folder import Files, all_or_none, followed
 from plateau.run_file import array, source
 from plateau.units import quantity
 
@@ -26,8 +26,6 @@ FORMATS |= {"netcdf": ("h5netcdf", ".nc", ".nc4"), "vtk": ("pyevtk", "-vtk")}
 # Rows of a sheet of Excel below the heads; columns, and maps as arrays, that have other names than in run files.
 MOST_ROWS, COLUMNS = 1_048_575, {"map_time": "time", "disc_angle": "angle", "pin_angle": "angle"}
 ARRAYS = {"pin_pressure": "pressure", "pin_temperature": "temperature"}
-# Files by their names, each with what writes it to a path.
-Files = dict[str, Callable[[Path], object]]
 
 
 def export(
@@ -72,11 +70,7 @@ def export(
         files = _vtk(tree) if to == "vtk" else _csv(tree, path, maps, sep=sign, decimal=decimal)
     else:
         files = {path.name: partial({"xlsx": _xlsx, "npz": _npz, "netcdf": _netcdf}[to], tree)}
-    folder = path if to == "vtk" else path.parent
-    with all_or_none(folder, files, force, inputs_of([tree])) as places:
-        for write, place in zip(files.values(), places, strict=True):
-            write(place)
-    return [str(folder / name) for name in files]
+    return all_or_none(path if to == "vtk" else path.parent, files, force, inputs_of([tree]))
 
 
 def _of(run: xarray.DataTree, group: str) -> xarray.Dataset:
@@ -92,40 +86,39 @@ def _of(run: xarray.DataTree, group: str) -> xarray.Dataset:
     return found
 
 
-def _table(data: xarray.Dataset, *axes: str) -> pandas.DataFrame:
-    """A table of data behind their places, with heads that no spreadsheet computes."""
-    table = data.to_dataframe().reset_index()[[*axes, *data.data_vars]]
-    heads = [f"{COLUMNS.get(name, name)} [{data[name].attrs.get('units', '1')}]" for name in table]
+def _table(data: xarray.Dataset, **at: list[int]) -> pandas.DataFrame:
+    """A table of data, or of those at a place, behind their axes, with heads that no spreadsheet computes."""
+    table = data.isel(at).to_dataframe(next(iter(data.values())).dims).reset_index()
+    heads = [name if name == "event" else f"{COLUMNS.get(name, name)} [{data[name].attrs.get('units', '1')}]" for name in table]
     return table.set_axis([head if head[0].isalnum() else f"'{head}" for head in heads], axis="columns")
 
 
-def _tables(run: xarray.DataTree) -> dict[str, pandas.DataFrame]:
-    """Series, and events if there are any."""
-    tables = {"series": _table(_of(run, "series"), "time")}
+def _tables(run: xarray.DataTree, bodies: Sequence[str] = ()) -> dict[str, Callable[[], pandas.DataFrame]]:
+    """What makes a table by its name: of series, of events, of each moment of the maps."""
+    tables: dict[str, Callable[[], pandas.DataFrame]] = {"series": partial(_table, _of(run, "series"))}
     if events := _of(run, "event"):
-        tables["events"] = _table(events).set_axis(pandas.RangeIndex(1, events.sizes["event"] + 1, name="event")).reset_index()
+        tables["events"] = partial(_table, events.assign_coords(event=np.arange(events.sizes["event"]) + 1))
+    for body, maps in ((body, _of(run, body)) for body in bodies):
+        tables |= {f"{body}-{index:04}": partial(_table, maps, map_time=[index]) for index in range(maps.sizes.get("map_time", 0))}
     return tables
 
 
 def _csv(run: xarray.DataTree, path: Path, with_maps: bool, **marks: str) -> Files:
-    def write(place: Path, name: str) -> None:
-        body, _, index = name.partition("-")
-        table = _table(bodies[body].isel(map_time=int(index)), "map_time", f"{body}_angle", "radius") if index else tables[name]
-        table.to_csv(place, index=False, na_rep="NaN", lineterminator="\n", **marks)
+    def write(place: Path, table: Callable[[], pandas.DataFrame]) -> None:
+        table().to_csv(place, index=False, na_rep="NaN", lineterminator="\n", **marks)
 
-    tables, bodies = _tables(run), {body: _of(run, body) for body in ("disc", "pin") if with_maps}
-    names = [*tables, *(f"{body}-{index:04}" for body, maps in bodies.items() for index in range(maps.sizes.get("map_time", 0)))]
-    return {path.name if name == "series" else f"{path.stem}-{name}{path.suffix}": partial(write, name=name) for name in names}
+    tables = _tables(run, ("disc", "pin") if with_maps else ())
+    return {path.name if name == "series" else f"{path.stem}-{name}{path.suffix}": partial(write, table=table) for name, table in tables.items()}
 
 
 def _xlsx(run: xarray.DataTree, place: Path) -> None:
-    tables = _tables(run)
+    tables = {name: made() for name, made in _tables(run).items()}
     about = [(name, line) for name in ("title", "state", "program", "scene") for line in str(run.attrs.get(name, "")).splitlines()]
     tables["about"] = pandas.DataFrame(about, columns=["what", "text"])
     if (most := max(map(len, tables.values()))) > MOST_ROWS:
         raise InputError(f"a table of {most} rows: a sheet of Excel has {MOST_ROWS} below its heads; take csv or npz")
     # Texts stay texts: nothing is a formula or a link.
-    options = dict.fromkeys(("strings_to_formulas", "strings_to_urls", "strings_to_numbers"), False)
+    options = {"strings_to_formulas": False, "strings_to_urls": False}
     with pandas.ExcelWriter(place, engine="xlsxwriter", engine_kwargs={"options": options}) as book:
         for name, table in tables.items():
             table.to_excel(book, sheet_name=name, index=False, freeze_panes=(1, 1))
@@ -135,25 +128,24 @@ def _npz(run: xarray.DataTree, place: Path) -> None:
     """Arrays one after the other: `numpy.savez` needs all of them in memory, and its compression takes long."""
     no_times = xarray.DataArray(np.empty(0), attrs={"units": "s"})
     arrays: dict[str, Any] = {name: run.get(name, no_times) for name in ("time", "radius", "disc_angle", "pin_angle", "map_time")}
-    for group in ("series", "event", "disc", "pin"):
-        named = {str(name) if group == "series" else f"{group}_{name}": values for name, values in _of(run, group).data_vars.items()}
-        arrays |= {ARRAYS.get(name, name): values for name, values in named.items()}
+    named = {f"{group}_{name}": values for group in ("series", "event", "disc", "pin") for name, values in _of(run, group).items()}
+    arrays |= {ARRAYS.get(name, name.removeprefix("series_")): values for name, values in named.items()}
     units = json.dumps({name: str(values.attrs.get("units", "1")) for name, values in arrays.items()}, sort_keys=True)
-    arrays |= {name: str(run.attrs.get(name, "")) for name in ("title", "state", "scene")} | {"units": units}
+    texts = {"units": units} | {name: str(run.attrs.get(name, "")) for name in ("title", "state", "scene")}
+    arrays |= {name: xarray.DataArray(text) for name, text in texts.items()}
     with zipfile.ZipFile(place, "w", zipfile.ZIP_DEFLATED, compresslevel=1) as archive:
         for name, values in arrays.items():
             with archive.open(f"{name}.npy", "w", force_zip64=True) as file:
                 # What a part reads does not stay in memory.
-                found = np.asarray(values if isinstance(values, str) else values[...])
+                found = values[...].values
                 np.lib.format.write_array(file, found.astype(found.dtype.str), allow_pickle=False)
 
 
 def _netcdf(run: xarray.DataTree, place: Path) -> None:
     """A map after the other, statuses as plain integers."""
     plain, small = run.copy(), {"zlib": True, "complevel": 1}
-    for body in ("disc", "pin"):
-        for name, values in _of(run, body).data_vars.items():
-            plain[f"{body}/{name}"] = values.astype(values.dtype.str) if values.dtype.metadata else values
+    for path, values in ((f"{body}/{name}", values) for body in ("disc", "pin") for name, values in _of(run, body).items()):
+        plain[path] = values.astype(values.dtype.str) if values.dtype.metadata else values
     encoding = {node.path: {name: small for name, values in node.data_vars.items() if values.size} for node in plain.subtree}
     plain.to_netcdf(place, engine="h5netcdf", encoding=encoding)
 
@@ -166,24 +158,24 @@ def _vtk(run: xarray.DataTree) -> Files:
     inner = quantity(mesh.get("inner_radius", "0 m"), "m") or quantity(mesh["mean_radius"], "m") - quantity(mesh["pin_width"], "m") / 2
     radius = np.linspace(inner, rows[0] + rows[-1] - inner, len(rows) + 1)[:, None, None]
 
-    def grid(place: Path, corners: list[Any], cells: xarray.Dataset) -> None:
-        gridToVTK(str(place.with_suffix("")), *corners, {str(name): values.values.T[..., None] for name, values in cells.data_vars.items()})
-
-    def collection(place: Path, times: dict[str, float]) -> None:
-        group = VtkGroup(str(place.with_suffix("")))
-        for name, time in times.items():
-            group.addFile(str(place.with_name(name)), time)
-        group.save()
-
-    files: Files = {}
-    for body, maps in ((body, maps) for body in ("disc", "pin") if (maps := _of(run, body))):
+    def grid(place: Path, maps: xarray.Dataset, index: int) -> None:
+        cells = {str(name): values.values.T[..., None] for name, values in maps.isel(map_time=index).items()}
         # The disc's ring closes.
-        turns = np.arange(maps.sizes[f"{body}_angle"] + 1) / run.sizes["disc_angle"]
+        turns = np.arange(next(iter(cells.values())).shape[1] + 1) / run.sizes["disc_angle"]
         angle = math.tau * np.where(turns < 1, turns, 0.0)[None, :, None]
         corners = [np.asfortranarray(radius * of) for of in (np.cos(angle), np.sin(angle), 0 * angle)]
-        times = {f"{body}-{index:04}.vts": time for index, time in enumerate(maps["map_time"].values.tolist())}
-        files |= {name: partial(grid, corners=corners, cells=maps.isel(map_time=index)) for index, name in enumerate(times)}
-        files[f"{body}.pvd"] = partial(collection, times=times)
+        gridToVTK(str(place.with_suffix("")), *corners, cells)
+
+    def collection(place: Path, maps: xarray.Dataset) -> None:
+        group = VtkGroup(str(place.with_suffix("")))
+        for index, time in enumerate(maps["map_time"].values.tolist()):
+            group.addFile(str(place.with_name(f"{place.stem}-{index:04}.vts")), time)
+        group.save()
+
+    files: dict[str, Any] = {}
+    for body, maps in ((body, maps) for body in ("disc", "pin") if (maps := _of(run, body))):
+        files |= {f"{body}-{index:04}.vts": partial(grid, maps=maps, index=index) for index in range(maps.sizes["map_time"])}
+        files[f"{body}.pvd"] = partial(collection, maps=maps)
     if not files:
         note("nothing is written: this format has maps only")
     return files

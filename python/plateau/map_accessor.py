@@ -8,13 +8,11 @@ import xarray
 from plateau.errors import InputError, UnknownNameError
 from plateau.figures import maps
 from plateau.figures.drawing import moment
-from plateau.quantities import MAPS, Map
+from plateau.quantities import ABSENT, MAPS, Map
 from plateau.style import STATUS_COLOURS, WIDE, in_style
 from plateau.units import quantity, unit_of
 
 ANGLES = ("disc_angle", "pin_angle")
-# Status of a cell outside the outline of a round pin.
-ABSENT = 3
 
 
 @xarray.register_dataarray_accessor("plateau")
@@ -204,7 +202,8 @@ class MapAccessor:
         other = Map(path, long_name, str(cells.name or ""), unit_of(unit, cells.values), "statuses" if names else "span")
         shown = MAPS.get(path, other)
         title = shown.title + (f", {moment(float(cells['map_time']))}" if "map_time" in cells.coords else "")
-        picture = maps.picture_of(maps.in_unit(cells.transpose("radius", self._angle), shown), polar, title)
+        cells = cells.transpose("radius", self._angle)
+        picture = maps.picture_of(cells.copy(data=shown.shown(cells.values)), polar, title)
         maps.colour(shown, [picture], options.pop("cmap") if isinstance(options.get("cmap"), str) else "viridis")
         # What is asked for holds.
         norm = picture.colours["norm"]

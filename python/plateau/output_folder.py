@@ -7,8 +7,9 @@ figure of a response that is no longer asked for does not stay beside the new on
 import math
 import os
 import tempfile
-from collections.abc import Iterable, Iterator, Mapping
-from contextlib import contextmanager, suppress
+from collections.abc import Callable, Mapping
+from contextlib import suppress
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -19,6 +20,8 @@ LIST = "files.txt"
 # Its first line, by which it is known.
 HEAD = "# plateau wrote these files; a later call with --force replaces them and removes those that it does not write"
 OF = "# of "
+# Files by their names, each with what writes it to a path.
+Files = Mapping[str, Callable[[Path], object]]
 
 
 def refuse_earlier(folder: Path, of: str | None, force: bool) -> None:
@@ -112,20 +115,18 @@ def put(path: Path, content: bytes) -> None:
         raise RunFailed(f"cannot write {path}: {error.strerror}") from error
 
 
-@contextmanager
-def all_or_none(folder: Path, names: Iterable[str], force: bool, inputs: tuple[Path, ...] = ()) -> Iterator[list[Path]]:
-    """Places where files are written meanwhile; they appear in their folder, made if it is not there, when all of them are complete."""
-    names = list(names)
-    for name in names:
+def all_or_none(folder: Path, files: Files, force: bool, inputs: tuple[Path, ...] = ()) -> list[str]:
+    """Writes files that appear in their folder, made if it is not there, when all of them are complete; gives their paths."""
+    for name in files:
         refuse_file(folder / name, force, inputs, "name another place with -o")
-    if not names:
-        yield []
-        return
+    if not files:
+        return []
     try:
         folder.mkdir(parents=True, exist_ok=True)
         with tempfile.TemporaryDirectory(dir=folder, prefix=".plateau-") as place:
-            yield [Path(place, name) for name in names]
-            for name in names:
+            for name, write in files.items():
+                write(Path(place, name))
+            for name in files:
                 _put_in_place(Path(place, name), folder / name)
     except OSError as error:
         if folder.exists() and not folder.is_dir():
@@ -134,13 +135,12 @@ def all_or_none(folder: Path, names: Iterable[str], force: bool, inputs: tuple[P
         if error.errno is None:
             raise
         raise RunFailed(f"cannot write into {folder}: {error.strerror}; name another place with -o") from error
+    return [str(folder / name) for name in files]
 
 
 def put_together(folder: Path, files: Mapping[str, bytes], force: bool, inputs: tuple[Path, ...] = ()) -> None:
-    """Writes files that appear in their folder, made if it is not there, when all of them are complete."""
-    with all_or_none(folder, files, force, inputs) as places:
-        for place, content in zip(places, files.values(), strict=True):
-            place.write_bytes(content)
+    """Writes files of this content that appear in their folder, made if it is not there, when all of them are complete."""
+    all_or_none(folder, {name: partial(Path.write_bytes, data=content) for name, content in files.items()}, force, inputs)
 
 
 def _put_in_place(complete: Path, path: Path) -> None:

@@ -115,7 +115,7 @@ class Map:
 
     def shown(self, values: Any) -> Any:
         """Values of one moment, SI, as they are shown: with sign and zero, in the unit; NaN where there is no cell."""
-        values = np.asarray(values, float)
+        values = np.where(np.equal(values, ABSENT), np.nan, values) if self.colours == "statuses" else np.asarray(values, float)
         there = np.isfinite(values)
         zero = values[there].mean() if self.about_mean and there.any() else 0.0
         return self.unit.value(self.sign * (values - zero))
@@ -146,5 +146,6 @@ MAPS = {
 }
 # Names of maps in scenes, where they are not those of body and map.
 MAP_KEYS = {"pin/pressure": "pressure", "pin/temperature": "contact_temperature"}
-# Statuses by their number: what such cells are called, and what they are made of.
+# Statuses by their number: what such cells are called, and what they are made of; status of a cell outside a round pin.
+ABSENT = 3
 STATUSES = [("none", "resin"), ("primary plateau", "fibre, or coating"), ("secondary plateau", "compacted debris")]

@@ -92,8 +92,7 @@ def convert(path: str | os.PathLike[str], output: str | os.PathLike[str] | None 
     found = _checked(source, read(source, content))
     for note in found.notes:
         warnings.warn(PlateauNote(f"{source}: {note}"), stacklevel=2)
-    with all_or_none(target.parent, [target.name], force, (source,)) as places:
-        _write(places[0], found, source.name, digest)
+    all_or_none(target.parent, {target.name: lambda place: _write(place, found, source.name, digest)}, force, (source,))
     return str(target)
 
 

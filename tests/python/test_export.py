@@ -137,6 +137,14 @@ class Export(unittest.TestCase):
                 self.assertEqual(str(arrays[name]), run.attrs[name])
             self.assertEqual(json.loads(str(arrays["units"])), {name: run[path].attrs["units"] for name, path in paths.items()})
 
+    def test_a_series_and_a_map_may_have_one_name(self):
+        run = plateau.open_run(self.made).copy()
+        run["series/pin_temperature"], run["pin/temperature"] = run["series/pool"], run["pin/pressure"]
+        plateau.export(run, "npz", "hot.npz")
+        with np.load("hot.npz") as arrays:
+            self.same(arrays["pin_temperature"], run["series/pool"])
+            self.same(arrays["temperature"], run["pin/pressure"])
+
     def test_netcdf(self):
         plateau.export(self.made, "netcdf")
         with xarray.open_datatree("run.nc", engine="h5netcdf") as found:

@@ -87,8 +87,7 @@ def plateau_sizes(drawing: Drawing, subjects: list[Subject]) -> list[Any]:
             axis.plot([0.7 * least, *places], number, drawstyle="steps-pre", **_look(drawing, subject, place))
         if not any(own.size for *_, own in found):
             axis.text(0.5, 0.5, "none in these maps", transform=axis.transAxes, ha="center")
-        axis.set_title(title, loc="left")
-        axis.set(xlabel=f"area, {unit.symbol}", ylabel="number at least as large")
+        axis.set(title=title, xlabel=f"area, {unit.symbol}", ylabel="number at least as large")
         axis.label_outer()
     axes[0].set(xscale="log", yscale="log", xlim=(0.7 * least, 1.5 * largest), ylim=(0.7, 1.6 * max(most, 10)))
     return _explained(drawing, figure, axes[0], every)

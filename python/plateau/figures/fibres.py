@@ -50,7 +50,7 @@ def fibre_map(folder: str | os.PathLike[str]) -> Figures:
         shown, above = (base, 0) if axis is own else (np.ma.masked_equal(base, 3), 3)
         axis.imshow(shown, cmap=colours, vmin=0, vmax=3, interpolation="nearest", extent=(-x, x, -y, y), zorder=above)
         axis.plot(*(1e3 * np.array(found["leading_edge"])).T, color=PIN, linewidth=2, zorder=4)
-        axis.set_title(title, loc="left")
+        axis.set_title(title)
     for draw, end, part in ((own.axvline, x, half[0]), (own.axhline, y, half[1])) if found["is_tiled"] else ():
         outward = np.arange(part, end, 2 * part)
         for place in np.append(-outward, outward) if outward.size <= MOST_SEAMS else []:
@@ -74,7 +74,7 @@ def _micrograph(axis: Any, micrograph: Any, fibre: Any, half: list[float], is_ti
 
     x, y = half
     axis.imshow(thinned(micrograph, MOST_POINTS), cmap="gray", vmin=0, vmax=255, extent=(-x, x, -y, y))
-    axis.set_title("micrograph" + (", a tile of the base" if is_tiled else ""), loc="left")
+    axis.set_title("micrograph" + (", a tile of the base" if is_tiled else ""))
     if not 0 < fibre.mean() < 1:
         return []
     parts = thinned(fibre, MOST_POINTS)

@@ -14,8 +14,8 @@ from plateau.quantities import MAPS, STATUSES, Map
 from plateau.run_file import array
 from plateau.style import APART, GROUND, MM, NARROW, STATUS_COLOURS, WIDE, labelled, wrapped
 
-# Status of a cell outside a round pin; debris thinner than THIN, m, is drawn as this status with this colour, and is none below LEAST.
-ABSENT, THIN, FILM, FILM_COLOUR, LEAST = 3, 0.1e-6, 3, "#f7d48f", 1e-15
+# Debris thinner than THIN, m, is drawn as this status with this colour, and is none below LEAST.
+THIN, FILM, FILM_COLOUR, LEAST = 0.1e-6, 3, "#f7d48f", 1e-15
 # Part of the values, or of the load, beyond an end of the colours; pressures that differ by a larger factor have a logarithmic scale.
 BEYOND, MOST_LINEAR = 0.005, 100.0
 # Why cells are apart, of which the value is zero; more columns and rows than this are more than the points of a page.
@@ -158,7 +158,7 @@ def draw_map(panels: Sequence[Any], picture: Picture, size: tuple[float, float],
         panel.yaxis.set_major_locator(MaxNLocator(max(min(int(size[1] / LINE / 1.4), 5), 1), steps=[1, 2, 5, 10]))
         if size[1] < 2.5 * LINE:
             panel.set_yticks(panel.get_ylim(), labels=[f"{radius:.4g}" for radius in panel.get_ylim()])
-    panels[0].set_title(_wrapped(picture.title, size[0]), loc="left", pad=3)
+    panels[0].set_title(_wrapped(picture.title, size[0]), pad=3)
     panels[-1].set_xlabel(picture.below(letters, stretch))
     # In the middle of all.
     middle = 0.5 if len(panels) % 2 else 1 + NUMBERS / (2 * size[1])
@@ -240,12 +240,6 @@ def in_axes(ax: Any, picture: Picture, legend: Legend) -> None:
         ax.figure.colorbar(drawn, ax=ax, label=picture.label)
 
 
-def in_unit(cells: xarray.DataArray, shown: Map) -> xarray.DataArray:
-    """A map in the unit in which it is shown; NaN where there is no cell."""
-    there = cells.where(cells != ABSENT) if shown.colours == "statuses" else cells
-    return there.copy(data=shown.shown(there.values))
-
-
 def _read(subject: Subject, path: str, index: int) -> xarray.DataArray:
     """A map of a run at a moment, row by row, SI."""
     body, name = path.split("/")
@@ -301,7 +295,7 @@ def draw_maps(drawing: Drawing, _: Sequence[Subject], paths: Sequence[str], capt
         for subject in drawing.having(*needed, is_part=path == "pin/temperature"):
             for index in _moments(drawing, subject, shown):
                 recorded = _read(subject, path, index)
-                cells = in_unit(recorded, shown)
+                cells = recorded.copy(data=shown.shown(recorded.values))
                 run, when = "" if drawing.only else f"{subject.label}\n", moment(subject.map_time[index]).replace(" ", "\u00a0")
                 title = f"{run}{shown.body.capitalize()}, {when}{_said(subject, shown, index, recorded, cells)}"
                 pictures.append(picture_of(cells, drawing.polar and shown.body == "disc", title))

@@ -68,8 +68,9 @@ def in_windows(values: Any, most: int) -> Any:
 
 
 def line_of(course: Course, duration: float) -> Any:
-    """A line by time: means in windows, at the mean time of samples with a value; in a run without a cycle `weighted` over a duration, s."""
+    """A line by time: means in windows; in a run without a cycle `weighted` over a duration, s."""
     most, values = MOST_OF_CYCLE if course.subject.has_cycle else MOST, course.values
+    # Windows are at the mean time of samples with a value.
     times = pandas.DataFrame({"known": values.index.where(values.notna().all(axis=1)), "all": values.index})
     times = in_windows(times, most).mean()
     line = in_windows(values, most).mean().set_index(times["known"].fillna(times["all"]))
@@ -86,6 +87,7 @@ def weighted(line: Any, duration: float, whole: float) -> Any:
         return line
 
     def around(at: int) -> Any:
+        # As many values before as behind, so the line ends earlier.
         reach = min(beside - 1, at)
         return np.average(line.to_numpy()[at - reach : at + reach + 1], axis=0, weights=np.bartlett(2 * reach + 3)[1:-1])
 
@@ -231,8 +233,7 @@ def friction(drawing: Drawing, subjects: list[Subject]) -> list[Any]:
 
 def in_panels(drawing: Drawing, subjects: list[Subject], names: Sequence[str], unit: Unit, caption: str, what: str) -> list[Any]:
     """Draws series of one unit: those of a single run in one panel, of several each in its own."""
-    having = {name: [subject for subject in subjects if subject.has(f"series/{name}")] for name in names}
-    found = {name: courses(those, name, unit) for name, those in having.items() if those}
+    found = {name: courses(those, name, unit) for name in names if (those := [one for one in subjects if one.has(f"series/{name}")])}
     # Temperatures have peaks that nothing may take away.
     durations = {name: 0.0 if unit is CELSIUS else calm(shown) for name, shown in found.items()}
     count, duration = 1 if drawing.only else len(found), max(durations.values())
@@ -242,8 +243,7 @@ def in_panels(drawing: Drawing, subjects: list[Subject], names: Sequence[str], u
         for course in shown:
             own = look(number) | {"label": title} if drawing.only else {}
             draw(axis, course, time_of(subjects), duration if durations[name] else 0.0, unit is CELSIUS, **own)
-        axis.set_ylabel(f"{what}, {unit.symbol}")
-        axis.set_title("" if drawing.only else title, loc="left")
+        axis.set(title="" if drawing.only else title, ylabel=f"{what}, {unit.symbol}")
     for axis in axes if unit is PERCENT else ():
         axis.set_ylim(0, None)
     time_axis(axes, subjects)
@@ -265,26 +265,24 @@ def debris(drawing: Drawing, subjects: list[Subject]) -> list[Any]:
     there = [name for name in PARTS if is_there[name]]
     kept = [name for name in there if name != "emitted"]
     line = "worn off" + (", or back from plateaus that broke away" if is_there["returned"] else "")
-    columns, figures = min(len(subjects), drawing.columns(3)), list[Any]()
-    for first in range(0, len(subjects), columns):
-        figure, axes = drawing.panels(2 * columns, 49, "Balance of the wear debris", columns, sharex=True, sharey="row")
+    most, figures = drawing.columns(3), list[Any]()
+    for first in range(0, len(subjects), most):
+        page = [*zip(subjects, every, strict=True)][first : first + most]
+        figure, axes = drawing.panels(2 * len(page), 49, "Balance of the wear debris", len(page), sharex=True, sharey="row")
         time_axis(axes, subjects)
-        for names, sums, title, row in ((there, SOURCES, "debris", axes[:columns]), (kept, kept, "not emitted", axes[columns:])):
+        for names, sums, title, row in ((there, SOURCES, "debris", axes[: len(page)]), (kept, kept, "not emitted", axes[len(page) :])):
             highest = max(parts[[*sums]].sum(axis=1).max() for parts in every)
             unit, labels = unit_of("m3", highest), [SERIES[name].title.removesuffix(" of the simulated pin") for name in names]
             row[0].set(ylim=(0, 1.05 * unit.value(highest) or 1), ylabel=f"{title}, {unit.symbol}")
-            for axis in row[len(subjects) - first :]:
-                axis.set_visible(False)
-            for axis, subject, parts in zip(row, subjects[first:], every[first:], strict=False):
+            for axis, (subject, parts) in zip(row, page, strict=True):
                 shown = parts.iloc[np.append(np.arange(0, len(parts) - 1, math.ceil(len(parts) / MOST)), len(parts) - 1)]
                 at = time_of(subjects).value(shown.index)
                 if names:
                     axis.stackplot(at, unit.value(shown[names].T), colors=[PARTS[name] for name in names], labels=labels, linewidth=0)
                 if names is there:
                     axis.plot(at, unit.value(shown[[*sums]].sum(axis=1)), color="black", label=line)
-                    axis.set_title("" if drawing.only else wrapped(subject.label, 90 // columns), loc="left")
-        for axis in axes:
-            axis.label_outer()
+                    axis.set_title("" if drawing.only else wrapped(subject.label, 90 // len(page)))
+                axis.label_outer()
         note = "Sums since the start: debris that was deposited, worn off and deposited again counts twice"
         figures += drawing.explained(figure, axes[0], note, reverse=True)
     return figures
@@ -308,8 +306,7 @@ def emission(drawing: Drawing, subjects: list[Subject]) -> list[Any]:
         unit = in_powers(prefix + ("m-1" if is_road else "s-1"), np.concatenate([values for _, values in drawn]))
         for line, values in drawn:
             axis.plot(time_of(subjects).value(values.index), unit.value(values), drawstyle="default" if is_road else "steps-post", **line)
-        axis.set(ylim=(0, None), ylabel=f"{'emission factor' if is_road else 'rate'}, {unit.symbol}")
-        axis.set_title(title, loc="left")
+        axis.set(title=title, ylim=(0, None), ylabel=f"{'emission factor' if is_road else 'rate'}, {unit.symbol}")
     time_axis(axes, subjects)
     # The area of the mesh is that in contact over the part that this is of it.
     areas = [] if whose else [MM2.value(one.values("contact_area").max() / (one.values("contact_ratio").max() or math.nan)) for one in subjects]

@@ -114,7 +114,7 @@ def _map(figure: Any, place: Any, surface: Surface, scale: Scale) -> None:
     missing = 1.0 - surface.told["measured"] / surface.told["points"]
     said = [wrapped(surface.told["title"], 36)] + ([f"grey: no height, {100 * missing:.3g} %"] if missing else [])
     said += [f"{'y' if stretch > 1 else 'x'} stretched {max(stretch, 1 / stretch):.3g} times"] if stretch != 1 else []
-    bar.ax.set_title("\n".join(said), loc="left")
+    bar.ax.set_title("\n".join(said))
 
 
 def _distribution(axis: Any, surface: Surface, scale: Scale) -> None:
@@ -125,7 +125,7 @@ def _distribution(axis: Any, surface: Surface, scale: Scale) -> None:
     axis.stairs(parts, edges, orientation="horizontal", color=LINES[0], linewidth=0.6)
     axis.set(xlim=(0, None), ylim=scale.heights, xlabel="points per class, %", ylabel=f"height, {scale.height.symbol}")
     said = f"\nbeyond axis: {100 - parts.sum():.2g} %" if parts.sum() < 100 - 1e-9 else ""
-    axis.set_title(f"{surface.text('Sq', 'Ssk')}\n{surface.text('Sku', 'Sp', 'Sv')}{said}", fontsize=7, loc="left")
+    axis.set_title(f"{surface.text('Sq', 'Ssk')}\n{surface.text('Sku', 'Sp', 'Sv')}{said}", fontsize=7)
 
 
 def _material_ratio(axis: Any, surface: Surface, scale: Scale) -> None:
@@ -138,7 +138,7 @@ def _material_ratio(axis: Any, surface: Surface, scale: Scale) -> None:
     axis.plot(np.linspace(0, 100, len(surface.curve)), scale.height.value(surface.curve), linewidth=1.4)
     axis.set(xlim=(0, 100), ylim=scale.heights, xlabel="material ratio, %")
     axis.tick_params(labelleft=False)
-    axis.set_title(f"{surface.text('Sk')}\n{surface.text('Spk', 'Svk')}\n{surface.text('Smr1', 'Smr2')}", fontsize=7, loc="left")
+    axis.set_title(f"{surface.text('Sk')}\n{surface.text('Spk', 'Svk')}\n{surface.text('Smr1', 'Smr2')}", fontsize=7)
 
 
 def _power(axis: Any, surface: Surface, scale: Scale) -> None:
@@ -164,7 +164,7 @@ def _correlation(axis: Any, surface: Surface, scale: Scale) -> None:
     shortest, least = scale.length.value(surface.value("Sal")), axis.get_ylim()[0]
     axis.plot([0, shortest, shortest], [DECAYED, DECAYED, least], ":", color="black")
     axis.set(xlim=(0, scale.lags), ylim=(least, 1.05), xlabel=f"lag, {scale.length.symbol}", ylabel="autocorrelation")
-    axis.set_title(surface.text("Sal", "Str"), fontsize=7, loc="left")
+    axis.set_title(surface.text("Sal", "Str"), fontsize=7)
 
 
 def _reliefs(page: list[tuple[Surface, Scale]]) -> Any:
@@ -185,7 +185,7 @@ def _reliefs(page: list[tuple[Surface, Scale]]) -> Any:
         axis.set_box_aspect((max(part, 0.5 * y), y, 0.35 * y), zoom=0.8)
         axis.locator_params(nbins=4, steps=[1, 2, 5, 10])
         axis.xaxis.labelpad = 8
-        axis.set_title(wrapped(surface.told["title"], 40), y=0.95)
+        axis.set_title(wrapped(surface.told["title"], 40), loc="center", y=0.95)
     return figure
 
 

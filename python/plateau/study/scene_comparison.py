@@ -144,8 +144,7 @@ class Comparison:
                 below.plot(time, change, **style)
                 below.fill_between(time, low, high, **band)
             # Titles of series are longer than the axis.
-            top.set_title(wrapped(name, 46), loc="left")
-            top.set(ylabel=labelled("mean", unit.symbol))
+            top.set(title=wrapped(name, 46), ylabel=labelled("mean", unit.symbol))
             below.set(xlabel=labelled("time", of_time.symbol), ylabel=labelled("difference", unit.of_differences.replace("%", "points")))
             below.axhline(0.0, color=QUIET, linewidth=0.6)
             figure.legend(*top.get_legend_handles_labels(), loc="outside upper left", ncols=2, columnspacing=1.0)
