@@ -426,7 +426,7 @@ fn smaller_than_cells(measured: &Measured) -> Option<(Vec<String>, String)> {
     ];
     let note = format!(
         "it is {is}, less than {cells} of {CELL} um, and the scene does not run as it is: take a cell_size of at most {most}, or \
-         measure a larger area. If this is not its size, correct it with pixel of [disc.prepare]"
+         measure a larger area. If this is not its size, correct the pitch in the file"
     );
     Some((lines, note))
 }
