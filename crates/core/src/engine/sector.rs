@@ -164,6 +164,12 @@ impl Partition {
         (sector + self.sectors() - 1) % self.sectors()
     }
 
+    /// Kinds of messages that cross boundaries between workers, times these boundaries: of each band of a sector what lies ahead of its
+    /// lower boundary, and the column that turns across it.
+    pub fn messages(&self) -> usize {
+        if self.groups() > 1 { 2 * self.sectors() * self.bands } else { 0 }
+    }
+
     /// The columns of a sector.
     pub fn columns(&self, sector: usize) -> Range<usize> {
         self.starts[sector]..self.starts[sector + 1]

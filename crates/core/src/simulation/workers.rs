@@ -71,12 +71,12 @@ impl Workers {
             return Ok(Self::One(Box::new(worker)));
         }
         let halo_words = halo_words(parameters.mesh.rows(), Needs::of(parameters));
-        let messages = if partition.groups() > 1 { 2 * partition.sectors() * partition.bands() } else { 0 };
         let worker = |end: Threads| {
             let alarm = end.alarm();
             (Worker::new(parameters.clone(), &surfaces, partition.clone(), execution, turned, end), alarm)
         };
-        let workers = Threads::connect(execution.workers, messages, halo_words).into_iter().map(worker).collect();
+        let workers =
+            Threads::connect(execution.workers, partition.messages(), halo_words).into_iter().map(worker).collect();
         let refused =
             |error: std::io::Error| SimulationError::Threads { workers: execution.workers, message: error.to_string() };
         let threads = WorkerThreads::start(workers, execution.pin).map_err(refused)?;

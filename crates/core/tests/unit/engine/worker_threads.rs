@@ -90,8 +90,7 @@ fn start(rank: usize, fault: Option<Fault>) -> (WorkerThreads, Arc<()>) {
         let execution = Execution { instructions: InstructionSet::PORTABLE, ..Execution::default() };
         (Worker::new(parameters.clone(), &surfaces, partition.clone(), execution, 0, faulty), alarm)
     };
-    let threads =
-        Threads::connect(WORKERS, partition.sectors() * partition.bands(), PinStrips::crossing_words(mesh.rows()));
+    let threads = Threads::connect(WORKERS, partition.messages(), PinStrips::crossing_words(mesh.rows()));
     let workers = threads.into_iter().map(worker).collect();
     (WorkerThreads::start(workers, false).unwrap(), alive)
 }
