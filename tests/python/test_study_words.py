@@ -430,8 +430,7 @@ class Folders(unittest.TestCase):
             (self.folder / name).write_text("before")
             (self.folder / name).chmod(0o640)
         put(self.folder / "put", b"after")
-        with all_or_none(self.folder, ["together"], True) as [place]:
-            place.write_text("after")
+        all_or_none(self.folder, {"together": lambda place: place.write_text("after")}, True)
         for name in ("put", "together"):
             self.assertEqual(((self.folder / name).stat().st_mode & 0o777, (self.folder / name).read_text()), (0o640, "after"), name)
 
