@@ -88,13 +88,13 @@ impl Request<'_> {
         under_way: &mut UnderWay<'_>,
         of: &mut Option<Identity>,
     ) -> Result<Outcome, Ended> {
-        let found = self.shared.find(self.scene, self.expected);
+        let found = self.shared.find(self.scene);
         let is_found = found.is_some();
         let loaded = found.map_or_else(|| surfaces(self.scene, watcher, under_way).map(Arc::new), Ok)?;
         watcher.surfaces(self.scene, &loaded);
         let read = of.insert(Identity::of(self.scene, &loaded.inputs));
         if !is_found {
-            self.shared.keep(self.scene, read, &loaded);
+            self.shared.keep(self.scene, &loaded);
         }
         if read != self.expected {
             under_way.is_another();

@@ -1,12 +1,12 @@
-//! Surfaces that several runs of a study have in common, made once.
+//! Surfaces that several runs of a study have in common, made once. Those of files are read for each run: a file that is replaced
+//! meanwhile must show.
 
-use std::collections::{BTreeMap, VecDeque};
+use std::collections::VecDeque;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use plateau_core::model::mesh::Mesh;
 use plateau_core::model::state::{Base, InitialSurfaces};
 use plateau_io::scene::{BaseSource, HeightSettings, Scene};
-use plateau_io::study::record::Identity;
 use plateau_io::surface::Loaded;
 
 /// Most bytes of surfaces that are kept: those of some thirty runs on the paper's mesh.
@@ -25,12 +25,10 @@ struct Recipe {
     resin_recess: f64,
     base: BaseSource,
     is_mirrored: bool,
-    /// Digests of the files, by what they are for.
-    files: BTreeMap<String, String>,
 }
 
 impl Recipe {
-    fn of(scene: &Scene, identity: &Identity) -> Self {
+    fn of(scene: &Scene) -> Self {
         Self {
             mesh: scene.parameters.mesh.clone(),
             disc: scene.disc_surface.clone(),
@@ -38,23 +36,25 @@ impl Recipe {
             resin_recess: scene.resin_recess,
             base: scene.pin_base.clone(),
             is_mirrored: scene.pin_base_mirror,
-            files: identity.files.clone(),
         }
     }
 }
 
 impl SharedSurfaces {
-    /// The surfaces of a run of this identity, if another run had the same.
-    pub fn find(&self, scene: &Scene, identity: &Identity) -> Option<Arc<Loaded>> {
-        let recipe = Recipe::of(scene, identity);
+    /// The surfaces of a scene, if another run had the same.
+    pub fn find(&self, scene: &Scene) -> Option<Arc<Loaded>> {
+        let recipe = Recipe::of(scene);
         let kept = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         kept.iter().find(|(of, _)| *of == recipe).map(|(_, loaded)| Arc::clone(loaded))
     }
 
-    /// Keeps the surfaces of a run of this identity for other runs, and lets go of the oldest.
-    pub fn keep(&self, scene: &Scene, identity: &Identity, loaded: &Arc<Loaded>) {
+    /// Keeps the surfaces of a scene for other runs, unless a file was read for them, and lets go of the oldest.
+    pub fn keep(&self, scene: &Scene, loaded: &Arc<Loaded>) {
+        if !loaded.inputs.is_empty() {
+            return;
+        }
         let mut kept = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        kept.push_back((Recipe::of(scene, identity), Arc::clone(loaded)));
+        kept.push_back((Recipe::of(scene), Arc::clone(loaded)));
         let mut bytes: usize = kept.iter().map(|(_, loaded)| size(&loaded.surfaces)).sum();
         while bytes > MOST_BYTES {
             let Some((_, oldest)) = kept.pop_front() else { break };
