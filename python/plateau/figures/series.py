@@ -87,7 +87,6 @@ def weighted(line: Any, duration: float, whole: float) -> Any:
         return line
 
     def around(at: int) -> Any:
-        # As many values before as behind, so the line ends earlier.
         reach = min(beside - 1, at)
         return np.average(line.to_numpy()[at - reach : at + reach + 1], axis=0, weights=np.bartlett(2 * reach + 3)[1:-1])
 

@@ -35,12 +35,11 @@ impl<C: Communicator> Worker<C> {
         let first = self.first();
         self.fetch_entering(&partition, first);
         let segments: Vec<Segment> = partition.segments_of(self.group, first).collect();
-        if partition.groups() == 1 {
-            self.pass_over_all(&segments, bracket);
-        } else {
-            self.pass_over_apart(&partition, &segments, bracket)?;
-        }
+        self.pass_over_segments(&partition, &segments, bracket)?;
         for entering in partition.entering(first) {
+            if self.sectors[entering.sector].is_some() && self.sectors[entering.from].is_none() {
+                self.take_over(entering.from, entering.pin)?;
+            }
             let Some(sector) = &self.sectors[entering.sector] else { continue };
             let span = Span { first: entering.pin, over: entering.over, columns: 1 };
             (self.read)(self.instructions, &mut self.pin, sector, span, &bracket, &mut self.reading);
@@ -48,21 +47,12 @@ impl<C: Communicator> Worker<C> {
         Ok(bracket)
     }
 
-    /// Passes over segments that follow each other, all of them the worker's own.
-    fn pass_over_all(&mut self, segments: &[Segment], bracket: Bracket) {
-        for (number, segment) in segments.iter().enumerate() {
-            // The next segment has not changed yet.
-            let ahead = segments.get(number + 1).and_then(|next| self.edge_of(next, bracket));
-            self.pass_over_segment(segment, bracket, ahead.as_ref());
-        }
-    }
-
-    /// Passes over segments whose neighbours belong to others.
+    /// Passes over the worker's segments, whose neighbours may belong to others.
     ///
     /// What the first columns of a segment mean to the cells behind them (model 4L) is found and told first, from the state at the
     /// start of the step. So each segment is passed over in one go. The pin column over the first disc column of a sector lies over
     /// the sector before in the next step, and is handed on after that.
-    fn pass_over_apart(
+    fn pass_over_segments(
         &mut self,
         partition: &Partition,
         segments: &[Segment],
@@ -82,11 +72,6 @@ impl<C: Communicator> Worker<C> {
                 self.edges[next] = ahead;
             }
             self.hand_on(segment)?;
-        }
-        for entering in partition.entering(self.first()) {
-            if self.sectors[entering.sector].is_some() && self.sectors[entering.from].is_none() {
-                self.take_over(entering.from, entering.pin)?;
-            }
         }
         Ok(())
     }
