@@ -9,7 +9,7 @@ class Plateau(CargoPackage):
     """Contact area, contact pressure, topography and secondary plateaus of a brake pin on a rough, coated disc, by a cellular automaton."""
 
     # The clone that has this recipe: the source comes from it, wherever it is.
-    git = f"file://{Path(__file__).resolve().parents[4]}"
+    git = f"file://{Path(__file__).resolve().parents[6]}"
 
     license("MIT OR Apache-2.0")
 
@@ -20,7 +20,8 @@ class Plateau(CargoPackage):
     variant("system_hdf5", default=True, description="Links the HDF5 of Spack in place of one of its own")
 
     depends_on("c", type="build")
-    depends_on("rust@1.94:", type="build")
+    # Not `master` and `nightly`, which are above all numbers.
+    depends_on("rust@1.94:1", type="build")
     depends_on("hdf5~mpi", when="+system_hdf5")
     depends_on("pkgconfig", type="build", when="+system_hdf5")
     depends_on("cmake@3.26:", type="build", when="~system_hdf5")
@@ -41,6 +42,10 @@ class Plateau(CargoPackage):
         return args
 
     def setup_build_environment(self, env: EnvironmentModifications) -> None:
+        # The folder that Spack makes in the source, `out`, is no change of it: `plateau --version` tells of changes.
+        env.set("GIT_CONFIG_COUNT", "1")
+        env.set("GIT_CONFIG_KEY_0", "status.showUntrackedFiles")
+        env.set("GIT_CONFIG_VALUE_0", "no")
         if self.spec.satisfies("+system_hdf5"):
             env.set("HDF5_DIR", self.spec["hdf5"].prefix)
         if self.spec.satisfies("+mpi"):
