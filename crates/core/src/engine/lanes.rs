@@ -20,6 +20,9 @@ pub(crate) use whole::Avx512;
 /// Rows of a strip, which the kernels do at a time.
 pub const LANES: usize = 8;
 
+/// Bytes of which a processor tells at a time which are set.
+pub const BYTES: usize = 32;
+
 /// Eight numbers of one strip in one column.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[repr(C, align(64))]
@@ -86,6 +89,8 @@ pub(crate) trait Lanes: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Out
     fn select(mask: Self::Mask, yes: Self, no: Self) -> Self;
     /// Their bits as integers.
     fn bits(self) -> Self::Integers;
+    /// Which of so many bytes, with a bit for each row, have one of these rows set, the first byte lowest.
+    fn some_of(bytes: &[u8; BYTES]) -> u32;
 
     /// Sums where the mask says so, else as they are.
     #[inline(always)]
@@ -237,5 +242,10 @@ impl Lanes for Portable {
     #[inline(always)]
     fn bits(self) -> Words {
         Words(self.0.map(|value| value.to_bits() as i64))
+    }
+
+    #[inline(always)]
+    fn some_of(bytes: &[u8; BYTES]) -> u32 {
+        bytes.iter().rev().fold(0, |some, byte| some << 1 | u32::from(*byte != 0))
     }
 }

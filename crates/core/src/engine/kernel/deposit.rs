@@ -1,31 +1,29 @@
 //! Debris: what cells that touch lose fills the gaps behind them (model 4L).
 //!
 //! Between an open cell and one that touches ahead of it is an edge. What is lost within L columns ahead of it comes upon the open
-//! cells within L columns behind it; without a transport length L is one column. Heights change before any cell of a strip wears:
-//! the columns ahead of edges are worn in passing. From the bytes that tell which cells touch, columns with something to do are
-//! listed first: a branch that goes either way costs more.
+//! cells within L columns behind it; without a transport length L is one column, the gaps of a strip are filled before any of its
+//! cells wears, and only the columns ahead of edges are worn in passing. With one, all that touches is worn first, for most of it
+//! is near an edge. From the bytes that tell which cells touch, columns with something to do are listed first: a branch that goes
+//! either way costs more.
 
 use super::edge::{Edge, Edges, Reach};
 use super::instructions::{InstructionSet, kernel, with_build_up};
-use super::moved::{Moved, SeldomEvent, add};
+use super::moved::{Moved, SeldomEvent, StripMoved, add};
 use super::pairs::lanes_of;
 use super::read::Span;
 use super::rules::{Conditions, Rules, StripRules};
 use super::strip::Strip;
 use super::worn::wear;
-use super::worn_column::wear_ordinary_column;
-use crate::engine::lanes::{Chunk, Integers, LANES, Lanes, Mask};
+use super::worn_column::{store_worn, wear_and_note, wear_ordinary_column};
+use crate::engine::lanes::{BYTES, Chunk, Integers, LANES, Lanes, Mask};
 use crate::engine::parts::{Needs, build_up};
 use crate::engine::strips::{DiscSector, PinStrips};
-
-/// Columns that are looked up at a time: a word of bytes.
-const COLUMNS: usize = 8;
 
 /// Columns ahead of an edge that are looked at whether their cells touch or not.
 const NEAR: usize = 4;
 
 kernel! {
-    /// Fills the gaps of a strip of a span, of which no column has been worn.
+    /// Fills the gaps of a strip of a span, of which no column has been worn; with a transport length wears it, too.
     pub fn deposit<const BUILD_UP: u8, const DISC_WEARS: bool, const TRANSPORT: bool>(
         rules: &Rules,
         conditions: &Conditions,
@@ -76,31 +74,36 @@ fn deposit_on_rows<L: Lanes, const BUILD_UP: u8, const DISC_WEARS: bool, const T
     let (index, columns) = (strip.index, strip.disc_height.len());
     let rules = &StripRules::<L>::new(rules, conditions, index);
     if TRANSPORT {
-        edges.wear::<L, BUILD_UP, DISC_WEARS>(rules, strip, ahead);
-        edges.gather(rules, columns, ahead);
+        edges.wear::<L, BUILD_UP, DISC_WEARS>(rules, strip, ahead, moved);
     }
     let mut deposits = Deposits::<L>::new();
-    let count = list::<L>(&mut edges.listed, &edges.fed, columns, if TRANSPORT { COLUMNS } else { 4 });
+    let count = list::<L>(&mut edges.listed, &edges.fed, columns);
+    if TRANSPORT {
+        edges.gather::<L>(rules, count, ahead);
+    }
     let fed = &edges.fed[..columns];
-    let (shares, heights) =
-        if TRANSPORT { (&edges.share[..columns], &edges.height[..=columns]) } else { Default::default() };
-    for column in &edges.listed[..count] {
+    let (shares, plateaus) =
+        if TRANSPORT { (&edges.share[..count], &edges.plateau[..columns]) } else { Default::default() };
+    for (place, column) in edges.listed[..count].iter().enumerate() {
         let column = *column as usize;
         if column >= columns {
             break;
         }
-        let rows = fed[column] & strip.present(column) & L::ROWS;
+        let rows = fed[column] & L::ROWS;
         let mut of_resin = 0;
         let next = if TRANSPORT {
-            // An open cell ahead has not been filled.
+            // What touches ahead is worn, and what is open there has not been filled.
             let next = (column + 1).min(columns - 1);
-            let (z_p, plateaus) = (L::load(&strip.pin.height[next]), L::Mask::of_byte(strip.pin.plateau[next]));
-            let open = L::select(plateaus, z_p, L::splat(f64::INFINITY));
-            let worn = if column < next { edges.touches[next] } else { u8::MAX };
-            [L::load(&shares[column]), L::select(L::Mask::of_byte(worn), L::load(&heights[column + 1]), open)]
+            let height = if column < next {
+                let plateaus = L::Mask::of_byte(plateaus[next]);
+                L::select(plateaus, L::load(&strip.pin.height[next]), L::splat(f64::INFINITY))
+            } else {
+                L::load(&ahead.height)
+            };
+            [L::load(&shares[place]), height]
         } else if column + 1 < columns {
             of_resin = rows & !strip.pin.plateau[column + 1];
-            worn_ahead::<L, BUILD_UP, DISC_WEARS, TRANSPORT>(rules, strip, column + 1)
+            worn_ahead::<L, BUILD_UP, DISC_WEARS>(rules, strip, column + 1)
         } else {
             let height = L::load(&ahead.height);
             of_resin = rows & height.at_least(L::splat(f64::INFINITY)).byte();
@@ -112,32 +115,41 @@ fn deposit_on_rows<L: Lanes, const BUILD_UP: u8, const DISC_WEARS: bool, const T
     add::<L>(&mut moved.deposited_disc.0[index], rules.deposits(deposits.on_discs, deposits.terms));
 }
 
-/// The bytes of eight columns from `first` on.
-#[inline(always)]
-fn word(bytes: &[u8], first: usize) -> u64 {
-    bytes.get(first..).and_then(|bytes| bytes.first_chunk()).map_or(0, |bytes| u64::from_le_bytes(*bytes))
-}
-
-/// Lists the columns in which a bit of the lanes' rows is set, of so many, and returns how many there are; `few` of eight, without
-/// a branch for each, are most.
-#[inline(always)]
-fn list<L: Lanes>(listed: &mut Vec<u32>, bytes: &[u8], columns: usize, few: usize) -> usize {
-    listed.resize(bytes.len() + COLUMNS, 0);
-    let mut count = 0;
-    for first in (0..columns).step_by(COLUMNS) {
-        let mut some = some_of(word(bytes, first) & u64::from_le_bytes([L::ROWS; COLUMNS]));
-        let (places, all) = (&mut listed[count..][..COLUMNS], some.count_ones() as usize);
-        for place in &mut places[..few] {
-            *place = first as u32 + some.trailing_zeros() / u8::BITS;
-            some &= some.wrapping_sub(1);
-        }
-        if all > few {
-            for place in &mut places[few..] {
-                *place = first as u32 + some.trailing_zeros() / u8::BITS;
-                some &= some.wrapping_sub(1);
+/// Where the set bits of each byte are, in ascending order.
+static SET_BITS: [[u32; 8]; 256] = {
+    let mut places = [[0; 8]; 256];
+    let mut byte = 0;
+    while byte < 256 {
+        let (mut bit, mut count) = (0, 0);
+        while bit < 8 {
+            if byte >> bit & 1 == 1 {
+                places[byte][count] = bit as u32;
+                count += 1;
             }
+            bit += 1;
         }
-        count += all;
+        byte += 1;
+    }
+    places
+};
+
+/// Lists the columns in which a bit of the lanes' rows is set, of so many, and returns how many there are; the bytes fill up
+/// what is looked at at a time.
+#[inline(always)]
+fn list<L: Lanes>(listed: &mut Vec<u32>, bytes: &[u8], columns: usize) -> usize {
+    let bytes = &bytes.as_chunks().0[..columns.div_ceil(BYTES)];
+    listed.resize((bytes.len() + 1) * BYTES, 0);
+    let (mut first, mut count) = (0, 0);
+    for bytes in bytes {
+        for some in L::some_of(bytes).to_le_bytes() {
+            let mut columns = SET_BITS[some as usize];
+            for column in &mut columns {
+                *column += first;
+            }
+            listed[count..][..8].copy_from_slice(&columns);
+            first += 8;
+            count += some.count_ones() as usize;
+        }
     }
     while count > 0 && listed[count - 1] as usize >= columns {
         count -= 1;
@@ -145,30 +157,21 @@ fn list<L: Lanes>(listed: &mut Vec<u32>, bytes: &[u8], columns: usize, few: usiz
     count
 }
 
-/// The highest bit of each byte in which one is set.
+/// Wears a column in passing: what its cells lose and may be compacted, m, and z_p of those that touch after it, m, out of reach
+/// where there is no plateau.
 #[inline(always)]
-fn some_of(word: u64) -> u64 {
-    const LOW: u64 = u64::from_le_bytes([0x7f; COLUMNS]);
-    (((word & LOW) + LOW) | word) & !LOW
-}
-
-/// Wears a column in passing: what its cells lose, as far as it may be compacted, m, and z_p of those that touch after it, m, out of
-/// reach where there is no plateau.
-#[inline(always)]
-fn worn_ahead<L: Lanes, const BUILD_UP: u8, const DISC_WEARS: bool, const TRANSPORT: bool>(
+fn worn_ahead<L: Lanes, const BUILD_UP: u8, const DISC_WEARS: bool>(
     rules: &StripRules<L>,
     strip: &Strip,
     column: usize,
 ) -> [L; 2] {
     if let Some(worn) = wear_ordinary_column::<L, BUILD_UP, DISC_WEARS>(rules, strip, column) {
         // No resin that touches is among these.
-        let lost = worn.lost::<DISC_WEARS>(false);
-        return [if TRANSPORT { lost } else { rules.captured(lost) }, worn.z_p];
+        return [rules.captured(worn.lost::<DISC_WEARS>(false)), worn.z_p];
     }
     let worn = wear::<L, BUILD_UP, DISC_WEARS>(rules, strip.cells::<L, BUILD_UP, DISC_WEARS>(column));
-    let lost = worn.lost::<DISC_WEARS>(TRANSPORT);
-    let lost = if TRANSPORT { lost } else { rules.captured(lost) + rules.captured_of_resin().only(worn.resin) };
-    [lost, L::select(worn.resin, L::splat(f64::INFINITY), worn.height())]
+    let lost = rules.captured(worn.lost::<DISC_WEARS>(false)) + rules.captured_of_resin().only(worn.resin);
+    [lost, worn.height_of_plateaus()]
 }
 
 impl Edges {
@@ -179,81 +182,82 @@ impl Edges {
         self.touches.clear();
         self.touches.extend_from_slice(&strip.pin.touches[..columns]);
         self.touches.extend_from_slice(&ahead.touches);
-        let reach = ahead.touches.len();
-        // Whole words are looked at, and those up to L columns ahead.
-        let words = columns.div_ceil(COLUMNS) * COLUMNS;
-        self.touches.resize(words + reach + COLUMNS, 0);
-        self.open.resize(words, 0);
-        self.fed.resize(words, 0);
-        for first in (0..words).step_by(COLUMNS) {
-            let (open, touching) = (!word(&self.touches, first), word(&self.touches, first + 1));
-            let within_reach = (2..=reach).fold(touching, |within, ahead| within | word(&self.touches, first + ahead));
-            self.open[first..][..COLUMNS].copy_from_slice(&(open & touching).to_le_bytes());
-            self.fed[first..][..COLUMNS].copy_from_slice(&(open & within_reach).to_le_bytes());
+        let bytes = columns.div_ceil(BYTES) * BYTES;
+        self.touches.resize(bytes + ahead.touches.len(), 0);
+        self.open.resize(bytes, 0);
+        self.fed.resize(bytes, 0);
+        let Self { touches, open, fed, .. } = self;
+        // A compiler makes wide loops of these.
+        for (fed, touches) in fed.iter_mut().zip(&touches[1..]) {
+            *fed = *touches;
+        }
+        for ahead in 2..=ahead.touches.len() {
+            for (fed, touches) in fed.iter_mut().zip(&touches[ahead..]) {
+                *fed |= touches;
+            }
+        }
+        for (((open, fed), own), next) in open.iter_mut().zip(fed.iter_mut()).zip(&touches[..]).zip(&touches[1..]) {
+            *open = !own & next;
+            *fed &= !own;
+        }
+        // No cell that is not there is filled.
+        for (fed, present) in fed.iter_mut().zip(strip.pin.present) {
+            *fed &= present;
         }
     }
 
-    /// Wears the columns in which something touches.
+    /// Wears what touches, and keeps what it loses.
     #[inline(always)]
     pub fn wear<L: Lanes, const BUILD_UP: u8, const DISC_WEARS: bool>(
         &mut self,
         rules: &StripRules<L>,
-        strip: &Strip,
+        strip: &mut Strip,
         ahead: &Reach,
+        moved: &mut Moved,
     ) {
         let columns = strip.disc_height.len();
         self.lost.resize(columns, ahead.height);
         self.lost.extend_from_slice(&ahead.lost);
-        self.height.resize(columns, ahead.height);
-        self.height.push(ahead.height);
-        let count = list::<L>(&mut self.listed, &self.touches, columns, COLUMNS);
-        let (lost, height) = (&mut self.lost[..columns], &mut self.height[..columns]);
+        self.plateau.clear();
+        self.plateau.extend_from_slice(&strip.pin.plateau[..columns]);
+        let count = list::<L>(&mut self.listed, &self.touches, columns);
+        let lost = &mut self.lost[..columns];
+        let mut strip_moved = StripMoved::<L>::new();
         for column in &self.listed[..count] {
             let column = *column as usize;
             if column >= columns {
                 break;
             }
-            let worn = worn_ahead::<L, BUILD_UP, DISC_WEARS, true>(rules, strip, column);
-            worn[0].store(&mut lost[column]);
-            worn[1].store(&mut height[column]);
+            let worn =
+                wear_and_note::<L, BUILD_UP, DISC_WEARS>(rules, strip, column, &mut strip_moved, &mut moved.seldom);
+            worn.lost::<DISC_WEARS>(true).store(&mut lost[column]);
+            store_worn::<L, BUILD_UP, DISC_WEARS>(strip, column, &worn);
         }
+        strip_moved.store::<BUILD_UP, DISC_WEARS>(rules, strip.index, count, moved);
     }
 
-    /// Gathers what is lost ahead of edges, and shares it among the cells that they feed.
+    /// Gathers what is lost ahead of edges, for the so many listed columns that they feed: each cell is fed from the nearest.
     #[inline(always)]
-    fn gather<L: Lanes>(&mut self, rules: &StripRules<L>, columns: usize, ahead: &Reach) {
+    fn gather<L: Lanes>(&mut self, rules: &StripRules<L>, count: usize, ahead: &Reach) {
         let reach = rules.rules.reach;
-        self.share.resize(columns, ahead.share);
-        // Nearer edges, which come later, take the place of this.
-        self.share[columns.saturating_sub(reach)..].fill(ahead.share);
-        let count = list::<L>(&mut self.listed, &self.open, columns, 4);
-        for place in (0..count).rev() {
-            let column = self.listed[place] as usize;
-            let share = self.gathered(rules, self.open[column], column + 1);
-            let edges = L::Mask::of_byte(self.open[column]);
-            for chunk in &mut self.share[(column + 1).saturating_sub(reach)..=column] {
-                L::select(edges, share, L::load(chunk)).store(chunk);
-            }
-        }
-    }
-
-    /// v̄ of edges, m, of which some cells of this column are the next that touch.
-    #[inline(always)]
-    fn gathered<L: Lanes>(&self, rules: &StripRules<L>, mut run: u8, column: usize) -> L {
-        let reach = rules.rules.reach;
-        let (touches, lost) = (&self.touches[column..][..reach], &self.lost[column..][..reach]);
-        let mut sum = L::load(&lost[0]);
-        for next in 1..reach {
-            run &= touches[next];
-            if next >= NEAR && run == 0 {
+        self.share.resize(count, ahead.share);
+        self.listed.truncate(count);
+        let mut nearest = L::load(&ahead.share);
+        for (column, share) in self.listed.iter().zip(&mut self.share).rev() {
+            let column = *column as usize;
+            let next = column + 1..column + 1 + reach;
+            let (Some(open), Some(touches), Some(lost)) =
+                (self.open.get(column), self.touches.get(next.clone()), self.lost.get(next))
+            else {
                 break;
-            }
-            sum = sum + L::load(&lost[next]).only(L::Mask::of_byte(run));
+            };
+            let edges = open & L::ROWS;
+            nearest = L::select(L::Mask::of_byte(edges), gathered(rules, edges, touches, lost), nearest);
+            nearest.store(share);
         }
-        sum * L::splat(rules.rules.transport_part)
     }
 
-    /// Finds what the first column means to the one behind it.
+    /// Finds what the first column means to the one behind it, from the state at the start of the step.
     #[inline(always)]
     pub fn find_reach<L: Lanes, const BUILD_UP: u8, const DISC_WEARS: bool>(
         &mut self,
@@ -262,25 +266,46 @@ impl Edges {
         reach: &mut Reach,
     ) {
         let columns = rules.rules.reach;
-        let cells = strip.cells::<L, BUILD_UP, DISC_WEARS>(0);
-        let worn = wear::<L, BUILD_UP, DISC_WEARS>(rules, cells);
-        L::select(worn.resin, L::splat(f64::INFINITY), worn.height()).store(&mut reach.height);
+        let worn = wear::<L, BUILD_UP, DISC_WEARS>(rules, strip.cells::<L, BUILD_UP, DISC_WEARS>(0));
+        worn.height_of_plateaus().store(&mut reach.height);
         reach.touches.copy_from_slice(&self.touches[..columns]);
         if rules.rules.transport.is_none() {
-            let [lost, _] = worn_ahead::<L, BUILD_UP, DISC_WEARS, false>(rules, strip, 0);
+            let [lost, _] = worn_ahead::<L, BUILD_UP, DISC_WEARS>(rules, strip, 0);
             lost.store(&mut reach.lost[0]);
             return;
         }
+        let own = strip.disc_height.len();
+        self.lost.resize(own, reach.height);
+        self.lost.extend_from_slice(&rules.rules.nothing_ahead.lost);
+        for column in 0..own {
+            let worn = wear::<L, BUILD_UP, DISC_WEARS>(rules, strip.cells::<L, BUILD_UP, DISC_WEARS>(column));
+            worn.lost::<DISC_WEARS>(true).store(&mut self.lost[column]);
+        }
         L::splat(0.0).store(&mut reach.share);
         let mut open = u8::MAX;
-        for next in 1..columns.min(strip.disc_height.len()) {
+        for next in 1..columns.min(own) {
             open &= !self.touches[next - 1];
             let edges = open & self.touches[next];
-            let share = self.gathered::<L>(rules, edges, next);
+            let share = gathered::<L>(rules, edges, &self.touches[next..][..columns], &self.lost[next..][..columns]);
             L::select(L::Mask::of_byte(edges), share, L::load(&reach.share)).store(&mut reach.share);
         }
         reach.lost.copy_from_slice(&self.lost[..columns]);
     }
+}
+
+/// v̄ of edges, m: those cells of the first of L columns, of which is given what touches and what it loses.
+#[inline(always)]
+fn gathered<L: Lanes>(rules: &StripRules<L>, mut run: u8, touches: &[u8], lost: &[Chunk]) -> L {
+    let lost = &lost[..touches.len()];
+    let mut sum = L::load(&lost[0]);
+    for next in 1..touches.len() {
+        run &= touches[next];
+        if next >= NEAR && run == 0 {
+            break;
+        }
+        sum = sum + L::load(&lost[next]).only(L::Mask::of_byte(run));
+    }
+    sum * L::splat(rules.rules.transport_part)
 }
 
 /// What is compacted on a strip, anchored.
@@ -437,9 +462,6 @@ fn edge_of_strips<L: Lanes, const BUILD_UP: u8, const DISC_WEARS: bool>(
         let strip_rules = StripRules::<L>::new(rules, conditions, index);
         let edges = &mut moved.edges;
         edges.take_touches(&strip, &rules.nothing_ahead);
-        if rules.transport.is_some() {
-            edges.wear::<L, BUILD_UP, DISC_WEARS>(&strip_rules, &strip, &rules.nothing_ahead);
-        }
         edges.find_reach::<L, BUILD_UP, DISC_WEARS>(&strip_rules, &strip, reach);
     }
 }

@@ -32,13 +32,12 @@ pub(super) struct Edges {
     pub fed: Vec<u8>,
     /// v of each of these columns, m; of no meaning where nothing touches.
     pub lost: Vec<Chunk>,
-    /// z_p of each column of the strip and of the next after wear and before any deposit, m, out of reach where there is no
-    /// plateau; of no meaning in a column of the strip in which nothing touches.
-    pub height: Vec<Chunk>,
-    /// v̄ of the edge that a cell is fed from, m.
-    pub share: Vec<Chunk>,
+    /// Which cells of the columns of the strip were plateaus at the start of the step, one bit each.
+    pub plateau: Vec<u8>,
     /// Columns of the strip with something to do.
     pub listed: Vec<u32>,
+    /// v̄ of the edge that a cell of each listed column is fed from, m.
+    pub share: Vec<Chunk>,
 }
 
 impl Edge {

@@ -117,6 +117,10 @@ pub(super) fn pair_of_lane(lane: usize, distinct: bool, [on_resin, pin_secondary
 }
 
 /// The lanes whose bit is set.
-pub(super) fn lanes_of(byte: u8) -> impl Iterator<Item = usize> {
-    (0..LANES).filter(move |lane| byte >> lane & 1 == 1)
+pub(super) fn lanes_of(mut byte: u8) -> impl Iterator<Item = usize> {
+    std::iter::from_fn(move || {
+        let lane = byte.trailing_zeros() as usize;
+        byte &= byte.wrapping_sub(1);
+        (lane < LANES).then_some(lane)
+    })
 }

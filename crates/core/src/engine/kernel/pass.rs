@@ -14,12 +14,12 @@ use super::instructions::{InstructionSet, kernel, with_build_up};
 use super::moved::{Moved, SeldomEvent, StripMoved};
 use super::ordinary::pass_over_ordinary;
 use super::pairs::Pairs;
-use super::read::Span;
+use super::read::{Span, read_span};
 use super::reading::{Reading, StripReading};
 use super::rules::{Conditions, Rules, StripRules};
-use super::strip::{Behind, Strip};
-use super::worn_column::{wear_and_note, wear_any_and_note};
-use crate::engine::lanes::{Lanes, Mask};
+use super::strip::Strip;
+use super::worn_column::{store_worn, wear_and_note, wear_any_and_note};
+use crate::engine::lanes::Lanes;
 use crate::engine::parts::{Needs, build_up};
 use crate::engine::strips::{DiscSector, PinStrips};
 
@@ -59,7 +59,12 @@ fn pass_over_span<const BUILD_UP: u8, const DISC_WEARS: bool, const TRANSPORT: b
         if BUILD_UP != build_up::NONE {
             deposit::<BUILD_UP, DISC_WEARS, TRANSPORT>(set, rules, conditions, pin, disc, span, strip, moved);
         }
-        wear_strip::<BUILD_UP, DISC_WEARS>(set, rules, conditions, pin, disc, span, strip, joined, moved, reading);
+        if TRANSPORT {
+            let turned = span.turned(pin.extent(strip, span.first..span.first + span.columns), joined);
+            read_span::<BUILD_UP>(set, pin, disc, turned, strip..strip + 1, &conditions.bracket, reading);
+        } else {
+            wear_strip::<BUILD_UP, DISC_WEARS>(set, rules, conditions, pin, disc, span, strip, joined, moved, reading);
+        }
     }
 }
 
@@ -95,28 +100,26 @@ fn pass_over_strip<L: Lanes, const BUILD_UP: u8, const DISC_WEARS: bool>(
     let strip_rules = StripRules::<L>::new(rules, conditions, index);
     let (mut strip_moved, mut next) = (StripMoved::<L>::new(), StripReading::<L, BUILD_UP>::new());
     let some = strip.extent.clone();
-    let mut behind = strip.behind::<L, BUILD_UP>(some.start);
     let mut unusual = 0;
     let mut column = some.start;
     while column < some.end {
-        if BUILD_UP != build_up::DISTINCT && rules.shortcut && unusual <= MOST_UNUSUAL {
+        if BUILD_UP != build_up::DISTINCT && rules.shortcut && column > some.start && unusual <= MOST_UNUSUAL {
             column = pass_over_ordinary::<L, BUILD_UP, DISC_WEARS>(
                 &strip_rules,
                 &mut strip,
                 column..some.end,
-                &mut behind,
                 &mut next,
+                reading,
             );
             if column == some.end {
                 break;
             }
             unusual += 1;
         }
-        behind = update::<L, BUILD_UP, DISC_WEARS>(
+        update::<L, BUILD_UP, DISC_WEARS>(
             &strip_rules,
             &mut strip,
             column,
-            behind,
             &mut strip_moved,
             &mut moved.seldom,
             &mut next,
@@ -128,45 +131,28 @@ fn pass_over_strip<L: Lanes, const BUILD_UP: u8, const DISC_WEARS: bool>(
     next.store(index, reading);
 }
 
-/// Wears the eight cells of a column, and reads what they do with what lies behind; returns what lies behind the next.
+/// Wears the eight cells of a column, and reads what they do with what lies behind.
 #[inline(always)]
-#[expect(clippy::too_many_arguments, reason = "what is summed stays in registers")]
 fn update<L: Lanes, const BUILD_UP: u8, const DISC_WEARS: bool>(
     rules: &StripRules<L>,
     strip: &mut Strip,
     column: usize,
-    behind: Behind<L>,
     moved: &mut StripMoved<L>,
     seldom: &mut Vec<SeldomEvent>,
     next: &mut StripReading<L, BUILD_UP>,
     reading: &mut Reading,
-) -> Behind<L> {
+) {
     let worn = if BUILD_UP == build_up::DISTINCT {
         wear_and_note::<L, BUILD_UP, DISC_WEARS>(rules, strip, column, moved, seldom)
     } else {
         wear_any_and_note::<L, BUILD_UP, DISC_WEARS>(rules, strip, column, seldom)
     };
-    let nothing = L::Mask::of_byte(0);
-    let (mut z_p, mut pin_secondary) = (worn.z_p, nothing);
-    if BUILD_UP != build_up::NONE {
-        z_p = worn.height();
-        let b_p = worn.b_p.greater(z_p);
-        b_p.store(&mut strip.pin.substrate[column]);
-        pin_secondary = z_p.below(b_p);
-        strip.pin.plateau[column] = (pin_secondary | !worn.on_resin).byte();
-    }
-    z_p.store(&mut strip.pin.height[column]);
-    if DISC_WEARS {
-        worn.z_d.store(&mut strip.disc_height[column]);
-        if BUILD_UP != build_up::NONE {
-            worn.b_d.store(&mut strip.disc_substrate[column]);
-        }
-    }
+    let (z_p, pin_secondary) = store_worn::<L, BUILD_UP, DISC_WEARS>(strip, column, &worn);
 
     // 4.1 of the next step.
+    let behind = strip.behind::<L, BUILD_UP>(column);
     let pairs = Pairs { on_resin: worn.on_resin, pin_secondary, disc_secondary: behind.secondary };
     let place = [strip.index, strip.first + column];
-    strip.pin.touches[column] = next.add(z_p - behind.height, pairs, &rules.bracket, place, reading).byte();
-    let secondary = if BUILD_UP == build_up::DISTINCT { worn.b_d.below(worn.z_d) } else { nothing };
-    Behind { height: worn.z_d, secondary }
+    let bare = !strip.pin.plateau[column];
+    strip.pin.touches[column] = next.add(z_p - behind.height, bare, pairs, &rules.bracket, place, reading);
 }

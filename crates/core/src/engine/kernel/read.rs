@@ -6,6 +6,7 @@ use super::reading::{Bracket, BracketLanes, Reading, StripReading};
 use crate::engine::lanes::{Chunk, Lanes, Mask};
 use crate::engine::parts::{Needs, build_up};
 use crate::engine::strips::{DiscSector, PinStrips};
+use std::ops::Range;
 
 /// Columns of pairs: the pin's from `first` on lie over the sector's from `over` on.
 #[derive(Debug, Clone, Copy)]
@@ -18,8 +19,17 @@ pub struct Span {
     pub columns: usize,
 }
 
-/// Reads the pairs of a span against a bracket.
-pub type Read = fn(InstructionSet, &mut PinStrips, &DiscSector, Span, &Bracket, &mut Reading);
+impl Span {
+    /// Some of its pin columns over the disc columns that they lie over in the next step; `joined` tells whether that of the
+    /// first is to be read, too.
+    pub(super) fn turned(self, some: Range<usize>, joined: bool) -> Self {
+        let start = if joined { some.start } else { some.start.max(1) };
+        Self { first: self.first + start, over: self.over + start - 1, columns: some.end.saturating_sub(start) }
+    }
+}
+
+/// Reads the pairs of some strips of a span against a bracket.
+pub type Read = fn(InstructionSet, &mut PinStrips, &DiscSector, Span, Range<usize>, &Bracket, &mut Reading);
 
 /// The reading that looks at what a scene needs and nothing else; chosen once per run.
 pub fn read(needs: Needs) -> Read {
@@ -31,11 +41,12 @@ pub fn read(needs: Needs) -> Read {
 }
 
 kernel! {
-    /// Reads a span.
+    /// Reads some strips of a span.
     pub fn read_span<const BUILD_UP: u8>(
         pin: &mut PinStrips,
         disc: &DiscSector,
         span: Span,
+        strips: Range<usize>,
         bracket: &Bracket,
         reading: &mut Reading,
     ) = read_strips
@@ -46,18 +57,21 @@ fn read_strips<L: Lanes, const BUILD_UP: u8>(
     pin: &mut PinStrips,
     disc: &DiscSector,
     span: Span,
+    strips: Range<usize>,
     bracket: &Bracket,
     reading: &mut Reading,
 ) {
     let bracket = BracketLanes::<L>::new(bracket);
     let nothing = L::Mask::of_byte(0);
-    for strip in 0..pin.height.strips() {
+    for strip in strips {
         let pin = pin.strip_mut(strip, span.first..span.first + span.columns);
         let disc_height = &disc.height.strip(strip)[span.over..][..span.columns];
         let disc_substrate = disc.substrate.as_ref().map(|field| &field.strip(strip)[span.over..][..span.columns]);
+        let (pin_height, plateau) = (&pin.height[..span.columns], &pin.plateau[..span.columns]);
+        let touches = &mut pin.touches[..span.columns];
         let mut sums = StripReading::<L, BUILD_UP>::new();
         for column in 0..span.columns {
-            let (z_p, z_d) = (L::load(&pin.height[column]), L::load(&disc_height[column]));
+            let (z_p, z_d) = (L::load(&pin_height[column]), L::load(&disc_height[column]));
             let pairs = Pairs {
                 on_resin: L::Mask::of_byte(pin.resin[column]),
                 pin_secondary: match pin.substrate.get(column) {
@@ -69,8 +83,8 @@ fn read_strips<L: Lanes, const BUILD_UP: u8>(
                     _ => nothing,
                 },
             };
-            let touches = sums.add(z_p - z_d, pairs, &bracket, [strip, span.first + column], reading);
-            pin.touches[column] = touches.byte();
+            let place = [strip, span.first + column];
+            touches[column] = sums.add(z_p - z_d, !plateau[column], pairs, &bracket, place, reading);
         }
         sums.store(strip, reading);
     }

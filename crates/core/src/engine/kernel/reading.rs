@@ -3,7 +3,7 @@
 use super::pairs::{PLAIN_PAIRS, PLATEAU, Pairs, RESIN, lanes_of, pair_of_lane};
 use crate::engine::coefficients::StatusPair;
 use crate::engine::exact::{Quantum, RowIntegers};
-use crate::engine::lanes::{Chunk, Integers, LANES, Lanes, Mask};
+use crate::engine::lanes::{Chunk, IntegerChunk, Integers, LANES, Lanes, Mask};
 use crate::engine::parts::build_up;
 use serde::{Deserialize, Serialize};
 
@@ -111,13 +111,23 @@ impl<L: Lanes> BracketLanes<L> {
 
 /// How eight pairs stand to a bracket.
 #[derive(Clone, Copy)]
-struct Stand<L: Lanes> {
+pub(super) struct Stand<L: Lanes> {
     /// Their overlaps at its lower end, anchored; of no meaning for pairs that do not touch there.
-    overlap: L::Integers,
+    overlap: L,
     /// Which touch at the lower end.
-    touches: L::Mask,
+    pub touches: L::Mask,
     /// Which touch somewhere in the bracket, but not at its lower end.
-    near: L::Mask,
+    pub near: L::Mask,
+}
+
+impl<L: Lanes> Stand<L> {
+    /// How eight pairs with gaps g = z_p − z_d stand to a bracket.
+    #[inline(always)]
+    pub fn new(gap: L, bracket: &BracketLanes<L>) -> Self {
+        let overlap = bracket.low - gap;
+        let touches = bracket.none.below(overlap);
+        Self { overlap, touches, near: overlap.at_least(bracket.high) & !touches }
+    }
 }
 
 /// The sums of a strip while it is read; those of resin, which seldom touches, are not among them.
@@ -134,65 +144,67 @@ impl<L: Lanes, const BUILD_UP: u8> StripReading<L, BUILD_UP> {
         Self { overlap: [L::Integers::splat(0); StatusPair::COUNT], largest: L::splat(0.0) }
     }
 
-    /// How eight pairs with gaps g = z_p − z_d stand to the bracket.
-    #[inline(always)]
-    fn face(&mut self, gap: L, bracket: &BracketLanes<L>) -> Stand<L> {
-        let anchored = bracket.low - gap;
-        self.largest = anchored.greater(self.largest);
-        let touches = bracket.none.below(anchored);
-        Stand { overlap: anchored.bits(), touches, near: anchored.at_least(bracket.high) & !touches }
-    }
-
-    /// Reads eight pairs of a strip and a column of the pin: gap g = z_p − z_d against the bracket. Returns those that touch
-    /// at its lower end.
+    /// Reads eight pairs of a strip and a column of the pin: gap g = z_p − z_d against the bracket. `bare` are those of bare
+    /// resin, one bit each; their statuses as masks are looked at only where build-up has properties of its own. Returns those that
+    /// touch at the lower end, one bit each.
     #[inline(always)]
     pub fn add(
         &mut self,
         gap: L,
+        bare: u8,
         pairs: Pairs<L>,
         bracket: &BracketLanes<L>,
-        [strip, column]: [usize; 2],
+        place: [usize; 2],
         reading: &mut Reading,
-    ) -> L::Mask {
-        let Stand { overlap, touches, near } = self.face(gap, bracket);
-        let resin = touches & pairs.resin();
-        let plateaus = touches & !pairs.resin();
+    ) -> u8 {
+        let stand = Stand::new(gap, bracket);
+        let touching = stand.touches.byte();
         if BUILD_UP == build_up::DISTINCT {
-            let Pairs { pin_secondary, disc_secondary, .. } = pairs;
-            let (on_coating, on_debris) = (plateaus & !disc_secondary, plateaus & disc_secondary);
-            let [_, _, a, b, c, d] = self.overlap;
-            self.overlap[2] = a.plus_where(on_coating & !pin_secondary, overlap);
-            self.overlap[3] = b.plus_where(on_debris & !pin_secondary, overlap);
-            self.overlap[4] = c.plus_where(on_coating & pin_secondary, overlap);
-            self.overlap[5] = d.plus_where(on_debris & pin_secondary, overlap);
+            self.add_distinct(&stand, pairs, place[0], reading);
         } else {
-            self.overlap[PLATEAU] = self.overlap[PLATEAU].plus_where(plateaus, overlap);
+            self.add_plateaus(&stand);
+            // Seldom.
+            if touching & bare != 0 {
+                let mut overlap = IntegerChunk::default();
+                stand.overlap.bits().store(&mut overlap);
+                give_to_resin(reading, place[0], touching & bare, &overlap);
+            }
         }
+        if stand.near.any() {
+            note_near::<L, BUILD_UP>(reading, gap, stand.near.byte(), statuses::<L, BUILD_UP>(bare, pairs), place);
+        }
+        touching
+    }
+
+    /// Adds eight pairs by their statuses.
+    #[inline(always)]
+    fn add_distinct(&mut self, stand: &Stand<L>, pairs: Pairs<L>, strip: usize, reading: &mut Reading) {
+        self.largest = stand.overlap.greater(self.largest);
+        let (overlap, touches) = (stand.overlap.bits(), stand.touches);
+        let Pairs { pin_secondary, disc_secondary, .. } = pairs;
+        let (resin, plateaus) = (touches & pairs.resin(), touches & !pairs.resin());
+        let (on_coating, on_debris) = (plateaus & !disc_secondary, plateaus & disc_secondary);
+        let [_, _, a, b, c, d] = self.overlap;
+        self.overlap[2] = a.plus_where(on_coating & !pin_secondary, overlap);
+        self.overlap[3] = b.plus_where(on_debris & !pin_secondary, overlap);
+        self.overlap[4] = c.plus_where(on_coating & pin_secondary, overlap);
+        self.overlap[5] = d.plus_where(on_debris & pin_secondary, overlap);
         // Seldom.
         if resin.any() {
             let mut pair = RESIN;
-            while pair < PLATEAU && (pair == RESIN || BUILD_UP == build_up::DISTINCT) {
-                let of_pair = if BUILD_UP == build_up::DISTINCT { touches & pairs.are(pair) } else { resin };
+            while pair < PLATEAU {
                 let sum = &mut reading.overlap[pair].0[strip];
-                L::Integers::load(sum).plus_where(of_pair, overlap).store(sum);
+                L::Integers::load(sum).plus_where(touches & pairs.are(pair), overlap).store(sum);
                 pair += 1;
             }
         }
-        if near.any() {
-            let mut gaps = Chunk([0.0; LANES]);
-            gap.store(&mut gaps);
-            let statuses = [pairs.on_resin.byte(), pairs.pin_secondary.byte(), pairs.disc_secondary.byte()];
-            note_near::<BUILD_UP>(reading, &gaps, near.byte(), statuses, [strip, column]);
-        }
-        touches
     }
 
-    /// Reads eight pairs as if all were plateaus and none near; returns those that touch, and those that are near.
+    /// Adds eight pairs of which those that touch are plateaus.
     #[inline(always)]
-    pub fn add_plateaus(&mut self, gap: L, bracket: &BracketLanes<L>) -> (L::Mask, L::Mask) {
-        let Stand { overlap, touches, near } = self.face(gap, bracket);
-        self.overlap[PLATEAU] = self.overlap[PLATEAU].plus_where(touches, overlap);
-        (touches, near)
+    pub fn add_plateaus(&mut self, stand: &Stand<L>) {
+        self.largest = stand.overlap.greater(self.largest);
+        self.overlap[PLATEAU] = self.overlap[PLATEAU].plus_where(stand.touches, stand.overlap.bits());
     }
 
     /// Adds the sums of the strip to the others.
@@ -210,21 +222,60 @@ impl<L: Lanes, const BUILD_UP: u8> StripReading<L, BUILD_UP> {
     }
 }
 
-/// Notes the few pairs of which the bracket does not say whether they touch.
+/// Statuses of eight pairs, one bit each: on resin, secondary on the pin, secondary on the disc; where these have no properties of
+/// their own, all that is not bare resin counts as a fibre.
+#[inline(always)]
+fn statuses<L: Lanes, const BUILD_UP: u8>(bare: u8, pairs: Pairs<L>) -> [u8; 3] {
+    if BUILD_UP == build_up::DISTINCT {
+        [pairs.on_resin.byte(), pairs.pin_secondary.byte(), pairs.disc_secondary.byte()]
+    } else {
+        [bare, 0, 0]
+    }
+}
+
+/// Moves the overlaps of bare resin, which were added to those of plateaus of the strip.
 #[cold]
 #[inline(never)]
-fn note_near<const BUILD_UP: u8>(
+fn give_to_resin(reading: &mut Reading, strip: usize, resin: u8, overlap: &IntegerChunk) {
+    for lane in lanes_of(resin) {
+        for (pair, sign) in [(RESIN, 1), (PLATEAU, -1)] {
+            let sum = &mut reading.overlap[pair].0[strip][lane];
+            *sum = sum.wrapping_add(overlap[lane].wrapping_mul(sign));
+        }
+    }
+}
+
+/// Notes the few pairs of which the bracket does not say whether they touch.
+#[inline(always)]
+pub(super) fn note_near<L: Lanes, const BUILD_UP: u8>(
     reading: &mut Reading,
-    gaps: &Chunk,
+    gap: L,
     lanes: u8,
     statuses: [u8; 3],
     [strip, column]: [usize; 2],
 ) {
-    let first_row = reading.first_row;
-    reading.near.extend(lanes_of(lanes).map(|lane| NearPair {
-        gap: gaps.0[lane],
-        row: (first_row + strip * LANES + lane) as u32,
-        column: column as u32,
-        pair: pair_of_lane(lane, BUILD_UP == build_up::DISTINCT, statuses),
-    }));
+    let mut gaps = Chunk([0.0; LANES]);
+    gap.store(&mut gaps);
+    note_each(reading, &gaps, lanes, statuses, BUILD_UP == build_up::DISTINCT, [strip, column]);
+}
+
+#[cold]
+#[inline(never)]
+fn note_each(
+    reading: &mut Reading,
+    gaps: &Chunk,
+    lanes: u8,
+    statuses: [u8; 3],
+    distinct: bool,
+    [strip, column]: [usize; 2],
+) {
+    let first_row = reading.first_row + strip * LANES;
+    for lane in lanes_of(lanes) {
+        reading.near.push(NearPair {
+            gap: gaps.0[lane],
+            row: (first_row + lane) as u32,
+            column: column as u32,
+            pair: pair_of_lane(lane, distinct, statuses),
+        });
+    }
 }

@@ -82,12 +82,6 @@ impl<'a> Strip<'a> {
         self.disc_substrate = &mut std::mem::take(&mut self.disc_substrate)[..end];
     }
 
-    /// Which cells of a column are there.
-    #[inline(always)]
-    pub fn present(&self, column: usize) -> u8 {
-        self.pin.present.get(column).copied().unwrap_or(u8::MAX)
-    }
-
     /// The pairs of a column, as far as a scene keeps and needs the fields: without substrates b = z.
     #[inline(always)]
     pub fn cells<L: Lanes, const BUILD_UP: u8, const DISC_WEARS: bool>(&self, column: usize) -> Cells<L> {

@@ -43,6 +43,12 @@ impl<L: Lanes> Worn<L> {
         L::select(self.worn_through | self.broken, self.b_p, self.z_p)
     }
 
+    /// z_p without such build-up, m, out of reach where there was no plateau before wear.
+    #[inline(always)]
+    pub fn height_of_plateaus(&self) -> L {
+        L::select(self.resin, L::splat(f64::INFINITY), self.height())
+    }
+
     /// What plateaus and the disc really lost, m; the disc only under plateaus if that is asked for (v of model 4L).
     #[inline(always)]
     pub fn lost<const DISC_WEARS: bool>(&self, under_plateaus: bool) -> L {

@@ -64,3 +64,29 @@ pub fn wear_ordinary_column<L: Lanes, const BUILD_UP: u8, const DISC_WEARS: bool
     let bytes = [strip.pin.touches[column], strip.pin.plateau[column], strip.pin.resin[column]];
     wear_ordinary::<L, BUILD_UP, DISC_WEARS>(rules, strip.cells::<L, BUILD_UP, DISC_WEARS>(column), bytes)
 }
+
+/// Stores the eight worn cells of a column; returns their z_p, m, and which are secondary on the pin.
+#[inline(always)]
+pub fn store_worn<L: Lanes, const BUILD_UP: u8, const DISC_WEARS: bool>(
+    strip: &mut Strip,
+    column: usize,
+    worn: &Worn<L>,
+) -> (L, L::Mask) {
+    let (mut z_p, mut pin_secondary) = (worn.z_p, L::Mask::of_byte(0));
+    if BUILD_UP != build_up::NONE {
+        z_p = worn.height();
+        let b_p = worn.b_p.greater(z_p);
+        b_p.store(&mut strip.pin.substrate[column]);
+        pin_secondary = z_p.below(b_p);
+        let plateau = &mut strip.pin.plateau[column];
+        *plateau = *plateau & !L::ROWS | (pin_secondary | !worn.on_resin).byte();
+    }
+    z_p.store(&mut strip.pin.height[column]);
+    if DISC_WEARS {
+        worn.z_d.store(&mut strip.disc_height[column]);
+        if BUILD_UP != build_up::NONE {
+            worn.b_d.store(&mut strip.disc_substrate[column]);
+        }
+    }
+    (z_p, pin_secondary)
+}

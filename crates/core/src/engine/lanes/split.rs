@@ -3,7 +3,7 @@
 use std::arch::x86_64::*;
 use std::ops::{Add, BitAnd, BitOr, Mul, Not, Sub};
 
-use super::{Chunk, IntegerChunk, Integers, Lanes, Mask};
+use super::{BYTES, Chunk, IntegerChunk, Integers, Lanes, Mask};
 
 /// A call of an instruction of AVX2 or SSE2.
 macro_rules! call {
@@ -25,12 +25,12 @@ macro_rules! split {
         $name:ident, $mask:ident, $integers:ident: $count:literal registers [$($part:literal),*] of $lanes:literal lanes from $from:literal,
         halves $first_half:ty, $second_half:ty,
         floats $register:ident, words $words:ident,
-        add $add:ident, sub $sub:ident, mul $mul:ident, min $min:ident, max $max:ident, below $below:ident, below_or_equal $below_or_equal:ident,
+        add $add:ident, sub $sub:ident, mul $mul:ident, min $min:ident, max $max:ident, below $below:ident, at_least $at_least:ident,
         and $and:ident, andnot $andnot:ident, or $or:ident, select $select:ident, movemask $movemask:ident,
         splat $splat:ident, load $load:ident, store $store:ident,
         to_words $to_words:ident, to_floats $to_floats:ident, splat_words $splat_words:ident, splat_32 $splat_32:ident,
         equal_32 $equal_32:ident, add_words $add_words:ident, sub_words $sub_words:ident, and_words $and_words:ident,
-        load_words $load_words:ident, store_words $store_words:ident
+        load_words $load_words:ident, store_words $store_words:ident, some_of $some_of:ident
     ) => {
         /// Eight numbers.
         #[derive(Clone, Copy)]
@@ -150,7 +150,7 @@ macro_rules! split {
 
             #[inline(always)]
             fn at_least(self, other: Self) -> $mask {
-                $mask([$(call!($below_or_equal(other.0[$part], self.0[$part]))),*])
+                $mask([$(call!($at_least(self.0[$part], other.0[$part]))),*])
             }
 
             #[inline(always)]
@@ -177,6 +177,11 @@ macro_rules! split {
             fn bits(self) -> $integers {
                 $integers([$(call!($to_words(self.0[$part]))),*])
             }
+
+            #[inline(always)]
+            fn some_of(bytes: &[u8; BYTES]) -> u32 {
+                call!($some_of(bytes, Self::ROWS))
+            }
         }
     };
     (@operator $kind:ident, $trait:ident, $method:ident, $instruction:ident, [$($part:literal),*]) => {
@@ -197,11 +202,35 @@ fn below_avx2(a: __m256d, b: __m256d) -> __m256d {
     _mm256_cmp_pd::<_CMP_LT_OQ>(a, b)
 }
 
-/// a ≤ b.
+/// a ≥ b.
 #[target_feature(enable = "avx2")]
 #[inline]
-fn below_or_equal_avx2(a: __m256d, b: __m256d) -> __m256d {
-    _mm256_cmp_pd::<_CMP_LE_OQ>(a, b)
+fn at_least_avx2(a: __m256d, b: __m256d) -> __m256d {
+    _mm256_cmp_pd::<_CMP_GE_OQ>(a, b)
+}
+
+/// Which bytes have one of these bits set.
+#[target_feature(enable = "avx2")]
+#[inline]
+fn some_of_avx2(bytes: &[u8; BYTES], rows: u8) -> u32 {
+    let bytes = call!(_mm256_loadu_si256(bytes.as_ptr().cast()));
+    let none = _mm256_cmpeq_epi8(_mm256_and_si256(bytes, _mm256_set1_epi8(rows as i8)), _mm256_setzero_si256());
+    !_mm256_movemask_epi8(none) as u32
+}
+
+/// Which bytes have one of these bits set.
+#[target_feature(enable = "sse2")]
+#[inline]
+fn some_of_sse2(bytes: &[u8; BYTES], rows: u8) -> u32 {
+    let mut some = 0;
+    let mut half = 0;
+    while half < 2 {
+        let bytes = call!(_mm_loadu_si128(bytes[half * 16..][..16].as_ptr().cast()));
+        let none = _mm_cmpeq_epi8(_mm_and_si128(bytes, _mm_set1_epi8(rows as i8)), _mm_setzero_si128());
+        some |= (!_mm_movemask_epi8(none) as u32 & 0xffff) << (half * 16);
+        half += 1;
+    }
+    some
 }
 
 /// SSE2 has no instruction that selects.
@@ -218,12 +247,13 @@ macro_rules! split_avx2 {
             $($kind)*
             floats __m256d, words __m256i,
             add _mm256_add_pd, sub _mm256_sub_pd, mul _mm256_mul_pd, min _mm256_min_pd, max _mm256_max_pd, below below_avx2,
-            below_or_equal below_or_equal_avx2,
+            at_least at_least_avx2,
             and _mm256_and_pd, andnot _mm256_andnot_pd, or _mm256_or_pd, select _mm256_blendv_pd, movemask _mm256_movemask_pd,
             splat _mm256_set1_pd, load _mm256_loadu_pd, store _mm256_storeu_pd,
             to_words _mm256_castpd_si256, to_floats _mm256_castsi256_pd, splat_words _mm256_set1_epi64x,
             splat_32 _mm256_set1_epi32, equal_32 _mm256_cmpeq_epi32, add_words _mm256_add_epi64, sub_words _mm256_sub_epi64,
-            and_words _mm256_and_si256, load_words _mm256_loadu_si256, store_words _mm256_storeu_si256
+            and_words _mm256_and_si256, load_words _mm256_loadu_si256, store_words _mm256_storeu_si256,
+            some_of some_of_avx2
         }
     };
 }
@@ -236,10 +266,11 @@ split! {
     Sse2, Mask128, Integers128: 4 registers [0, 1, 2, 3] of 2 lanes from 0, halves Self, Self,
     floats __m128d, words __m128i,
     add _mm_add_pd, sub _mm_sub_pd, mul _mm_mul_pd, min _mm_min_pd, max _mm_max_pd, below _mm_cmplt_pd,
-    below_or_equal _mm_cmple_pd,
+    at_least _mm_cmpge_pd,
     and _mm_and_pd, andnot _mm_andnot_pd, or _mm_or_pd, select select_sse2, movemask _mm_movemask_pd,
     splat _mm_set1_pd, load _mm_loadu_pd, store _mm_storeu_pd,
     to_words _mm_castpd_si128, to_floats _mm_castsi128_pd, splat_words _mm_set1_epi64x,
     splat_32 _mm_set1_epi32, equal_32 _mm_cmpeq_epi32, add_words _mm_add_epi64, sub_words _mm_sub_epi64,
-    and_words _mm_and_si128, load_words _mm_loadu_si128, store_words _mm_storeu_si128
+    and_words _mm_and_si128, load_words _mm_loadu_si128, store_words _mm_storeu_si128,
+    some_of some_of_sse2
 }

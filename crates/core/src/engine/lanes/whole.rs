@@ -3,7 +3,7 @@
 use std::arch::x86_64::*;
 use std::ops::{Add, BitAnd, BitOr, Mul, Not, Sub};
 
-use super::{Chunk, IntegerChunk, Integers, Lanes, Mask};
+use super::{BYTES, Chunk, IntegerChunk, Integers, Lanes, Mask};
 
 /// A call of an instruction of AVX-512.
 macro_rules! call {
@@ -168,5 +168,13 @@ impl Lanes for Avx512 {
     #[inline(always)]
     fn bits(self) -> Integers512 {
         Integers512(call!(_mm512_castpd_si512(self.0)))
+    }
+
+    #[inline(always)]
+    fn some_of(bytes: &[u8; BYTES]) -> u32 {
+        call!({
+            let bytes = _mm256_loadu_si256(bytes.as_ptr().cast());
+            _mm256_test_epi8_mask(bytes, bytes)
+        })
     }
 }
