@@ -213,8 +213,7 @@ def friction(drawing: Drawing, subjects: list[Subject]) -> list[Any]:
     unit = unit_of("Pa", np.concatenate([subject.values("mean_pressure") for subject in subjects]))
     for subject in subjects:
         steps = pandas.Series(subject.while_rubbing(subject.values("friction_coefficient")), unit.value(subject.values("mean_pressure")))
-        steps = steps[steps.notna() & (steps.index > 0)]
-        steps = steps[:: max(1, math.ceil(len(steps) / MOST_MARKS))]
+        steps = in_windows(steps[steps.notna() & (steps.index > 0)], MOST_MARKS).head(1)
         right.plot(steps, subject.line.get("marker", "o"), color=subject.line["color"], markersize=2, markeredgewidth=0, alpha=0.7)
     is_wide = right.dataLim.x1 > 20 * right.dataLim.x0
     right.set(xscale="log" if is_wide else "linear", xlabel=f"mean contact pressure, {unit.symbol}", xlim=(None if is_wide else 0, None))
