@@ -2,10 +2,7 @@
 
 import importlib.util
 import json
-import math
 import os
-import zipfile
-from collections.abc import Callable, Sequence
 from functools import partial
 from pathlib import Path
 from typing import Any, Literal
@@ -74,7 +71,7 @@ def export(
 
 
 def _of(run: xarray.DataTree, group: str) -> xarray.Dataset:
-    """What a group has, first what changes with time; says which body has no maps, and where a status is none."""
+    """What a group has, first what changes with time, statuses as plain integers; says which body has no maps, and where a status is none."""
     found = run[group].to_dataset() if group in run.children else xarray.Dataset()
     found = found[sorted(found.data_vars, key=lambda name: "map_time" not in found[name].dims)]
     if group in ("disc", "pin") and not found.sizes.get("map_time"):
@@ -83,36 +80,42 @@ def _of(run: xarray.DataTree, group: str) -> xarray.Dataset:
     most = max((int(moment.max()) for moment in found.get("status", ())), default=0)
     if most and most not in found["status"].attrs.get("flag_values", [most]):
         warn(f"{source(run)}: {group}/status has {most}, which is no status; plateau verify tells where the file is damaged")
-    return found
+    return found.assign({name: values.astype(values.dtype.str) for name, values in found.items() if values.dtype.metadata})
 
 
-def _table(data: xarray.Dataset, **at: list[int]) -> pandas.DataFrame:
-    """A table of data, or of those at a place, behind their axes, with heads that no spreadsheet computes."""
-    table = data.isel(at).to_dataframe(next(iter(data.values())).dims).reset_index()
+def _maps(run: xarray.DataTree) -> dict[str, xarray.Dataset]:
+    """The maps of each body and moment, by the names of files."""
+    maps: dict[str, xarray.Dataset] = {}
+    for body in ("disc", "pin"):
+        found = _of(run, body)
+        maps |= {f"{body}-{index:04}": found.isel(map_time=slice(index, index + 1)) for index in range(found.sizes.get("map_time", 0))}
+    return maps
+
+
+def _tables(run: xarray.DataTree) -> dict[str, xarray.Dataset]:
+    """What tables have: series and, if there are any, events."""
+    events = _of(run, "event")
+    return {"series": _of(run, "series")} | ({"events": events.assign_coords(event=np.arange(1, events.sizes["event"] + 1))} if events else {})
+
+
+def _table(data: xarray.Dataset) -> pandas.DataFrame:
+    """A table of data behind their axes, with heads that no spreadsheet computes."""
+    # Of a copy: what is read for a table does not stay in memory.
+    table = data.copy().to_dataframe(next(iter(data.values())).dims).reset_index()
     heads = [name if name == "event" else f"{COLUMNS.get(name, name)} [{data[name].attrs.get('units', '1')}]" for name in table]
     return table.set_axis([head if head[0].isalnum() else f"'{head}" for head in heads], axis="columns")
 
 
-def _tables(run: xarray.DataTree, bodies: Sequence[str] = ()) -> dict[str, Callable[[], pandas.DataFrame]]:
-    """What makes a table by its name: of series, of events, of each moment of the maps."""
-    tables: dict[str, Callable[[], pandas.DataFrame]] = {"series": partial(_table, _of(run, "series"))}
-    if events := _of(run, "event"):
-        tables["events"] = partial(_table, events.assign_coords(event=np.arange(events.sizes["event"]) + 1))
-    for body, maps in ((body, _of(run, body)) for body in bodies):
-        tables |= {f"{body}-{index:04}": partial(_table, maps, map_time=[index]) for index in range(maps.sizes.get("map_time", 0))}
-    return tables
-
-
 def _csv(run: xarray.DataTree, path: Path, with_maps: bool, **marks: str) -> Files:
-    def write(place: Path, table: Callable[[], pandas.DataFrame]) -> None:
-        table().to_csv(place, index=False, na_rep="NaN", lineterminator="\n", **marks)
+    def write(place: Path, data: xarray.Dataset) -> None:
+        _table(data).to_csv(place, index=False, na_rep="NaN", lineterminator="\n", **marks)
 
-    tables = _tables(run, ("disc", "pin") if with_maps else ())
-    return {path.name if name == "series" else f"{path.stem}-{name}{path.suffix}": partial(write, table=table) for name, table in tables.items()}
+    tables = _tables(run) | (_maps(run) if with_maps else {})
+    return {path.name if name == "series" else f"{path.stem}-{name}{path.suffix}": partial(write, data=data) for name, data in tables.items()}
 
 
 def _xlsx(run: xarray.DataTree, place: Path) -> None:
-    tables = {name: made() for name, made in _tables(run).items()}
+    tables = {name: _table(data) for name, data in _tables(run).items()}
     about = [(name, line) for name in ("title", "state", "program", "scene") for line in str(run.attrs.get(name, "")).splitlines()]
     tables["about"] = pandas.DataFrame(about, columns=["what", "text"])
     if (most := max(map(len, tables.values()))) > MOST_ROWS:
@@ -125,27 +128,21 @@ def _xlsx(run: xarray.DataTree, place: Path) -> None:
 
 
 def _npz(run: xarray.DataTree, place: Path) -> None:
-    """Arrays one after the other: `numpy.savez` needs all of them in memory, and its compression takes long."""
     no_times = xarray.DataArray(np.empty(0), attrs={"units": "s"})
     arrays: dict[str, Any] = {name: run.get(name, no_times) for name in ("time", "radius", "disc_angle", "pin_angle", "map_time")}
     named = {f"{group}_{name}": values for group in ("series", "event", "disc", "pin") for name, values in _of(run, group).items()}
     arrays |= {ARRAYS.get(name, name.removeprefix("series_")): values for name, values in named.items()}
-    units = json.dumps({name: str(values.attrs.get("units", "1")) for name, values in arrays.items()}, sort_keys=True)
-    texts = {"units": units} | {name: str(run.attrs.get(name, "")) for name in ("title", "state", "scene")}
-    arrays |= {name: xarray.DataArray(text) for name, text in texts.items()}
-    with zipfile.ZipFile(place, "w", zipfile.ZIP_DEFLATED, compresslevel=1) as archive:
-        for name, values in arrays.items():
-            with archive.open(f"{name}.npy", "w", force_zip64=True) as file:
-                # What a part reads does not stay in memory.
-                found = values[...].values
-                np.lib.format.write_array(file, found.astype(found.dtype.str), allow_pickle=False)
+    arrays["units"] = json.dumps({name: str(values.attrs.get("units", "1")) for name, values in arrays.items()}, sort_keys=True)
+    arrays |= {name: str(run.attrs.get(name, "")) for name in ("title", "state", "scene")}
+    # Into a file that is open, for to a name NumPy adds an ending.
+    with place.open("wb") as file:
+        np.savez_compressed(file, **arrays)
 
 
 def _netcdf(run: xarray.DataTree, place: Path) -> None:
-    """A map after the other, statuses as plain integers."""
     plain, small = run.copy(), {"zlib": True, "complevel": 1}
-    for path, values in ((f"{body}/{name}", values) for body in ("disc", "pin") for name, values in _of(run, body).items()):
-        plain[path] = values.astype(values.dtype.str) if values.dtype.metadata else values
+    for body in run.children.keys() & {"disc", "pin"}:
+        plain[body].update(_of(run, body))
     encoding = {node.path: {name: small for name, values in node.data_vars.items() if values.size} for node in plain.subtree}
     plain.to_netcdf(place, engine="h5netcdf", encoding=encoding)
 
@@ -154,28 +151,25 @@ def _vtk(run: xarray.DataTree) -> Files:
     from pyevtk.hl import gridToVTK
     from pyevtk.vtk import VtkGroup
 
-    mesh, rows = run.plateau.scene["mesh"], array(run, "radius").values
+    mesh, rows, moments = run.plateau.scene["mesh"], array(run, "radius").values, _maps(run)
     inner = quantity(mesh.get("inner_radius", "0 m"), "m") or quantity(mesh["mean_radius"], "m") - quantity(mesh["pin_width"], "m") / 2
     radius = np.linspace(inner, rows[0] + rows[-1] - inner, len(rows) + 1)[:, None, None]
 
-    def grid(place: Path, maps: xarray.Dataset, index: int) -> None:
-        cells = {str(name): values.values.T[..., None] for name, values in maps.isel(map_time=index).items()}
+    def grid(place: Path, maps: xarray.Dataset) -> None:
+        cells = {str(name): values.values.T[..., None] for name, values in maps.copy().squeeze("map_time").items()}
         # The disc's ring closes.
-        turns = np.arange(next(iter(cells.values())).shape[1] + 1) / run.sizes["disc_angle"]
-        angle = math.tau * np.where(turns < 1, turns, 0.0)[None, :, None]
-        corners = [np.asfortranarray(radius * of) for of in (np.cos(angle), np.sin(angle), 0 * angle)]
+        turns = np.arange(next(iter(cells.values())).shape[1] + 1)[None, :, None] / run.sizes["disc_angle"] % 1
+        corners = [np.asfortranarray(radius * of) for of in (np.cos(2 * np.pi * turns), np.sin(2 * np.pi * turns), 0 * turns)]
         gridToVTK(str(place.with_suffix("")), *corners, cells)
 
-    def collection(place: Path, maps: xarray.Dataset) -> None:
+    def collection(place: Path) -> None:
         group = VtkGroup(str(place.with_suffix("")))
-        for index, time in enumerate(maps["map_time"].values.tolist()):
-            group.addFile(str(place.with_name(f"{place.stem}-{index:04}.vts")), time)
+        for name, maps in moments.items():
+            if name.startswith(place.stem):
+                group.addFile(str(place.with_name(f"{name}.vts")), maps["map_time"].item())
         group.save()
 
-    files: dict[str, Any] = {}
-    for body, maps in ((body, maps) for body in ("disc", "pin") if (maps := _of(run, body))):
-        files |= {f"{body}-{index:04}.vts": partial(grid, maps=maps, index=index) for index in range(maps.sizes["map_time"])}
-        files[f"{body}.pvd"] = partial(collection, maps=maps)
+    files: dict[str, Any] = {f"{name}.vts": partial(grid, maps=maps) for name, maps in moments.items()}
     if not files:
         note("nothing is written: this format has maps only")
-    return files
+    return files | {f"{name.split('-')[0]}.pvd": collection for name in moments}

@@ -25,7 +25,7 @@ from plateau.quantities import CELSIUS, METRE, MM2, MM3, NEWTON, NUMBER, RPM, SE
 from plateau.run_file import array, source
 from plateau.style import NARROW, saved
 from plateau.units import NUMBER as QUANTITY
-from plateau.units import Unit, quantity, unit_for, unit_of, with_minus
+from plateau.units import Unit, quantity, unit_for, unit_of, with_digits, with_minus
 
 # As scenes have it, and as laboratories do.
 WEAR_RATES = (Unit("1/Pa", 1.0), Unit("mm³/(N m)", 1e9))
@@ -52,11 +52,8 @@ ANSWERS = {
     "Disc filled": "disc filled",
     "Pin covered by secondary plateaus, mean": "secondary plateaus of the pin",
 }
-# Numbers of the whole brake, of runs with one.
-BRAKE = (
-    "brake_pm10_mass brake_pm25_mass brake_emitted_mass brake_particle_number brake_pm10_per_distance brake_pm25_per_distance "
-    "brake_emitted_per_distance brake_particles_per_distance pad_wear pad_wear_per_distance pad_life"
-).split()
+# Numbers of the whole brake, of runs with one, at their end.
+BRAKE = [name for name in SERIES if name.startswith(("brake_", "pad_")) and name != "brake_torque"]
 ORIGIN = "program source_revision host instruction_set start_time end_time seeds surfaces conventions references".split()
 
 
@@ -137,8 +134,8 @@ class Told:
     @property
     def pin_area(self) -> float:
         """The area of the pin, m²; NaN if there was no contact."""
-        found = (self.of("contact_area") / self.of("contact_ratio").where(lambda ratio: ratio > 0)).dropna()
-        return float(found.iloc[-1]) if len(found) else math.nan
+        areas = self.of("contact_area") / self.of("contact_ratio").where(lambda ratio: ratio > 0)
+        return float(areas.dropna().iloc[-1:].sum(min_count=1))
 
     @functools.cached_property
     def five(self) -> dict[str, str]:
@@ -228,18 +225,16 @@ class Told:
             title = f"{before}{SERIES[name].title}{after}"
             return Measure(title[0].upper() + title[1:], SERIES[name].unit, value, error)
 
-        found, way = [], self.last("road_distance")
+        found = []
         if self.dissipates:
             found += [measure(name, self.largest(name), "largest ") for name in LARGEST]
             found += [measure(name, self.last(name)) for name in DISSIPATION]
         found += [measure("brake_torque", self.largest("brake_torque"), "largest ")]
         found += [measure(name, self.last(name)) for name in BRAKE]
         found.append(self.area)
-        for name in MEANS if self.time else ():
-            if name in self.series:
-                mean = self.run.plateau.mean(name)
-                found.append(measure(name, mean.value, "", ", mean", mean.error))
-        found += [measure("sliding_distance", self.last("sliding_distance")), measure("road_distance", way)]
+        means = {name: self.run.plateau.mean(name) for name in MEANS if self.time and name in self.series}
+        found += [measure(name, mean.value, "", ", mean", mean.error) for name, mean in means.items()]
+        found += [measure(name, self.last(name)) for name in ("sliding_distance", "road_distance")]
         total = sum(self.last(name) for name in ("worn_pin", "worn_resin", "worn_disc"))
         found += [Measure("Worn volume of the simulated pin and the disc", MM3, total)]
         found += [measure(name, self.last(name)) for name in AT_END]
@@ -273,10 +268,8 @@ class Told:
 
 def _short(unit: Unit, value: float, digits: int = 3) -> str:
     """A value, SI, with so many digits."""
-    if not math.isfinite(value):
-        return UNKNOWN
-    shown = float(f"{unit.value(value):.{digits}g}")
-    return with_minus(f"{shown:.0f} {unit.symbol}" if 1e3 <= abs(shown) < 1e6 else f"{shown:.{digits}g} {unit.symbol}")
+    rounded = float(f"{unit.value(value):.{digits}g}")
+    return with_minus(f"{rounded:.6g} {unit.symbol}") if math.isfinite(value) else UNKNOWN
 
 
 def report(runs: Run | Sequence[Run], output: str | os.PathLike[str] | None = None, *, force: bool = False) -> str:
@@ -299,8 +292,7 @@ def report(runs: Run | Sequence[Run], output: str | os.PathLike[str] | None = No
     trees = opened(runs)
     path = Path(output) if output is not None else named_like(trees[0], ".html") if len(trees) == 1 else Path("report.html")
     if path.suffix.lower() in NO_PAGES:
-        name = path.with_suffix(".html")
-        raise InputError(f"-o {path}: a report is a page in HTML, expected a name such as {name}; a browser prints it as PDF")
+        raise InputError(f"-o {path}: a report is a page in HTML, expected a name such as {path.with_suffix('.html')}; a browser prints it as PDF")
     path = followed(path)
     refuse_file(path, force, inputs_of(trees), "name another one with -o")
     put(path, report_page(trees).encode())
@@ -317,10 +309,8 @@ def report_page(runs: Sequence[xarray.DataTree]) -> str:
     first = sorted((name for name in wanted if name in drawn), key=lambda name: drawn[name].get_figheight() * 25.4 > 90)[:2]
     # Two of one column of a journal beside each other.
     kind = "pair" if all(drawn[name].get_figwidth() * 25.4 < 1.2 * NARROW for name in first) else "stack"
-    of: dict[str, list[str]] = {}
-    for one in told:
-        for notice in one.notices():
-            of.setdefault(notice, []).append(one.label)
+    each = [(one.label, [*one.notices()]) for one in told]
+    of = {notice: [label for label, own in each if notice in own] for _, notices in each for notice in notices}
     notices = [notice if len(labels) == len(told) else f"{', '.join(labels)}: {notice}" for notice, labels in of.items()]
     several, five = len(told) > 1, told[0].five
     tables, said = _compared(told) if several else ([table([*five], [[*five.values()]])], ". ".join(told[0].answer()))
@@ -335,7 +325,7 @@ def report_page(runs: Sequence[xarray.DataTree]) -> str:
         pictures({name: figure for name, figure in drawn.items() if name not in first}, files, len(first) + 1),
         "<h2>Numbers</h2>" + _numbers(told),
         _differences(told) if several else "",
-        *(_events(one, several) for one in told),
+        *(_events(one, several) for one in told if len(one.run.plateau.events)),
         "<h2>Scenes and provenance</h2>",
         *map(_provenance, told),
     ]
@@ -358,9 +348,8 @@ def _by_run(told: Sequence[Told], rows: dict[str, list[str]], head: str, kind: s
     """Tables with a column for each run; with as many as fit a page, each with the first run."""
     parts = []
     for start in range(1, max(len(told), 2), MOST_COLUMNS):
-        group = [0, *range(start, min(start + MOST_COLUMNS, len(told)))]
-        heads = [told[number].label for number in group] if len(told) > 1 else ["value"]
-        shown = {name: [texts[number] for number in group] for name, texts in rows.items()}
+        heads = [one.label for one in (told[0], *told[start : start + MOST_COLUMNS])] if len(told) > 1 else ["value"]
+        shown = {name: [texts[0], *texts[start : start + MOST_COLUMNS]] for name, texts in rows.items()}
         parts.append(table([head, *heads], [[name, *texts] for name, texts in shown.items() if {*texts} != {UNKNOWN}], kind))
     return "\n".join(parts)
 
@@ -379,9 +368,8 @@ def _numbers(told: Sequence[Told]) -> str:
 
 def _differences(told: Sequence[Told]) -> str:
     """Keys of scenes that differ."""
-    scenes = [pandas.json_normalize(one.scene).iloc[0].to_dict() for one in told]
-    rows = {key: [str(scene.get(key, UNKNOWN)) for scene in scenes] for key in sorted({key for scene in scenes for key in scene})}
-    rows = {key: texts for key, texts in rows.items() if len({*texts}) > 1}
+    scenes = pandas.concat([pandas.json_normalize(one.scene).iloc[0] for one in told], axis="columns").fillna(UNKNOWN).sort_index().map(str)
+    rows = {str(key): texts for key, *texts in scenes.itertuples() if len({*texts}) > 1}
     return f"<h2>Keys of the scenes that differ</h2>{_by_run(told, rows, 'key')}" if rows else "<h2>Scenes</h2><p>Their scenes are the same.</p>"
 
 
@@ -392,12 +380,12 @@ def _events(told: Told, several: bool) -> str:
         si = str(told.run[f"event/{name}"].attrs.get("units", "1"))
         unit = RPM if si == "rad s-1" else unit_of(si, events[name])
         head = ", ".join(filter(None, [str(name).replace("_", " ").replace("pm10", "PM10"), unit.symbol]))
-        columns[head] = [with_minus(f"{number:.4g}") if math.isfinite(number) else UNKNOWN for number in unit.value(events[name])]
-    parts = [f"<h2>Events{': ' + escape(told.label) if several else ''}</h2>"] if len(events) else []
-    for start in range(0, len(columns) if len(events) else 0, MOST_QUANTITIES):
-        heads = [*columns][start : start + MOST_QUANTITIES]
-        rows = zip(map(str, range(1, len(events) + 1)), *(columns[head] for head in heads), strict=True)
-        parts.append(table(["event", *heads], [*rows]))
+        columns[head] = [with_digits(number) or UNKNOWN for number in unit.value(events[name])]
+    texts = pandas.DataFrame(columns, events.index + 1)
+    parts = [f"<h2>Events{': ' + escape(told.label) if several else ''}</h2>"]
+    for start in range(0, len(columns), MOST_QUANTITIES):
+        shown = texts.iloc[:, start : start + MOST_QUANTITIES]
+        parts.append(table(["event", *shown], [*shown.itertuples(name=None)]))
     return "\n".join(parts)
 
 

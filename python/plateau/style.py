@@ -92,8 +92,8 @@ def noted(figure: Any, note: str) -> None:
 
 
 def wrapped(text: str, letters: int = LETTERS) -> str:
-    """Breaks a text into lines of so many letters."""
-    return "\n".join(textwrap.wrap(plain(text), max(letters, 1), break_on_hyphens=False))
+    """Breaks the lines of a text into lines of so many letters."""
+    return "\n".join(textwrap.fill(line, max(letters, 1), break_on_hyphens=False) for line in plain(text).split("\n"))
 
 
 def plain(text: str) -> str:

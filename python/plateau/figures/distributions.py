@@ -9,7 +9,6 @@ import numpy as np
 from plateau.figures.drawing import Drawing, Subject, moment
 from plateau.quantities import MAPS
 from plateau.run_file import array
-from plateau.style import look
 from plateau.units import unit_of
 
 SECONDARY = 2
@@ -20,31 +19,25 @@ CLASSES, MOST_LINEAR = 80, 6.0
 BEYOND, APART = 0.001, 0.005
 # Runs of which also the first map has a line of heights, at most.
 MOST_WITH_FIRST = 2
-# What lines show of a run: which of its moments from the last one on, and values in ascending order.
-Found = list[tuple[Subject, int, Any]]
+# Which map a line is of, its time, options of the line, and values in ascending order.
+Found = list[tuple[str, str, dict[str, Any], Any]]
+LAST, FIRST = "Last map", "paler: first map"
 
 
 def _found(drawing: Drawing, path: str, values: Callable[..., Any]) -> Found:
-    """What a function gives of run, path and cells of a map, those of a column in a row, for the runs that have it."""
-    return [
-        (subject, -place, values(subject, path, array(subject.run, path).isel(map_time=index).transpose(..., "radius").values))
-        for subject in drawing.having(path)
-        for place, index in enumerate(subject.moments, 1 - len(subject.moments))
-    ]
-
-
-def _look(drawing: Drawing, subject: Subject, place: int) -> dict[str, Any]:
-    """How the line of a moment is drawn: of a single run each in its colour, of several all but the last paler."""
-    if drawing.only:
-        return look(place) | {"label": moment(subject.map_time[subject.moments[-1 - place]])}
-    return subject.line | ({"alpha": 0.4, "marker": None, "label": None} if place else {"label": subject.label})
+    """Lines of what a function gives of run, path and cells of a map, those of a column in a row, for the runs that have it."""
+    found = []
+    for subject in drawing.having(path):
+        for place, index in enumerate(subject.moments, 1 - len(subject.moments)):
+            time, cells = moment(subject.map_time[index]), array(subject.run, path).isel(map_time=index).transpose(..., "radius")
+            found.append((FIRST if place else LAST, time, drawing.look(subject, -place, time), values(subject, path, cells.values)))
+    return found
 
 
 def _explained(drawing: Drawing, figure: Any, axis: Any, found: Found) -> list[Any]:
     """A figure with its legend, and with what the lines of several runs are of."""
-    ends = {"Last map": -1} | ({"paler: first map": 0} if any(place for _, place, _ in found) else {})
-    times = {name: {moment(subject.map_time[subject.moments[end]]) for subject, *_ in found} for name, end in ends.items()}
-    said = "; ".join(f"{name}, {next(iter(own))}" if len(own) == 1 else name for name, own in times.items())
+    times = {name: {time for one, time, *_ in found if one == name} for name in (LAST, FIRST)}
+    said = "; ".join(f"{name}, {', '.join(own)}" if len(own) == 1 else name for name, own in times.items() if own)
     return drawing.explained(figure, axis, "" if drawing.only else said)
 
 
@@ -81,10 +74,10 @@ def plateau_sizes(drawing: Drawing, subjects: list[Subject]) -> list[Any]:
     caption = "Number of contact spots and of secondary plateaus that are at least as large as an area"
     figure, axes = drawing.panels(len(kinds), 50, caption, 3, sharex=True, sharey=True)
     for axis, (title, found) in zip(axes, kinds.items(), strict=True):
-        for subject, place, own in (one for one in found if one[-1].size):
+        for *_, line, own in (one for one in found if one[-1].size):
             # The last step goes below the axis.
             places, number = unit.value(own[[*range(len(own)), -1]]), [len(own), *range(len(own), 0, -1), 0.1]
-            axis.plot([0.7 * least, *places], number, drawstyle="steps-pre", **_look(drawing, subject, place))
+            axis.plot([0.7 * least, *places], number, drawstyle="steps-pre", **line)
         if not any(own.size for *_, own in found):
             axis.text(0.5, 0.5, "none in these maps", transform=axis.transAxes, ha="center")
         axis.set(title=title, xlabel=f"area, {unit.symbol}", ylabel="number at least as large")
@@ -95,30 +88,29 @@ def plateau_sizes(drawing: Drawing, subjects: list[Subject]) -> list[Any]:
 
 def heights(drawing: Drawing, subjects: list[Subject]) -> list[Any]:
     """Distribution of the heights of disc and pin, and the Abbott-Firestone curve."""
-    bodies, is_peaked = {}, False
-    for path in ("disc/height", "pin/height"):
-        found = _found(drawing, path, lambda _, path, cells: np.sort(MAPS[path].shown(cells)[np.isfinite(cells)]))
-        found = [line for line in found if line[1] == 0 or len(subjects) <= MOST_WITH_FIRST]
-        if not found:
-            continue
-        ends = [values[round(part * (len(values) - 1))] for *_, values in found for part in (BEYOND, 1 - BEYOND)]
-        margin = 0.05 * (max(ends) - min(ends)) or 1.0
-        edges = np.linspace(min(ends) - margin, max(ends) + margin, CLASSES + 1)
-        density = [np.histogram(values, edges)[0] / len(values) / np.diff(edges) * 100 for *_, values in found]
-        is_peaked |= any(one.max() > MOST_LINEAR * np.sort(one[one > 0])[:-1].mean() for one in density if (one > 0).sum() > 1)
-        bodies[MAPS[path]] = found, edges, density
-    if not bodies:
+    paths = [path for path in ("disc/height", "pin/height") if drawing.having(path)]
+    if not paths:
         return []
     caption = "Distribution of the heights, positive toward the other body, and Abbott-Firestone curve"
-    figure, axes = drawing.panels(2 * len(bodies), 50, caption)
-    part = np.arange(0, 1 + APART / 2, APART)
-    for left, right, (body, (found, edges, density)) in zip(axes[::2], axes[1::2], bodies.items(), strict=True):
-        for (subject, place, values), percent in zip(found, density, strict=True):
-            line = _look(drawing, subject, place)
+    figure, axes = drawing.panels(2 * len(paths), 50, caption)
+    part, is_peaked = np.arange(0, 1 + APART / 2, APART), False
+    for path, left, right in zip(paths, axes[::2], axes[1::2], strict=True):
+        body = MAPS[path]
+        found = _found(drawing, path, lambda _, path, cells: np.sort(MAPS[path].shown(cells)[np.isfinite(cells)]))
+        found = [one for one in found if one[0] == LAST or len(subjects) <= MOST_WITH_FIRST]
+        ends = [values[round(end * (len(values) - 1))] for *_, values in found for end in (BEYOND, 1 - BEYOND)]
+        margin = 0.05 * (max(ends) - min(ends)) or 1.0
+        edges = np.linspace(min(ends) - margin, max(ends) + margin, CLASSES + 1)
+        for *_, line, values in found:
+            percent = np.histogram(values, edges)[0] / len(values) / np.diff(edges) * 100
+            there = np.sort(percent[percent > 0])
+            is_peaked |= len(there) > 1 and there[-1] > MOST_LINEAR * there[:-1].mean()
             left.plot(np.where(percent > 0, percent, np.nan), (edges[:-1] + edges[1:]) / 2, **line)
             right.plot(100 * part, values[::-1][np.round(part * (len(values) - 1)).astype(int)], **line)
         for axis in (left, right):
             axis.set(ylim=(edges[0], edges[-1]), ylabel=f"{body.body}: {body.what}, {body.unit.symbol}")
-        left.set(xscale="log" if is_peaked else "linear", xlabel=f"cells, % per {body.unit.symbol}")
+        left.set_xlabel(f"cells, % per {body.unit.symbol}")
         right.set(xlim=(0, 100), xlabel="material ratio, %")
-    return _explained(drawing, figure, axes[0], next(iter(bodies.values()))[0])
+    for axis in axes[::2]:
+        axis.set_xscale("log" if is_peaked else "linear")
+    return _explained(drawing, figure, axes[0], found)

@@ -1,8 +1,8 @@
 """What the figures of runs have in common: the runs with their names and lines, the moments that are shown, what is left out."""
 
 import functools
-import json
 import math
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any
@@ -34,8 +34,7 @@ class Subject:
     @functools.cached_property
     def scene_without_seeds(self) -> str:
         """The scene without its seeds and its output, in words that are equal where these scenes are."""
-        tables = json.dumps(self.run.plateau.scene | {"output": 0}, sort_keys=True, default=str)
-        return str(json.loads(tables, object_hook=lambda table: {key: value for key, value in table.items() if key != "seed"}))
+        return re.sub(r"'seed': \d+", "", str(self.run.plateau.scene | {"output": 0}))
 
     def has(self, *paths: str) -> bool:
         """Whether the run has all these variables, such as ``"series/contact_area"``."""
@@ -107,6 +106,12 @@ class Drawing:
             else:
                 found.append(subject)
         return found
+
+    def look(self, subject: Subject, place: int, name: str) -> dict[str, Any]:
+        """Options of a line among those of a run: of a single run each has its name and colour, of several all but the first are paler."""
+        if self.only:
+            return look(place) | {"label": name}
+        return subject.line | ({"alpha": 0.4, "marker": None, "label": None} if place else {"label": subject.label})
 
     def leave_out(self, subject: Subject, missing: str) -> None:
         """Notes what a run does not have of the figure that is drawn."""

@@ -7,6 +7,7 @@ from itertools import zip_longest
 from typing import Any
 
 import numpy as np
+import pandas
 import xarray
 
 from plateau.figures.drawing import Drawing, Subject, moment
@@ -82,7 +83,7 @@ class Picture:
     def below(self, letters: int, stretch: float) -> str:
         """What is written below, in lines of about so many letters; maps of a figure have the same words."""
         words = self.form if letters >= len(UNROLLED) else self.form.replace(" at the mean radius", "").replace(" from the middle", "")
-        words = words if letters >= SHORT else _wrapped(words.replace("; ", "\n"), letters * LETTER)
+        words = words if letters >= SHORT else wrapped(words.replace("; ", "\n"), letters)
         return words + (f"\nradius stretched {stretch:g}×" if stretch > 1 else "")
 
 
@@ -112,17 +113,14 @@ def colour(shown: Map, pictures: Sequence[Picture], cmap: str) -> None:
     is_pressure, is_span, norm, label = shown.path == "pin/pressure", shown.colours == "span", Normalize(-0.5, FILM + 0.5), ""
     colours: Any = ListedColormap([*STATUS_COLOURS[:FILM], FILM_COLOUR]).with_extremes(bad=GROUND)
     if shown.colours != "statuses":
-        values, weights = [np.array([])], [np.array([])]
+        shares = [pandas.Series(dtype=float)]
         for picture in pictures:
-            counted = np.isfinite(picture.values) if is_span else picture.values > 0
-            areas = np.broadcast_to(picture.radii[1:, None] + picture.radii[:-1, None], counted.shape)[counted]
-            values.append(picture.values[counted])
-            weights.append(values[-1] * areas if is_pressure else np.ones(areas.size))
-            weights[-1] /= weights[-1].sum() or 1.0
-        every = np.concatenate(values)
-        order = np.argsort(every)
-        shares = np.cumsum(np.concatenate(weights)[order])
-        low, high = every[order][np.searchsorted(shares, np.array([BEYOND, 1 - BEYOND]) * shares[-1])] if every.size else (0.0, 1.0)
+            values, areas = picture.values, picture.radii[1:, None] + picture.radii[:-1, None]
+            counted = np.isfinite(values) if is_span else values > 0
+            weights = (values * areas if is_pressure else np.ones_like(values))[counted]
+            shares.append(pandas.Series(weights / weights.sum(), values[counted]))
+        below = pandas.concat(shares).sort_index().cumsum()
+        low, high = below.index[below.searchsorted(np.array([BEYOND, 1 - BEYOND]) * below.iloc[-1])] if below.size else (0.0, 1.0)
         # What rounding makes of equal values is no range; else zero is below the colours.
         around = 0.01 if high - low <= 1e-9 * max(abs(low), abs(high)) else 0.0
         is_wide = is_pressure and high > MOST_LINEAR * low > 0
@@ -158,17 +156,12 @@ def draw_map(panels: Sequence[Any], picture: Picture, size: tuple[float, float],
         panel.yaxis.set_major_locator(MaxNLocator(max(min(int(size[1] / LINE / 1.4), 5), 1), steps=[1, 2, 5, 10]))
         if size[1] < 2.5 * LINE:
             panel.set_yticks(panel.get_ylim(), labels=[f"{radius:.4g}" for radius in panel.get_ylim()])
-    panels[0].set_title(_wrapped(picture.title, size[0]), pad=3)
+    panels[0].set_title(wrapped(picture.title, int(size[0] / LETTER)), pad=3)
     panels[-1].set_xlabel(picture.below(letters, stretch))
     # In the middle of all.
     middle = 0.5 if len(panels) % 2 else 1 + NUMBERS / (2 * size[1])
     panels[len(panels) // 2].set_ylabel("y, mm" if picture.form is POLAR else "radius, mm", y=middle)
     return drawn
-
-
-def _wrapped(text: str, wide: float) -> str:
-    """A text above a map of this width, mm, in lines."""
-    return "\n".join(wrapped(line, int(wide / LETTER)) for line in text.split("\n"))
 
 
 def _legend(onto: Any, legend: Legend, **options: Any) -> None:
@@ -193,7 +186,7 @@ def pages(rows: Sequence[Sequence[Picture | None]], width: float, caption: str, 
         for label, drawn, top, bottom, right in bars.values():
             high = max(min(bottom - top, LONGEST), SHORTEST)
             bar, end = add(right + 2.5, top, 3.0, high), max(end, top + high + 2.0)
-            figures[-1].colorbar(drawn, cax=bar, label=_wrapped(label, high))
+            figures[-1].colorbar(drawn, cax=bar, label=wrapped(label, int(high / LETTER)))
         for axes in figures[-1].axes:
             box = axes.get_position(original=True)
             axes.set_position((box.x0, 1 - (1 - box.y0) * PAGE / end, box.width, box.height * PAGE / end))
@@ -204,7 +197,7 @@ def pages(rows: Sequence[Sequence[Picture | None]], width: float, caption: str, 
     for pictures in rows:
         each, least = room / len(pictures), (0.06 if len(pictures) == 1 else 0.04) * width
         fits = [(one, each * column + LEFT, *one.fitted(each - LEFT, least)) for column, one in enumerate(pictures) if one]
-        above = LINE * max(_wrapped(one.title, wide).count("\n") + 1 for one, _, _, wide, *_ in fits) + 1.5
+        above = LINE * max(wrapped(one.title, int(wide / LETTER)).count("\n") + 1 for one, _, _, wide, *_ in fits) + 1.5
         maps = max(count * high + (count - 1) * (NUMBERS + 1) for *_, count, _, high, _ in fits)
         below = LINE * max(one.below(letters, stretch).count("\n") + 1 for one, *_, stretch in fits) + NUMBERS + 2.0
         if top + above + maps + below > PAGE:

@@ -1,5 +1,4 @@
-"""Figures of series against time: contact area, friction, temperatures, filling and coverage, debris, emission. Lines are means of very
-many samples, or of runs that differ in seeds alone; single steps and events are beside them."""
+"""Figures of series against time. Lines are means of very many samples, or of runs that differ in seeds alone; steps and events are beside."""
 
 import math
 from collections.abc import Iterable, Sequence
@@ -12,15 +11,14 @@ import pandas
 
 from plateau.figures.drawing import Drawing, Subject, moment
 from plateau.quantities import CELSIUS, KMH, MM2, NUMBER, PERCENT, SERIES
-from plateau.run_file import array
-from plateau.style import APART, NARROW, WIDE, look, wrapped
+from plateau.style import APART, NARROW, WIDE, look, number, wrapped
 from plateau.units import Unit, quantity, unit_of
 
 # Windows of time in which samples are put together, at most; those of a cycle, whose events are short; of emission.
 MOST, MOST_OF_CYCLE, MOST_OF_EMISSION = 250, 1500, 60
 # Samples of a window of which a band tells the extent, at least; the parts of them that are below its ends.
 LEAST_OF_BAND, BAND = 20, (0.05, 0.95)
-# A line that goes up and down by more than so many times its range is a weighted mean over this part of the longest run.
+# A line that goes up and down by more than so many times its range is a weighted mean over this part of the longest such run.
 MOST_WAY, PART, MOST_EVENTS = 3.0, 1 / 16, 100
 # Runs whose single steps are drawn; samples that are marked: at most. Higher single steps, over the highest mean, are beyond the axis.
 MOST_BANDS, MOST_MARKS, CEILING = 3, 200, 1.6
@@ -69,11 +67,8 @@ def in_windows(values: Any, most: int) -> Any:
 
 def line_of(course: Course, duration: float) -> Any:
     """A line by time: means in windows; in a run without a cycle `weighted` over a duration, s."""
-    most, values = MOST_OF_CYCLE if course.subject.has_cycle else MOST, course.values
-    # Windows are at the mean time of samples with a value.
-    times = pandas.DataFrame({"known": values.index.where(values.notna().all(axis=1)), "all": values.index})
-    times = in_windows(times, most).mean()
-    line = in_windows(values, most).mean().set_index(times["known"].fillna(times["all"]))
+    most = MOST_OF_CYCLE if course.subject.has_cycle else MOST
+    line = in_windows(course.values.reset_index(), most).mean().set_index("index")
     return line if course.subject.has_cycle else weighted(line, duration, course.duration)
 
 
@@ -95,9 +90,8 @@ def weighted(line: Any, duration: float, whole: float) -> Any:
 
 def calm(every: Sequence[Course]) -> float:
     """How long means are, s: 0 for windows, more if a line goes up and down all along, as with the place on the disc: it looks like waves."""
-    long = [one for one in every if not one.is_short]
-    is_any = any(pulses(one.values.mean(axis=1).to_numpy()) for one in long)
-    return PART * max(one.duration for one in long) if is_any else 0.0
+    durations = [one.duration for one in every if not one.is_short and pulses(one.values.mean(axis=1).to_numpy())]
+    return PART * max(durations, default=0.0)
 
 
 def pulses(line: Any) -> bool:
@@ -120,19 +114,18 @@ def draw(axis: Any, course: Course, time: Unit, duration: float, is_exact: bool 
     return float(np.nan_to_num(line).max(initial=0.0))
 
 
-def draw_steps(axis: Any, course: Course, time: Unit, duration: float, label: str | None) -> float:
-    """Draws single steps as dots, or, where they are very many, as a band between percentiles; gives the highest."""
+def draw_steps(axis: Any, course: Course, time: Unit, duration: float, label: str | None) -> None:
+    """Draws single steps as dots, or, where they are very many, as a band between percentiles."""
     values, look = course.values[0], {"color": course.subject.line["color"], "label": label}
     if course.is_short:
         # Very many are pixels, in drawings of lines, too.
         look |= {"markersize": 1.3, "markeredgewidth": 0, "rasterized": len(values) > MOST_OF_CYCLE}
         axis.plot(time.value(values.index), values, "o", alpha=0.35, **look)
-        return float(np.nan_to_num(values).max(initial=0.0))
+        return
     most = min(MOST, len(values) // LEAST_OF_BAND, *([round(2 * course.duration / duration)] if duration else []))
     at = np.concatenate([values.index[:1], in_windows(values.index.to_series(), most).mean(), values.index[-1:]])
     low, high = (np.pad(in_windows(values, most).quantile(part), 1, "edge") for part in BAND)
     axis.fill_between(time.value(at), low, high, alpha=0.2, linewidth=0, **look)
-    return float(np.nan_to_num(high).max(initial=0.0))
 
 
 def time_of(subjects: Sequence[Subject]) -> Unit:
@@ -142,14 +135,13 @@ def time_of(subjects: Sequence[Subject]) -> Unit:
 
 def time_axis(axes: Iterable[Any], subjects: Sequence[Subject]) -> None:
     """Gives axes the time of all runs, and shades the events of a single run, last in legends: they are less important."""
-    time, run = time_of(subjects), subjects[0].run
-    is_cycle = len(subjects) == 1 and "event" in run.children
-    spans = time.value(np.array([array(run, f"event/{name}").values for name in ("start", "end")])).T if is_cycle else []
+    time, events = time_of(subjects), subjects[0].run.plateau.events if len(subjects) == 1 else pandas.DataFrame()
     for axis in axes:
         axis.set(xlim=(0, time.value(max(float(subject.time[-1]) for subject in subjects))), xlabel=f"time, {time.symbol}")
-        if 0 < len(spans) <= MOST_EVENTS:
+        if 0 < len(events) <= MOST_EVENTS:
+            spans = time.value(np.column_stack([events["start"], events["end"] - events["start"]]))
             look = {"transform": axis.get_xaxis_transform(), "color": APART, "linewidth": 0, "zorder": 0, "label": "events of the cycle"}
-            axis.broken_barh([(start, end - start) for start, end in spans], (0, 1), **look)
+            axis.broken_barh(spans, (0, 1), **look)
 
 
 def note_of(every: Sequence[Course], duration: float, usual: str, *more: str) -> str:
@@ -170,15 +162,17 @@ def contact_area(drawing: Drawing, subjects: list[Subject]) -> list[Any]:
     shown = courses(subjects, "contact_area_mean", MM2, True)
     single = [one for one in courses(subjects, "contact_area", MM2, True) if one.values.shape[1] == 1 and len(shown) <= MOST_BANDS]
     above = ["normal_force", "rotational_speed"] if any(one.has_cycle for one in subjects) and drawing.ax is None else []
-    height, ratios = (58 + 22 * len(above)) / (len(above) + 1), {"height_ratios": [1] * len(above) + [2]} if above else {}
-    figure, axes = drawing.panels(len(above) + 1, height, "Contact area against time", 1, WIDE if above else NARROW, **ratios)
+    ratios, usual = [1] * len(above) + [2], WIDE if above else NARROW
+    figure, axes = drawing.panels(len(ratios), 58 if not above else 34, "Contact area against time", 1, usual, height_ratios=ratios)
     *upper, axis = axes
     time, duration = time_of(subjects), calm(shown)
     for one, name in zip(upper, above, strict=True):
         operation(one, subjects, name, time)
     kinds = {f"{'' if one.is_short else f'{100 * BAND[0]:.0f} to {100 * BAND[1]:.0f} % of '}single steps": one.is_short for one in single}
     label = next(iter(kinds), None) if drawing.only else None
-    highest = max((draw_steps(axis, one, time, duration, label) for one in single), default=0.0)
+    for one in single:
+        draw_steps(axis, one, time, duration, label)
+    highest = axis.dataLim.y1
     own: dict[str, Any] = {"label": "weighted mean" if duration else REVOLUTION} if drawing.only else {}
     largest = max(draw(axis, one, time, duration, **own) for one in shown)
     # The mean must be readable beside single steps.
@@ -219,8 +213,7 @@ def friction(drawing: Drawing, subjects: list[Subject]) -> list[Any]:
     unit = unit_of("Pa", np.concatenate([subject.values("mean_pressure") for subject in subjects]))
     for subject in subjects:
         steps = pandas.Series(subject.while_rubbing(subject.values("friction_coefficient")), unit.value(subject.values("mean_pressure")))
-        steps = steps[steps.notna() & (steps.index > 0)]
-        steps = steps[:: max(1, math.ceil(len(steps) / MOST_MARKS))]
+        steps = in_windows(steps[steps.notna() & (steps.index > 0)], MOST_MARKS).head(1)
         right.plot(steps, subject.line.get("marker", "o"), color=subject.line["color"], markersize=2, markeredgewidth=0, alpha=0.7)
     is_wide = right.dataLim.x1 > 20 * right.dataLim.x0
     right.set(xscale="log" if is_wide else "linear", xlabel=f"mean contact pressure, {unit.symbol}", xlim=(None if is_wide else 0, None))
@@ -237,10 +230,10 @@ def in_panels(drawing: Drawing, subjects: list[Subject], names: Sequence[str], u
     durations = {name: 0.0 if unit is CELSIUS else calm(shown) for name, shown in found.items()}
     count, duration = 1 if drawing.only else len(found), max(durations.values())
     figure, axes = drawing.panels(count, 62 if drawing.only else 48, caption)
-    for number, (name, shown) in enumerate(found.items()):
-        axis, title = axes[number % count], "valleys of the disc filled" if name == "filled_fraction" else SERIES[name].title
+    for place, (name, shown) in enumerate(found.items()):
+        axis, title = axes[place % count], "valleys of the disc filled" if name == "filled_fraction" else SERIES[name].title
         for course in shown:
-            own = look(number) | {"label": title} if drawing.only else {}
+            own = look(place) | {"label": title} if drawing.only else {}
             draw(axis, course, time_of(subjects), duration if durations[name] else 0.0, unit is CELSIUS, **own)
         axis.set(title="" if drawing.only else title, ylabel=f"{what}, {unit.symbol}")
     for axis in axes if unit is PERCENT else ():
@@ -257,9 +250,7 @@ filled = partial(in_panels, names=FILLED, unit=PERCENT, caption="Filled part of 
 
 def debris(drawing: Drawing, subjects: list[Subject]) -> list[Any]:
     """Where the wear debris is, stacked, with all that was worn; below it the same without what was emitted."""
-    every = [pandas.DataFrame({name: one.values(name) for name in (*PARTS, *SOURCES)}, one.time) for one in subjects]
-    # At the start there was none.
-    every = [parts.reindex(np.insert(parts.index, 0, 0.0), fill_value=0.0) for parts in every]
+    every = [totals(subject, [*PARTS, *SOURCES], MOST) for subject in subjects]
     is_there = pandas.concat(every).gt(0).any()
     there = [name for name in PARTS if is_there[name]]
     kept = [name for name in there if name != "emitted"]
@@ -274,12 +265,11 @@ def debris(drawing: Drawing, subjects: list[Subject]) -> list[Any]:
             unit, labels = unit_of("m3", highest), [SERIES[name].title.removesuffix(" of the simulated pin") for name in names]
             row[0].set(ylim=(0, 1.05 * unit.value(highest) or 1), ylabel=f"{title}, {unit.symbol}")
             for axis, (subject, parts) in zip(row, page, strict=True):
-                shown = parts.iloc[np.append(np.arange(0, len(parts) - 1, math.ceil(len(parts) / MOST)), len(parts) - 1)]
-                at = time_of(subjects).value(shown.index)
+                at = time_of(subjects).value(parts.index)
                 if names:
-                    axis.stackplot(at, unit.value(shown[names].T), colors=[PARTS[name] for name in names], labels=labels, linewidth=0)
+                    axis.stackplot(at, unit.value(parts[names].T), colors=[PARTS[name] for name in names], labels=labels, linewidth=0)
                 if names is there:
-                    axis.plot(at, unit.value(shown[[*sums]].sum(axis=1)), color="black", label=line)
+                    axis.plot(at, unit.value(parts[[*sums]].sum(axis=1)), color="black", label=line)
                     axis.set_title("" if drawing.only else wrapped(subject.label, 90 // len(page)))
                 axis.label_outer()
         note = "Sums since the start: debris that was deposited, worn off and deposited again counts twice"
@@ -299,12 +289,12 @@ def emission(drawing: Drawing, subjects: list[Subject]) -> list[Any]:
         drawn = []
         for subject in on_road if is_road else subjects:
             for place, (name, label) in enumerate(names.items()):
-                paler = {"label": None, "alpha": 0.45} if place else {"label": subject.label}
-                own = look(place) | {"label": label or "PM10"} if drawing.only else paler
-                drawn.append((subject.line | own, per_metre(subject, whose + name) if is_road else rates(subject, whose + name, most)))
-        unit = in_powers(prefix + ("m-1" if is_road else "s-1"), np.concatenate([values for _, values in drawn]))
-        for line, values in drawn:
-            axis.plot(time_of(subjects).value(values.index), unit.value(values), drawstyle="default" if is_road else "steps-post", **line)
+                values = per_metre(subject, whose + name) if is_road else rates(subject, whose + name, most)
+                drawn.append((drawing.look(subject, place, label or "PM10"), values))
+        unit = unit_of(prefix + ("m-1" if is_road else "s-1"), np.concatenate([values for _, values in drawn]))
+        for own, values in drawn:
+            axis.plot(time_of(subjects).value(values.index), unit.value(values), drawstyle="default" if is_road else "steps-post", **own)
+        axis.yaxis.set_major_formatter(lambda value, _: number(value))
         axis.set(title=title, ylim=(0, None), ylabel=f"{'emission factor' if is_road else 'rate'}, {unit.symbol}")
     time_axis(axes, subjects)
     # The area of the mesh is that in contact over the part that this is of it.
@@ -318,10 +308,15 @@ def emission(drawing: Drawing, subjects: list[Subject]) -> list[Any]:
     return drawing.explained(figure, axes[0], note)
 
 
+def totals(subject: Subject, names: Sequence[str], most: int) -> Any:
+    """Totals at the start, when there was nothing, and at the ends of windows of equally many samples, by time, s."""
+    ends = in_windows(pandas.DataFrame({name: subject.values(name) for name in names}, subject.time), most).tail(1)
+    return ends.reindex(ends.index.union([0.0]), fill_value=0.0)
+
+
 def rates(subject: Subject, name: str, most: int) -> Any:
     """What a total grows for each second in windows of equally many samples, by their starts, s; the last twice, for its end."""
-    ends = in_windows(pandas.Series(subject.values(name), subject.time), most).tail(1)
-    ends = pandas.concat([pandas.Series({0.0: 0.0}), ends[ends.index > 0]])
+    ends = totals(subject, [name], most)[name]
     return (ends.diff() / ends.index.diff()).shift(-1).ffill()
 
 
@@ -330,10 +325,3 @@ def per_metre(subject: Subject, name: str) -> Any:
     way = subject.values("road_distance")
     far = (way > 0) & (way >= 0.05 * np.nanmax(way))
     return pandas.Series(subject.values(name)[far] / way[far], subject.time[far])
-
-
-def in_powers(si: str, values: Any) -> Unit:
-    """The unit for the largest of values; thousands of those that have no prefix are in front of it."""
-    unit = unit_of(si, values)
-    power = 3 * int(math.log10(max(1.0, unit.value(float(np.nan_to_num(values).max(initial=0.0))))) // 3)
-    return Unit(f"10{str(power).translate(str.maketrans('0123456789', '⁰¹²³⁴⁵⁶⁷⁸⁹'))} {unit.symbol}", unit.per_si / 10**power) if power else unit
