@@ -78,38 +78,46 @@ fn deposit_on_rows<L: Lanes, const BUILD_UP: u8, const DISC_WEARS: bool, const T
     }
     let mut deposits = Deposits::<L>::new();
     let count = list::<L>(&mut edges.listed, &edges.fed, columns);
+    let Edges { listed, fed, open, touches, lost, plateau: plateaus, .. } = edges;
+    let fed = &fed[..columns];
     if TRANSPORT {
-        edges.gather::<L>(rules, count, ahead);
-    }
-    let fed = &edges.fed[..columns];
-    let (shares, plateaus) =
-        if TRANSPORT { (&edges.share[..count], &edges.plateau[..columns]) } else { Default::default() };
-    for (place, column) in edges.listed[..count].iter().enumerate() {
-        let column = *column as usize;
-        if column >= columns {
-            break;
-        }
-        let rows = fed[column] & L::ROWS;
-        let mut of_resin = 0;
-        let next = if TRANSPORT {
-            // What touches ahead is worn, and what is open there has not been filled.
-            let next = (column + 1).min(columns - 1);
-            let height = if column < next {
-                let plateaus = L::Mask::of_byte(plateaus[next]);
-                L::select(plateaus, L::load(&strip.pin.height[next]), L::splat(f64::INFINITY))
-            } else {
-                L::load(&ahead.height)
+        let reach = rules.rules.reach;
+        // Each cell is fed from the nearest edge ahead. An open cell ahead, which has been filled, counts as it was before.
+        let mut nearest = L::load(&ahead.share);
+        let (mut last, mut before) = (columns, ahead.height);
+        for column in listed[..count].iter().rev() {
+            let column = *column as usize;
+            let next = column + 1;
+            let (Some(open), Some(touches), Some(lost)) =
+                (open.get(column), touches.get(next..next + reach), lost.get(next..next + reach))
+            else {
+                break;
             };
-            [L::load(&shares[place]), height]
-        } else if column + 1 < columns {
-            of_resin = rows & !strip.pin.plateau[column + 1];
-            worn_ahead::<L, BUILD_UP, DISC_WEARS>(rules, strip, column + 1)
-        } else {
-            let height = L::load(&ahead.height);
-            of_resin = rows & height.at_least(L::splat(f64::INFINITY)).byte();
-            [L::load(&ahead.lost[0]), height]
-        };
-        deposits.fill(rules, strip, column, [rows, of_resin], next, &mut moved.seldom);
+            let at = open & L::ROWS;
+            nearest = L::select(L::Mask::of_byte(at), gathered(rules, at, touches, lost), nearest);
+            let height = if next == last { &before } else { &strip.pin.height[next] };
+            let height = L::select(L::Mask::of_byte(plateaus[next]), L::load(height), L::splat(f64::INFINITY));
+            (last, before) = (column, strip.pin.height[column]);
+            deposits.fill(rules, strip, column, [fed[column], 0], [nearest, height], &mut moved.seldom);
+        }
+    } else {
+        for column in &listed[..count] {
+            let column = *column as usize;
+            if column >= columns {
+                break;
+            }
+            let rows = fed[column] & L::ROWS;
+            let (of_resin, next);
+            if column + 1 < columns {
+                of_resin = rows & !strip.pin.plateau[column + 1];
+                next = worn_ahead::<L, BUILD_UP, DISC_WEARS>(rules, strip, column + 1);
+            } else {
+                let height = L::load(&ahead.height);
+                of_resin = rows & height.at_least(L::splat(f64::INFINITY)).byte();
+                next = [L::load(&ahead.lost[0]), height];
+            };
+            deposits.fill(rules, strip, column, [rows, of_resin], next, &mut moved.seldom);
+        }
     }
     add::<L>(&mut moved.deposited_pin.0[index], rules.deposits(deposits.on_pins, deposits.terms));
     add::<L>(&mut moved.deposited_disc.0[index], rules.deposits(deposits.on_discs, deposits.terms));
@@ -220,6 +228,8 @@ impl Edges {
         self.lost.extend_from_slice(&ahead.lost);
         self.plateau.clear();
         self.plateau.extend_from_slice(&strip.pin.plateau[..columns]);
+        // What lies ahead has told its plateaus by its height.
+        self.plateau.push(u8::MAX);
         let count = list::<L>(&mut self.listed, &self.touches, columns);
         let lost = &mut self.lost[..columns];
         let mut strip_moved = StripMoved::<L>::new();
@@ -234,27 +244,6 @@ impl Edges {
             store_worn::<L, BUILD_UP, DISC_WEARS>(strip, column, &worn);
         }
         strip_moved.store::<BUILD_UP, DISC_WEARS>(rules, strip.index, count, moved);
-    }
-
-    /// Gathers what is lost ahead of edges, for the so many listed columns that they feed: each cell is fed from the nearest.
-    #[inline(always)]
-    fn gather<L: Lanes>(&mut self, rules: &StripRules<L>, count: usize, ahead: &Reach) {
-        let reach = rules.rules.reach;
-        self.share.resize(count, ahead.share);
-        self.listed.truncate(count);
-        let mut nearest = L::load(&ahead.share);
-        for (column, share) in self.listed.iter().zip(&mut self.share).rev() {
-            let column = *column as usize;
-            let next = column + 1..column + 1 + reach;
-            let (Some(open), Some(touches), Some(lost)) =
-                (self.open.get(column), self.touches.get(next.clone()), self.lost.get(next))
-            else {
-                break;
-            };
-            let edges = open & L::ROWS;
-            nearest = L::select(L::Mask::of_byte(edges), gathered(rules, edges, touches, lost), nearest);
-            nearest.store(share);
-        }
     }
 
     /// Finds what the first column means to the one behind it, from the state at the start of the step.

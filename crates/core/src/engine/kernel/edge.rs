@@ -32,12 +32,10 @@ pub(super) struct Edges {
     pub fed: Vec<u8>,
     /// v of each of these columns, m; of no meaning where nothing touches.
     pub lost: Vec<Chunk>,
-    /// Which cells of the columns of the strip were plateaus at the start of the step, one bit each.
+    /// Which cells of the columns of the strip were plateaus at the start of the step, one bit each, and all of the next.
     pub plateau: Vec<u8>,
     /// Columns of the strip with something to do.
     pub listed: Vec<u32>,
-    /// v̄ of the edge that a cell of each listed column is fed from, m.
-    pub share: Vec<Chunk>,
 }
 
 impl Edge {
