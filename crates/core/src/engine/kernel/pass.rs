@@ -4,7 +4,7 @@
 //! In the next step the disc column under pin column j lies under column j + 1. So when column j + 1 has been updated, the
 //! new heights of that pair are at hand, and are read on the way. Which pairs touch is known from the reading. Debris first
 //! comes upon the open cells of a strip, as [`super::deposit`] has it; that leaves what touches as it is at the start of the
-//! step, and then that wears.
+//! step, and then that wears. With a transport length the deposit wears, too, and the pairs are read after it.
 //!
 //! In most steps nothing out of the ordinary happens to most cells. Eight such cells at a time are done with few
 //! instructions ([`super::ordinary`]), which also show where something else happens; those eight are then done by all rules.

@@ -28,16 +28,29 @@ impl Span {
     }
 }
 
-/// Reads the pairs of some strips of a span against a bracket.
-pub type Read = fn(InstructionSet, &mut PinStrips, &DiscSector, Span, Range<usize>, &Bracket, &mut Reading);
+/// Reads the pairs of a span against a bracket.
+pub type Read = fn(InstructionSet, &mut PinStrips, &DiscSector, Span, &Bracket, &mut Reading);
 
 /// The reading that looks at what a scene needs and nothing else; chosen once per run.
 pub fn read(needs: Needs) -> Read {
     match needs.build_up() {
-        build_up::NONE => read_span::<{ build_up::NONE }>,
-        build_up::DISTINCT => read_span::<{ build_up::DISTINCT }>,
-        _ => read_span::<{ build_up::ALIKE }>,
+        build_up::NONE => read_all::<{ build_up::NONE }>,
+        build_up::DISTINCT => read_all::<{ build_up::DISTINCT }>,
+        _ => read_all::<{ build_up::ALIKE }>,
     }
+}
+
+/// Reads all strips of a span.
+fn read_all<const BUILD_UP: u8>(
+    set: InstructionSet,
+    pin: &mut PinStrips,
+    disc: &DiscSector,
+    span: Span,
+    bracket: &Bracket,
+    reading: &mut Reading,
+) {
+    let strips = 0..pin.height.strips();
+    read_span::<BUILD_UP>(set, pin, disc, span, strips, bracket, reading);
 }
 
 kernel! {

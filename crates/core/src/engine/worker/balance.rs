@@ -8,7 +8,7 @@ use crate::engine::exact::{ExactSum, Quantum, Unit, of_words, words};
 use crate::engine::kernel::{Bracket, NearPair, Span, gaps_below};
 use crate::engine::lanes::LANES;
 use crate::engine::sector::Segment;
-use crate::engine::strips::{OUT_OF_REACH, strips};
+use crate::engine::strips::OUT_OF_REACH;
 use crate::model::error::{ContactError, SimulationError};
 use crate::model::state::pin_status;
 
@@ -151,15 +151,7 @@ impl<C: Communicator> Worker<C> {
         for Segment { sector, pin, over, .. } in self.partition.segments(self.first()) {
             let Some(sector) = &self.sectors[sector] else { continue };
             let span = Span { first: pin.start, over, columns: pin.len() };
-            (self.read)(
-                self.instructions,
-                &mut self.pin,
-                sector,
-                span,
-                0..strips(self.rows.len()),
-                bracket,
-                &mut self.reading,
-            );
+            (self.read)(self.instructions, &mut self.pin, sector, span, bracket, &mut self.reading);
         }
         self.gather_reading(bracket)
     }

@@ -42,15 +42,7 @@ impl<C: Communicator> Worker<C> {
             }
             let Some(sector) = &self.sectors[entering.sector] else { continue };
             let span = Span { first: entering.pin, over: entering.over, columns: 1 };
-            (self.read)(
-                self.instructions,
-                &mut self.pin,
-                sector,
-                span,
-                0..strips(self.rows.len()),
-                &bracket,
-                &mut self.reading,
-            );
+            (self.read)(self.instructions, &mut self.pin, sector, span, &bracket, &mut self.reading);
         }
         Ok(bracket)
     }
