@@ -50,10 +50,6 @@ fn deposit_on_strip<L: Lanes, const BUILD_UP: u8, const DISC_WEARS: bool, const 
     strip.shorten(span.columns);
     let mut edges = std::mem::take(&mut moved.edges);
     edges.take_touches(&strip, ahead);
-    if TRANSPORT {
-        edges.make_room(strip.disc_height.len(), ahead);
-        edges.take_plateaus(&strip);
-    }
     let (strip, edges_of) = (&mut strip, &mut edges);
     if <L::First as Lanes>::ROWS == L::ROWS {
         deposit_on_rows::<L, BUILD_UP, DISC_WEARS, TRANSPORT>(rules, conditions, strip, ahead, edges_of, moved);
@@ -78,11 +74,11 @@ fn deposit_on_rows<L: Lanes, const BUILD_UP: u8, const DISC_WEARS: bool, const T
     let (index, columns) = (strip.index, strip.disc_height.len());
     let rules = &StripRules::<L>::new(rules, conditions, index);
     if TRANSPORT {
-        edges.wear::<L, BUILD_UP, DISC_WEARS>(rules, strip, moved);
+        edges.wear::<L, BUILD_UP, DISC_WEARS>(rules, strip, ahead, moved);
     }
     let mut deposits = Deposits::<L>::new();
     let count = list::<L>(&mut edges.listed, &edges.fed, columns);
-    let Edges { listed, fed, touches, lost, plateau: plateaus } = edges;
+    let Edges { listed, fed, open, touches, lost, plateau: plateaus, .. } = edges;
     let fed = &fed[..columns];
     if TRANSPORT {
         let reach = rules.rules.reach;
@@ -92,12 +88,12 @@ fn deposit_on_rows<L: Lanes, const BUILD_UP: u8, const DISC_WEARS: bool, const T
         for column in listed[..count].iter().rev() {
             let column = *column as usize;
             let next = column + 1;
-            let (Some([own, touches @ ..]), Some(lost)) =
-                (touches.get(column..next + reach), lost.get(next..next + reach))
+            let (Some(open), Some(touches), Some(lost)) =
+                (open.get(column), touches.get(next..next + reach), lost.get(next..next + reach))
             else {
                 break;
             };
-            let at = !own & touches[0] & L::ROWS;
+            let at = open & L::ROWS;
             nearest = L::select(L::Mask::of_byte(at), gathered(rules, at, touches, lost), nearest);
             let height = if next == last { &before } else { &strip.pin.height[next] };
             let height = L::select(L::Mask::of_byte(plateaus[next]), L::load(height), L::splat(f64::INFINITY));
@@ -196,8 +192,9 @@ impl Edges {
         self.touches.extend_from_slice(&ahead.touches);
         let bytes = columns.div_ceil(BYTES) * BYTES;
         self.touches.resize(bytes + ahead.touches.len(), 0);
+        self.open.resize(bytes, 0);
         self.fed.resize(bytes, 0);
-        let Self { touches, fed, .. } = self;
+        let Self { touches, open, fed, .. } = self;
         // A compiler makes wide loops of these.
         for (fed, touches) in fed.iter_mut().zip(&touches[1..]) {
             *fed = *touches;
@@ -207,7 +204,8 @@ impl Edges {
                 *fed |= touches;
             }
         }
-        for (fed, own) in fed.iter_mut().zip(&touches[..]) {
+        for (((open, fed), own), next) in open.iter_mut().zip(fed.iter_mut()).zip(&touches[..]).zip(&touches[1..]) {
+            *open = !own & next;
             *fed &= !own;
         }
         // No cell that is not there is filled.
@@ -216,31 +214,22 @@ impl Edges {
         }
     }
 
-    /// Makes room for what so many columns lose, before what those ahead lose.
-    #[inline(always)]
-    fn make_room(&mut self, columns: usize, ahead: &Reach) {
-        self.lost.resize(columns, ahead.height);
-        self.lost.extend_from_slice(&ahead.lost);
-    }
-
-    /// Keeps which cells are plateaus.
-    #[inline(always)]
-    fn take_plateaus(&mut self, strip: &Strip) {
-        self.plateau.clear();
-        self.plateau.extend_from_slice(strip.pin.plateau);
-        // What lies ahead has told its plateaus by its height.
-        self.plateau.push(u8::MAX);
-    }
-
     /// Wears what touches, and keeps what it loses.
     #[inline(always)]
     pub fn wear<L: Lanes, const BUILD_UP: u8, const DISC_WEARS: bool>(
         &mut self,
         rules: &StripRules<L>,
         strip: &mut Strip,
+        ahead: &Reach,
         moved: &mut Moved,
     ) {
         let columns = strip.disc_height.len();
+        self.lost.resize(columns, ahead.height);
+        self.lost.extend_from_slice(&ahead.lost);
+        self.plateau.clear();
+        self.plateau.extend_from_slice(&strip.pin.plateau[..columns]);
+        // What lies ahead has told its plateaus by its height.
+        self.plateau.push(u8::MAX);
         let count = list::<L>(&mut self.listed, &self.touches, columns);
         let lost = &mut self.lost[..columns];
         let mut strip_moved = StripMoved::<L>::new();
@@ -275,7 +264,8 @@ impl Edges {
             return;
         }
         let own = strip.disc_height.len();
-        self.make_room(own, &rules.rules.nothing_ahead);
+        self.lost.resize(own, reach.height);
+        self.lost.extend_from_slice(&rules.rules.nothing_ahead.lost);
         for column in 0..own {
             let worn = wear::<L, BUILD_UP, DISC_WEARS>(rules, strip.cells::<L, BUILD_UP, DISC_WEARS>(column));
             worn.lost::<DISC_WEARS>(true).store(&mut self.lost[column]);

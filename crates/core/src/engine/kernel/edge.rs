@@ -26,7 +26,9 @@ pub(super) struct Reach {
 pub(super) struct Edges {
     /// Which cells touch in each column of the strip and in L columns ahead of it, one bit each.
     pub touches: Vec<u8>,
-    /// Which cells of these columns an edge feeds: the open ones with a cell that touches within L columns ahead.
+    /// Which cells of these columns are the open ones of an edge.
+    pub open: Vec<u8>,
+    /// Which an edge feeds: those with a cell that touches within L columns ahead.
     pub fed: Vec<u8>,
     /// v of each of these columns, m; of no meaning where nothing touches.
     pub lost: Vec<Chunk>,
