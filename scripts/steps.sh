@@ -11,7 +11,7 @@ skip() {
 
 begin_steps() {
     step_log=$(mktemp) || exit 1
-    trap 'rm -f "$step_log" "$step_log.beside"; [ -z "$beside_process" ] || kill "$beside_process" 2>/dev/null' EXIT
+    trap 'rm -f "$step_log" "$step_log".*; [ -z "$beside" ] || kill $beside 2>/dev/null' EXIT
     trap 'exit 130' INT
     trap 'exit 143' TERM
     passed=0
@@ -20,16 +20,22 @@ begin_steps() {
     failed_names=
     skip_reasons=
     beside=
-    beside_process=
+    : >"$step_log.beside"
 }
 
-# begin_beside NAME COMMAND...: begins a step beside the others; run_step of this name waits for its end.
+# begin_beside NAME COMMAND...: begins a step beside the others; end_steps waits for its end.
 begin_beside() {
-    beside=$1
-    beside_began=$(date +%s)
+    step_name=$1
     shift
-    ("$@") >"$step_log.beside" 2>&1 </dev/null &
-    beside_process=$!
+    began=$(date +%s)
+    {
+        ("$@")
+        step_status=$?
+        date +%s >"$step_log.$step_name.end"
+        exit $step_status
+    } >"$step_log.$step_name" 2>&1 </dev/null &
+    beside="$beside $!"
+    echo "$! $step_name $began" >>"$step_log.beside"
 }
 
 # run_step NAME COMMAND...: one line with the outcome and the time; all of the output only if it failed.
@@ -37,41 +43,42 @@ run_step() {
     step_name=$1
     shift
     printf '%-10s ' "$step_name"
-    if [ "$step_name" = "$beside" ]; then
-        began=$beside_began
-        wait "$beside_process"
-        step_status=$?
-        beside_process=
-        mv -f "$step_log.beside" "$step_log"
-    else
-        began=$(date +%s)
-        ("$@") >"$step_log" 2>&1 </dev/null
-        step_status=$?
-    fi
-    seconds=$(($(date +%s) - began))
-    case $step_status in
+    began=$(date +%s)
+    ("$@") >"$step_log" 2>&1 </dev/null
+    end_step $? "$step_log" "$(date +%s)"
+}
+
+# end_step STATUS LOG END: the rest of the line of step `step_name`, which began at `began`.
+end_step() {
+    case $1 in
         0)
             passed=$((passed + 1))
-            printf 'passed   %4d s\n' $seconds
+            outcome=passed
             ;;
         "$skip_status")
             skipped=$((skipped + 1))
-            reason=$(tail -n 1 "$step_log")
+            outcome=skipped
             skip_reasons="$skip_reasons
-skipped $step_name: $reason"
-            printf 'skipped  %4d s\n' $seconds
+skipped $step_name: $(tail -n 1 "$2")"
             ;;
         *)
             failed=$((failed + 1))
+            outcome=FAILED
             failed_names="$failed_names $step_name"
-            printf 'FAILED   %4d s\n' $seconds
-            cat "$step_log"
             ;;
     esac
+    printf '%-8s %4d s\n' $outcome $(($3 - began))
+    [ $outcome != FAILED ] || cat "$2"
 }
 
-# Prints the summary and ends the script.
+# Waits for the steps beside, prints the summary and ends the script.
 end_steps() {
+    while [ -n "$beside" ] && read -r process step_name began <&3; do
+        printf '%-10s ' "$step_name"
+        wait "$process"
+        end_step $? "$step_log.$step_name" "$(cat "$step_log.$step_name.end")"
+    done 3<"$step_log.beside"
+    beside=
     printf '%s\n' "$skip_reasons"
     [ "$failed" -eq 0 ] || printf 'failed:%s\n' "$failed_names"
     printf '%d passed, %d failed, %d skipped\n' "$passed" "$failed" "$skipped"

@@ -25,10 +25,17 @@ provide_mpi() {
     [ "$(id -u)" -ne 0 ] || mpirun="$mpirun --allow-run-as-root"
 }
 
-# Builds the program with feature mpi in the usual place; the next build links it anew without. No other build replaces
-# the copy $target/plateau-mpi. To be called with PLATEAU_FEATURES=mpi and after paths.sh.
+# Builds the program with feature mpi as $target/plateau-mpi. The one in the usual place, which others may run meanwhile, is there again
+# afterwards. To be called with PLATEAU_FEATURES=mpi and after paths.sh.
 build_with_mpi() {
-    sh scripts/build.sh && cp "$program" "$target/plateau-mpi" && cp -p "$stamp" "$target/plateau-mpi.stamp"
+    for file in "$program" "$stamp"; do
+        [ ! -f "$file" ] || ln -f "$file" "$file.before" || return 1
+    done
+    sh scripts/build.sh || return 1
+    mv -f "$program" "$target/plateau-mpi" && mv -f "$stamp" "$target/plateau-mpi.stamp" || return 1
+    for file in "$program" "$stamp"; do
+        [ ! -f "$file.before" ] || mv -f "$file.before" "$file" || return 1
+    done
 }
 
 # The same only if the copy is not up to date, and in the environment of a program without MPI.

@@ -1,6 +1,5 @@
 #!/bin/sh
 # One scene on the ranks of an MPI job. Installs Open MPI and libclang where they are missing and may be installed.
-# Builds the program with feature mpi in the usual place; the next ./plateau links it anew without.
 set -u
 cd "$(dirname "$0")/../.." || exit 1
 root=$PWD

@@ -21,7 +21,6 @@ provide_mpi
 . scripts/say.sh
 . scripts/lock.sh
 . scripts/python.sh
-# In this order, so that the program is left as others expect it.
 need_program_with_mpi || exit 1
 sh scripts/build.sh || exit 1
 with_lock .venv.lock install_readers || exit 1

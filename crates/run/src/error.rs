@@ -57,7 +57,7 @@ pub enum InputError {
     #[error("{0}")]
     Aside(String, #[source] io::Error),
     /// What is there is an input, of another run, written by another program, damaged or not to be replaced; or the processes of a job
-    /// were not given the same.
+    /// were not given the same, or what they cannot have.
     #[error("{0}")]
     Refused(String),
 }

@@ -8,6 +8,7 @@ use plateau_core::model::state::InitialSurfaces;
 use plateau_core::simulation::{Engine, Execution, Simulation, SimulationError};
 use plateau_io::scene::{Scene, Workers};
 
+use crate::error::InputError;
 use crate::options::{ExecutionOptions, Observer};
 
 pub use plateau_io::process::host;
@@ -57,13 +58,7 @@ pub fn decide(
     let execution =
         Execution { instructions, pin: options.pin, decomposition: scene.decomposition, ..Execution::default() };
     if ranks > 1 {
-        if workers != Workers::Count(1) || options.pin {
-            observer.warning(&format_args!(
-                "{ranks} ranks share the ring, one worker each: numerics.workers, --workers and --pin have no effect; \
-                 the launcher pins ranks, as in mpirun --bind-to core"
-            ));
-        }
-        return Ok(Execution { workers: ranks, pin: false, ..execution });
+        return Ok(Execution { workers: ranks, ..execution });
     }
     let cores = cores();
     match workers {
@@ -77,6 +72,26 @@ pub fn decide(
             Ok(Execution { workers, ..execution })
         }
     }
+}
+
+/// Checks that a scene asks for nothing that ranks cannot have: threads of their own, or to be pinned by this program.
+///
+/// # Errors
+/// [`InputError::Refused`] otherwise.
+pub(crate) fn check_ranks(scene: &Scene, ranks: usize, options: &ExecutionOptions) -> Result<(), InputError> {
+    let refused = match scene.workers {
+        _ if ranks == 1 => return Ok(()),
+        Workers::Count(workers) if workers > 1 => format!(
+            "numerics.workers or --workers is {workers}, expected 1 on {ranks} ranks, which share the ring, one worker each: leave it \
+             out, and start as many ranks as there are to be workers, as in mpirun -n {workers}"
+        ),
+        _ if options.pin => format!(
+            "--pin is for the threads of one process, and there are {ranks} ranks: leave it out, and let the launcher pin them, as in \
+             mpirun --bind-to core"
+        ),
+        _ => return Ok(()),
+    };
+    Err(InputError::Refused(refused))
 }
 
 /// Cores that this process may use.

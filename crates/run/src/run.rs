@@ -14,7 +14,7 @@ use plateau_io::surface::{self, Loaded};
 
 use crate::assembly::Assembly;
 use crate::error::{InputError, Progress, RunError, RunFailure, Stopped};
-use crate::execution::decide;
+use crate::execution::{check_ranks, decide};
 use crate::job::{Agreement, Job};
 use crate::options::{Observer, RunOptions};
 use crate::recorder::{
@@ -74,6 +74,7 @@ impl Prepared {
         job: &mut Job,
         observer: &mut dyn Observer,
     ) -> Result<Self, RunError> {
+        check_ranks(&scene, job.ranks(), &options.execution)?;
         let path = options.output.clone().unwrap_or_else(|| scene.output.file.clone());
         // What a link points to is what is written, and its checkpoints lie beside it.
         let path = if path.is_symlink() { path.canonicalize().unwrap_or(path) } else { path };
