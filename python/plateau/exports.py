@@ -1,6 +1,5 @@
 """Run files in the formats of other programs; docs/figures.md has names, columns and shapes."""
 
-import importlib.util
 import json
 import os
 from functools import partial
@@ -11,18 +10,15 @@ import numpy as np
 import pandas
 import xarray
 
-from plateau.errors import InputError, MissingPackageError
-from plateau.opened_runs import Run, inputs_of, named_like, note, opened, warn
+from plateau.errors import InputError, MissingPackageError, not_installed
+from plateau.opened_runs import Run, inputs_of, named_like, note, opened
 from plateau.output_folder import Files, all_or_none, followed
 from plateau.run_file import array, source
 from plateau.units import quantity
 
-# Formats: the package that writes each, and endings of names.
-FORMATS = {"csv": ("pandas", ".csv", ".tsv", ".txt"), "xlsx": ("xlsxwriter", ".xlsx"), "npz": ("numpy", ".npz")}
-FORMATS |= {"netcdf": ("h5netcdf", ".nc", ".nc4"), "vtk": ("pyevtk", "-vtk")}
-# Rows of a sheet of Excel below the heads; columns, and maps as arrays, that have other names than in run files.
+# Formats, with endings of names; rows of a sheet of Excel below the heads; columns that have other names than in run files.
+FORMATS = {"csv": (".csv", ".tsv", ".txt"), "xlsx": (".xlsx",), "npz": (".npz",), "netcdf": (".nc", ".nc4"), "vtk": ("-vtk",)}
 MOST_ROWS, COLUMNS = 1_048_575, {"map_time": "time", "disc_angle": "angle", "pin_angle": "angle"}
-ARRAYS = {"pin_pressure": "pressure", "pin_temperature": "temperature"}
 
 
 def export(
@@ -57,39 +53,30 @@ def export(
         raise InputError(f"{to} has no {'maps' if maps else 'decimal mark or separator to choose'}: leave that out, or take csv")
     if decimal not in (".", ",") or len(sign) != 1 or sign.isalnum() or sign in "\"'+-.\r\n" or sign == decimal:
         raise InputError(f"decimal mark {decimal!r} with separator {separator!r}: expected . or , and a sign of no number, such as ;")
-    package, *endings = FORMATS[to]
-    if importlib.util.find_spec(package) is None:
-        raise MissingPackageError(f"{to} is written with {package}: pip install 'plateau-brake[all]'")
+    endings = FORMATS[to]
     path = followed(named_like(tree, endings[0]) if output is None else Path(output))
     if path.suffix.lower() not in ("", *endings) and to != "vtk":
         raise InputError(f"-o {path}: {to} is written to a file whose name ends in {' or '.join(endings)}, such as {path.stem}{endings[0]}")
-    if to in ("csv", "vtk"):
-        files = _vtk(tree) if to == "vtk" else _csv(tree, path, maps, sep=sign, decimal=decimal)
-    else:
-        files = {path.name: partial({"xlsx": _xlsx, "npz": _npz, "netcdf": _netcdf}[to], tree)}
-    return all_or_none(path if to == "vtk" else path.parent, files, force, inputs_of([tree]))
+    one = {"xlsx": _xlsx, "npz": _npz, "netcdf": _netcdf}.get(to)
+    try:
+        files = {path.name: partial(one, tree)} if one else _vtk(tree) if to == "vtk" else _csv(tree, path, maps, sep=sign, decimal=decimal)
+        return all_or_none(path if to == "vtk" else path.parent, files, force, inputs_of([tree]))
+    except ModuleNotFoundError as error:
+        raise MissingPackageError(not_installed(error.name)) from error
 
 
 def _of(run: xarray.DataTree, group: str) -> xarray.Dataset:
-    """What a group has, first what changes with time, statuses as plain integers; says which body has no maps, and where a status is none."""
-    found = run[group].to_dataset() if group in run.children else xarray.Dataset()
-    found = found[sorted(found.data_vars, key=lambda name: "map_time" not in found[name].dims)]
+    """What a group has, statuses as plain integers; says which body has no maps."""
+    found = run[group].to_dataset()[[*run[group].data_vars]] if group in run.children else xarray.Dataset()
     if group in ("disc", "pin") and not found.sizes.get("map_time"):
         note(f"{source(run)} has no maps of the {group}: they are left out")
-        return xarray.Dataset()
-    most = max((int(moment.max()) for moment in found.get("status", ())), default=0)
-    if most and most not in found["status"].attrs.get("flag_values", [most]):
-        warn(f"{source(run)}: {group}/status has {most}, which is no status; plateau verify tells where the file is damaged")
     return found.assign({name: values.astype(values.dtype.str) for name, values in found.items() if values.dtype.metadata})
 
 
 def _maps(run: xarray.DataTree) -> dict[str, xarray.Dataset]:
     """The maps of each body and moment, by the names of files."""
-    maps: dict[str, xarray.Dataset] = {}
-    for body in ("disc", "pin"):
-        found = _of(run, body)
-        maps |= {f"{body}-{index:04}": found.isel(map_time=slice(index, index + 1)) for index in range(found.sizes.get("map_time", 0))}
-    return maps
+    found = {body: _of(run, body) for body in ("disc", "pin")}
+    return {f"{body}-{index:04}": maps.isel(map_time=[index]) for body, maps in found.items() for index in range(maps.sizes.get("map_time", 0))}
 
 
 def _tables(run: xarray.DataTree) -> dict[str, xarray.Dataset]:
@@ -101,7 +88,7 @@ def _tables(run: xarray.DataTree) -> dict[str, xarray.Dataset]:
 def _table(data: xarray.Dataset) -> pandas.DataFrame:
     """A table of data behind their axes, with heads that no spreadsheet computes."""
     # Of a copy: what is read for a table does not stay in memory.
-    table = data.copy().to_dataframe(next(iter(data.values())).dims).reset_index()
+    table = data.copy().to_dataframe(max((one.dims for one in data.values()), key=len)).reset_index()
     heads = [name if name == "event" else f"{COLUMNS.get(name, name)} [{data[name].attrs.get('units', '1')}]" for name in table]
     return table.set_axis([head if head[0].isalnum() else f"'{head}" for head in heads], axis="columns")
 
@@ -115,41 +102,33 @@ def _csv(run: xarray.DataTree, path: Path, with_maps: bool, **marks: str) -> Fil
 
 
 def _xlsx(run: xarray.DataTree, place: Path) -> None:
-    tables = {name: _table(data) for name, data in _tables(run).items()}
     about = [(name, line) for name in ("title", "state", "program", "scene") for line in str(run.attrs.get(name, "")).splitlines()]
-    tables["about"] = pandas.DataFrame(about, columns=["what", "text"])
+    tables = {name: _table(data) for name, data in _tables(run).items()} | {"about": pandas.DataFrame(about, columns=["what", "text"])}
     if (most := max(map(len, tables.values()))) > MOST_ROWS:
         raise InputError(f"a table of {most} rows: a sheet of Excel has {MOST_ROWS} below its heads; take csv or npz")
     # Texts stay texts: nothing is a formula or a link.
-    options = {"strings_to_formulas": False, "strings_to_urls": False}
-    with pandas.ExcelWriter(place, engine="xlsxwriter", engine_kwargs={"options": options}) as book:
+    with pandas.ExcelWriter(place, "xlsxwriter", engine_kwargs={"options": {"strings_to_formulas": False, "strings_to_urls": False}}) as book:
         for name, table in tables.items():
             table.to_excel(book, sheet_name=name, index=False, freeze_panes=(1, 1))
 
 
 def _npz(run: xarray.DataTree, place: Path) -> None:
-    no_times = xarray.DataArray(np.empty(0), attrs={"units": "s"})
-    arrays: dict[str, Any] = {name: run.get(name, no_times) for name in ("time", "radius", "disc_angle", "pin_angle", "map_time")}
-    named = {f"{group}_{name}": values for group in ("series", "event", "disc", "pin") for name, values in _of(run, group).items()}
-    arrays |= {ARRAYS.get(name, name.removeprefix("series_")): values for name, values in named.items()}
-    arrays["units"] = json.dumps({name: str(values.attrs.get("units", "1")) for name, values in arrays.items()}, sort_keys=True)
-    arrays |= {name: str(run.attrs.get(name, "")) for name in ("title", "state", "scene")}
+    arrays: dict[str, Any] = {str(name): values for name, values in run.to_dataset().coords.items()}
+    for group in ("series", "event", "disc", "pin"):
+        for name, values in _of(run, group).items():
+            arrays[str(name) if group == "series" or name in ("pressure", "temperature") else f"{group}_{name}"] = values
+    arrays["units"] = json.dumps({name: values.attrs.get("units", "1") for name, values in arrays.items()}, sort_keys=True)
     # Into a file that is open, for to a name NumPy adds an ending.
     with place.open("wb") as file:
-        np.savez_compressed(file, **arrays)
+        np.savez_compressed(file, **(arrays | {name: str(run.attrs.get(name, "")) for name in ("title", "state", "scene")}))
 
 
 def _netcdf(run: xarray.DataTree, place: Path) -> None:
-    plain, small = run.copy(), {"zlib": True, "complevel": 1}
-    for body in run.children.keys() & {"disc", "pin"}:
-        plain[body].update(_of(run, body))
-    encoding = {node.path: {name: small for name, values in node.data_vars.items() if values.size} for node in plain.subtree}
-    plain.to_netcdf(place, engine="h5netcdf", encoding=encoding)
+    run.assign({body: xarray.DataTree(_of(run, body)) for body in ("disc", "pin")}).to_netcdf(place, engine="h5netcdf")
 
 
 def _vtk(run: xarray.DataTree) -> Files:
     from pyevtk.hl import gridToVTK
-    from pyevtk.vtk import VtkGroup
 
     mesh, rows, moments = run.plateau.scene["mesh"], array(run, "radius").values, _maps(run)
     inner = quantity(mesh.get("inner_radius", "0 m"), "m") or quantity(mesh["mean_radius"], "m") - quantity(mesh["pin_width"], "m") / 2
@@ -163,13 +142,9 @@ def _vtk(run: xarray.DataTree) -> Files:
         gridToVTK(str(place.with_suffix("")), *corners, cells)
 
     def collection(place: Path) -> None:
-        group = VtkGroup(str(place.with_suffix("")))
-        for name, maps in moments.items():
-            if name.startswith(place.stem):
-                group.addFile(str(place.with_name(f"{name}.vts")), maps["map_time"].item())
-        group.save()
+        own = {name: maps["map_time"].item() for name, maps in moments.items() if name.startswith(place.stem)}
+        grids = "".join(f'<DataSet timestep="{time}" group="" part="0" file="{name}.vts"/>' for name, time in own.items())
+        place.write_text(f'<VTKFile type="Collection" version="0.1"><Collection>{grids}</Collection></VTKFile>\n')
 
     files: dict[str, Any] = {f"{name}.vts": partial(grid, maps=maps) for name, maps in moments.items()}
-    if not files:
-        note("nothing is written: this format has maps only")
     return files | {f"{name.split('-')[0]}.pvd": collection for name in moments}
