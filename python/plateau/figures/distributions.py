@@ -17,8 +17,6 @@ KINDS = {"pin/pressure": "contact spots of the pin", "pin/status": "secondary pl
 CLASSES, MOST_LINEAR = 80, 6.0
 # Parts of the heights beyond the axis, on either side; parts that points of the Abbott-Firestone curve are apart.
 BEYOND, APART = 0.001, 0.005
-# Runs of which also the first map has a line of heights, at most.
-MOST_WITH_FIRST = 2
 # Which map a line is of, its time, options of the line, and values in ascending order.
 Found = list[tuple[str, str, dict[str, Any], Any]]
 LAST, FIRST = "Last map", "paler: first map"
@@ -97,7 +95,6 @@ def heights(drawing: Drawing, subjects: list[Subject]) -> list[Any]:
     for path, left, right in zip(paths, axes[::2], axes[1::2], strict=True):
         body = MAPS[path]
         found = _found(drawing, path, lambda _, path, cells: np.sort(MAPS[path].shown(cells)[np.isfinite(cells)]))
-        found = [one for one in found if one[0] == LAST or len(subjects) <= MOST_WITH_FIRST]
         ends = [values[round(end * (len(values) - 1))] for *_, values in found for end in (BEYOND, 1 - BEYOND)]
         margin = 0.05 * (max(ends) - min(ends)) or 1.0
         edges = np.linspace(min(ends) - margin, max(ends) + margin, CLASSES + 1)

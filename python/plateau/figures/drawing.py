@@ -1,6 +1,5 @@
 """What the figures of runs have in common: the runs with their names and lines, the moments that are shown, what is left out."""
 
-import functools
 import math
 import re
 from collections.abc import Sequence
@@ -22,16 +21,16 @@ HIGHEST, LINE, MOST_LINES = 235.0, 3.6, 3
 
 
 class Subject:
-    """A run with what it is called, its place among the runs, and the times of its maps, s, with the indices of those that are shown."""
+    """A run: its label, its place among the runs, whether it has a cycle, times of samples and of maps, s, and which maps are shown."""
 
     def __init__(self, run: xarray.DataTree, label: str, number: int, is_only: bool, at: Sequence[float]) -> None:
         self.run, self.label, self.number, self.is_only, self.is_chosen = run, plain(label), number, is_only, bool(at)
-        # Times of the samples, s.
-        self.time = np.asarray(array(run, "time").values)
+        # Whether load and speed change; times of the samples, s.
+        self.has_cycle, self.time = self.has("series/normal_force"), np.asarray(array(run, "time").values)
         self.map_time = times = np.asarray(run["map_time"].values) if "map_time" in run.variables else np.array([])
         self.moments = sorted({int(np.argmin(np.abs(times - time))) for time in at} or {0, len(times) - 1}) if times.size else []
 
-    @functools.cached_property
+    @property
     def scene_without_seeds(self) -> str:
         """The scene without its seeds and its output, in words that are equal where these scenes are."""
         return re.sub(r"'seed': \d+", "", str(self.run.plateau.scene | {"output": 0}))
@@ -53,11 +52,6 @@ class Subject:
             return look(self.number)
         mark = MARKERS[(self.number + self.number // len(MARKERS)) % len(MARKERS)]
         return look(self.number) | {"marker": mark, "markevery": (0.04 + 0.025 * self.number, 0.3), "markersize": 3}
-
-    @property
-    def has_cycle(self) -> bool:
-        """Whether load and speed change."""
-        return self.has("series/normal_force")
 
     def while_rubbing(self, values: Any) -> Any:
         """Values of a contact, NaN while the pin is lifted or the disc stands still, because revolution means are then older."""

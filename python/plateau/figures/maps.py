@@ -302,18 +302,15 @@ def draw_maps(drawing: Drawing, _: Sequence[Subject], paths: Sequence[str], capt
     numbers = sorted({number for _, number in found})
     is_ring = paths[0].startswith("disc") and not drawing.polar
     width = drawing.width or (WIDE if is_ring or len(numbers) > 1 or any(len(own) > 1 for own in found.values()) else NARROW)
-
-    def beside(count: int) -> int:
-        """Columns of so many, so that rows are about equally long."""
-        return math.ceil(count / math.ceil(count / max(int(width / COLUMN), 1)))
-
-    rows, across = list[Sequence[Picture | None]](), beside(max(len(numbers), 1))
+    # Columns are runs, or moments of a single run, so many that rows are about equally long.
+    count = len(numbers) if len(numbers) > 1 else max(map(len, found.values()), default=1)
+    rows, across = list[Sequence[Picture | None]](), math.ceil(count / math.ceil(count / max(int(width / COLUMN), 1)))
     for begin in range(0, len(numbers), across):
         for path in paths:
             columns = [found.get((path, number), []) for number in numbers[begin : begin + across]]
-            if len(numbers) == 1 and columns[0]:
+            if len(numbers) == 1:
                 # But those of an unrolled ring below each other.
-                side = 1 if is_ring and path.startswith("disc") else beside(len(columns[0]))
+                side = 1 if is_ring and path.startswith("disc") else across
                 columns = [columns[0][first::side] for first in range(side)]
-            rows += zip_longest(*columns, *[[]] * (across - len(columns)))
+            rows += zip_longest(*columns, *[[]] * (across - len(columns) if len(numbers) > 1 else 0))
     return pages(rows, width, caption, legend, Figure) if rows else []

@@ -102,13 +102,8 @@ def pulses(line: Any) -> bool:
 def draw(axis: Any, course: Course, time: Unit, duration: float, is_exact: bool = False, **options: Any) -> float:
     """Draws the line of a course, or exactly its values, and the range of seeds; gives the largest value."""
     line = course.values if is_exact else line_of(course, duration)
-    at, values = time.value(line.index), line.mean(axis=1, skipna=False)
-    options = {"label": course.label, **course.subject.line, **options}
-    axis.plot(at, values, **options)
-    # A value alone between two gaps makes no line.
-    alone = values.notna() & values.shift().isna() & values.shift(-1).isna()
-    if alone.any():
-        axis.plot(at[alone], values[alone], ".", color=options["color"], markersize=1.5)
+    at, options = time.value(line.index), {"label": course.label, **course.subject.line, **options}
+    axis.plot(at, line.mean(axis=1, skipna=False), **options)
     if line.shape[1] > 1:
         axis.fill_between(at, line.min(axis=1), line.max(axis=1), color=options["color"], alpha=0.2, linewidth=0)
     return float(np.nan_to_num(line).max(initial=0.0))
