@@ -13,7 +13,7 @@ fn folders() -> Vec<PathBuf> {
     let named = std::env::var_os("PLATEAU_SHARED").map(PathBuf::from);
     let shared = named.into_iter().chain(here.ancestors().map(|folder| folder.join("shared")));
     let shared = shared.flat_map(|folder| ["surfaces", "surfaces/sdf_reader_samples"].map(|name| folder.join(name)));
-    [here.join("tests/surfaces")].into_iter().chain(shared).collect()
+    [here.join("tests/surfaces"), here.join("../../data/surfaces")].into_iter().chain(shared).collect()
 }
 
 /// SHA-256 of the heights with one NaN for all.
@@ -46,7 +46,9 @@ fn every_sample_has_the_heights_that_other_programs_read() {
         assert_eq!(patch.missing(), missing.parse::<usize>().unwrap(), "{name}");
         assert_eq!(digest(&patch), expected, "{name}");
     }
-    assert!(!absent.contains(&"bcr1_surface_uint16_binary.sdf"), "this one comes with the project");
+    for with_the_project in ["afm_256x256.sdf", "bcr1_surface_uint16_binary.sdf"] {
+        assert!(!absent.contains(&with_the_project), "{with_the_project} comes with the project");
+    }
     if !absent.is_empty() {
         println!("skipped, for PLATEAU_SHARED does not tell the folder that holds surfaces/: {}", absent.join(", "));
     }

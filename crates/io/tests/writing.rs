@@ -51,6 +51,8 @@ fn what_was_written_is_read_bit_for_bit() {
         // An array has no pitch.
         let path = folder.path().join("out.npy");
         write(&path, &patch, true).unwrap();
+        let size = 128 + 8 * patch.heights.len() as u64;
+        assert_eq!(fs::metadata(&path).unwrap().len(), size, "data start at a multiple of 64");
         assert_eq!(read(&path, &ReadOptions::default()).unwrap().pitch, None);
         let options = ReadOptions { pitch: Some([patch.column_pitch, patch.row_pitch]), ..ReadOptions::default() };
         check_equal(&read(&path, &options).unwrap().into_patch().unwrap(), &patch);
