@@ -4,51 +4,6 @@ fn of(kind: Fraction, factors: usize) -> Result<Design, DesignError> {
     fractional_factorial(&kind, &vec![Factor::Range; factors])
 }
 
-/// Points of the smallest fraction, and its resolution.
-fn smallest(factors: usize, resolution: u32) -> (usize, u32) {
-    let design = of(Fraction::Resolution(resolution), factors).unwrap();
-    (design.points(), design.aliases().unwrap().resolution)
-}
-
-#[test]
-fn the_smallest_fractions_are_those_of_the_handbook() {
-    // NIST/SEMATECH e-Handbook, 5.3.3.4.7: number of factors, resolution, number of runs.
-    for (factors, resolution, points) in [
-        (3, 3, 4),
-        (4, 4, 8),
-        (5, 5, 16),
-        (5, 3, 8),
-        (6, 6, 32),
-        (6, 4, 16),
-        (6, 3, 8),
-        (7, 7, 64),
-        (7, 4, 16),
-        (7, 3, 8),
-        (8, 5, 64),
-        (8, 4, 16),
-        (9, 6, 128),
-        (9, 4, 32),
-        (9, 3, 16),
-        (10, 5, 128),
-        (10, 4, 32),
-        (10, 3, 16),
-        (11, 5, 128),
-        (11, 4, 32),
-        (11, 3, 16),
-        (15, 3, 16),
-    ] {
-        assert_eq!(smallest(factors, resolution), (points, resolution), "{factors} factors");
-    }
-}
-
-#[test]
-fn the_generators_decide_the_sign() {
-    // By hand: −ABCD is −1 where all four are −1, for their product is 1.
-    let design = of(Fraction::Generators(vec!["E = -ABCD".into()]), 5).unwrap();
-    assert_eq!(design.point(0), [Setting::Coded(-1.0); 5]);
-    assert_eq!(design.point(1)[4], Setting::Coded(1.0));
-}
-
 #[test]
 fn all_combinations_stand_in_for_a_fraction_that_does_not_exist() {
     for (factors, resolution, points) in [(1, 3, 2), (2, 3, 4), (4, 5, 16), (16, 17, 65_536)] {
@@ -69,26 +24,6 @@ fn what_cannot_be_had_is_refused() {
 }
 
 #[test]
-fn the_first_factor_changes_fastest_and_a_range_has_its_ends() {
-    // By hand, from the definition.
-    let design = full_factorial(&[Factor::Range, Factor::Levels(3)]).unwrap();
-    let points: Vec<_> = (0..design.points()).map(|point| design.point(point).to_vec()).collect();
-    let expected: Vec<_> =
-        (0..3).flat_map(|level| [-1.0, 1.0].map(|end| vec![Setting::Coded(end), Setting::Level(level)])).collect();
-    assert_eq!(points, expected);
-}
-
-#[test]
-fn every_combination_occurs_once() {
-    let counts = [3, 2, 5, 4];
-    let design = full_factorial(&counts.map(Factor::Levels)).unwrap();
-    let mut seen: Vec<String> = (0..design.points()).map(|point| format!("{:?}", design.point(point))).collect();
-    seen.sort();
-    seen.dedup();
-    assert_eq!(seen.len(), counts.iter().product::<usize>());
-}
-
-#[test]
 fn columns_of_every_size_are_balanced_and_orthogonal() {
     // The definition: 1 + factors columns, the first all 1, are a Hadamard matrix.
     for points in (4..=24).step_by(4) {
@@ -102,16 +37,6 @@ fn columns_of_every_size_are_balanced_and_orthogonal() {
                 assert_eq!(product, 0, "{points} points: {one} and {other}");
             }
         }
-    }
-}
-
-#[test]
-fn rows_of_a_prime_number_of_columns_are_its_quadratic_residues() {
-    // R. E. A. C. Paley, On orthogonal matrices, J. Math. Phys. 12, 311–320 (1933): + at 0 and at the squares.
-    for prime in [3, 7, 11, 19, 23] {
-        let squares: Vec<usize> = (1..prime).map(|root| root * root % prime).collect();
-        let row: String = (0..prime).map(|at| if at == 0 || squares.contains(&at) { '+' } else { '-' }).collect();
-        assert!(CYCLIC.contains(&row.as_str()), "{prime}: {row}");
     }
 }
 
@@ -172,25 +97,6 @@ fn what_is_wrong_is_said() {
 fn aliases_of(factors: usize, texts: &[&str]) -> Aliases {
     let texts: Vec<String> = texts.iter().map(ToString::to_string).collect();
     aliases(factors, &parse(factors, &texts).unwrap()).unwrap()
-}
-
-#[test]
-fn words_and_chains_are_products_of_the_generators() {
-    // By hand: I = ABD = ACE = BCDE; each effect times these words.
-    let aliases = aliases_of(5, &["D = AB", "E = AC"]);
-    assert_eq!(aliases.defining_words, ["ABD", "ACE", "BCDE"]);
-    assert_eq!(aliases.resolution, 3);
-    let chains: Vec<String> = aliases.chains.iter().map(|chain| chain.join(" = ")).collect();
-    assert_eq!(chains, ["A = BD = CE", "B = AD", "C = AE", "D = AB", "E = AC", "BC = DE", "BE = CD"]);
-}
-
-#[test]
-fn signs_go_through() {
-    // By hand: D = −AB is −1 times AB at every point, so A = −BD and B = −AD; with E = BC, ABD · BCE = ACDE.
-    let aliases = aliases_of(5, &["D = -AB", "E = BC"]);
-    assert_eq!(aliases.defining_words, ["-ABD", "BCE", "-ACDE"]);
-    let chains: Vec<String> = aliases.chains.iter().map(|chain| chain.join(" = ")).collect();
-    assert_eq!(chains, ["A = -BD", "B = -AD = CE", "C = BE", "D = -AB", "E = BC", "AC = -DE", "AE = -CD"]);
 }
 
 #[test]
