@@ -22,7 +22,7 @@ fn a_measured_patch_and_the_numbers_of_a_rig_become_a_run() {
     // The scan is smaller than a cell, and nothing offers to read it as larger.
     assert!(text.contains("less than 4 cells") && !text.contains("pixel = "), "{text}");
     directory.plateau(["check", "mine.toml"]).ends(2, &["take smaller cells"]);
-    // Sq of the scan is 10.08 nm, as other programs have it (crates/io/tests/sdf.rs).
+    // Sq of the scan is 10.08 nm in surfalize 0.19.2, slippy 0.5.2 and SurfaceTopography 1.27.1.
     assert!(text.contains("\n# cutoff = \"10 nm\" "), "{text}");
     assert!(outcome.stdout.contains("no peaks are cut. With cutoff = \"10 nm\", one rms height"), "{}", outcome.stdout);
     fs::write(directory.path("mine.toml"), text.replace("[disc.prepare]", "[disc.prepare]\npixel = \"2 um\"")).unwrap();
@@ -70,9 +70,13 @@ fn what_is_there_or_makes_no_sense_is_refused() {
     assert_eq!(fs::read(directory.path("mine.toml")).unwrap(), before);
     assert_eq!(directory.names(), ["mine.toml"]);
     // A pin that does not fit its ring is told before the scene is written, by the option that was given.
-    directory
-        .plateau(["new", "wide.toml", "--diameter", "50 mm"])
-        .ends(2, &["--diameter \"50 mm\": a pin of 50 mm does not fit"]);
+    for (options, expected) in [
+        (["--diameter", "60 mm"], "--diameter \"60 mm\": a pin of 60 mm does not fit"),
+        (["--diameter", "43.9 mm"], "--diameter \"43.9 mm\": a round pin of 43.9 mm"),
+        (["--pin-length", "200 mm"], "a larger --radius"),
+    ] {
+        directory.plateau(["new", "wide.toml"].iter().chain(&options)).ends(2, &[expected, "nothing is written"]);
+    }
     assert_eq!(directory.names(), ["mine.toml"]);
 }
 

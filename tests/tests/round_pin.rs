@@ -1,20 +1,9 @@
-//! The mesh in lengths and the round pin through the whole program: the same bits, kills, files, figures and exports.
+//! The round pin through the whole program: the same bits, kills, files, figures and exports.
 
 use plateau_tests::program::{WorkingDirectory, go_on_through_kills, scene};
 use plateau_tests::run_file::{RunFile, differences};
 use plateau_tests::scenes::{Stream, few_or_all};
 
-/// `quick.toml` in lengths: by hand 2π · 22 mm/200 µm = 691.2 columns.
-const LENGTHS: [&str; 4] =
-    ["mesh.pin_width=4 mm", "mesh.pin_length=8 mm", "mesh.cell_size=200 um", "mesh.mean_radius=22 mm"];
-/// The same in cells.
-const CELLS: [&str; 5] = [
-    "mesh.inner_radius=20 mm",
-    "mesh.outer_radius=24 mm",
-    "mesh.rows=20",
-    "mesh.disc_columns=691",
-    "mesh.pin_columns=40",
-];
 /// A round pin of 4 mm, and so much acceleration that resin touches.
 const ROUND: [&str; 6] = [
     "mesh.shape=disc",
@@ -36,15 +25,6 @@ fn arguments(file: &str, sets: &[&str], more: &[&str]) -> Vec<String> {
 fn run(directory: &WorkingDirectory, file: &str, sets: &[&str], more: &[&str]) -> RunFile {
     directory.plateau(arguments(file, sets, more)).ends(0, &[]);
     RunFile::open(directory.path(file))
-}
-
-#[test]
-fn a_rectangle_in_lengths_gives_the_bits_of_that_in_cells() {
-    let directory = WorkingDirectory::new();
-    let steps = ["operation.steps=700"];
-    let in_lengths = run(&directory, "lengths.h5", &[&LENGTHS[..], &steps].concat(), &[]).content();
-    let in_cells = run(&directory, "cells.h5", &[&CELLS[..], &steps].concat(), &[]).content();
-    assert_eq!(differences(&in_lengths, &in_cells), [""; 0]);
 }
 
 /// Whether a cell is within the circle of 2 mm about the middle, by the definition.

@@ -3,7 +3,7 @@
 //! A step of `quick.toml` lasts m · 2π/columns / ω = 20 · 60 s/(850 · 690) = 4/1955 s, so what is expected is
 //! computed exactly, in integers.
 
-use plateau_tests::program::{WorkingDirectory, quick_scene_with, scene, vector};
+use plateau_tests::program::{WorkingDirectory, quick_scene_with, vector};
 use plateau_tests::run_file::{RunFile, StoredStatus};
 
 /// Duration of a step of `quick.toml`, s, as a fraction.
@@ -29,34 +29,6 @@ fn assert_steps(times: &[f64], steps: &[u64], what: &str) {
         // The product of a few rounded numbers.
         assert!((found / *expected as f64 - 1.0).abs() < 1e-14 || found == &0.0, "{what}: {found}, not {expected}");
     }
-}
-
-#[test]
-fn a_run_has_the_steps_that_its_duration_asks_for() {
-    let directory = WorkingDirectory::new();
-    let steps = |sets: &[&str]| {
-        let mut arguments = vec!["check".to_owned(), scene("quick.toml"), "--json".to_owned()];
-        arguments.extend(sets.iter().flat_map(|set| ["--set".to_owned(), (*set).to_owned()]));
-        let report = directory.plateau(arguments).quiet_success();
-        serde_json::from_str::<serde_json::Value>(&report).unwrap()["steps"].as_u64().unwrap()
-    };
-    // 60 s are 29 325 steps exactly, and 0.8 s are 391: no step more because of rounding.
-    assert_eq!(step_at(60, 1), 29_325);
-    assert_eq!(steps(&["operation.duration=60 s"]), 29_325);
-    assert_eq!(steps(&["operation.duration=0.8 s"]), 391);
-    assert_eq!(steps(&["operation.duration=400 s"]), 195_500);
-    assert_eq!(steps(&["operation.duration=1 h"]), 1_759_500);
-    // What ends within a step takes the whole step.
-    assert_eq!(steps(&["operation.duration=1 s"]), step_at(1, 1));
-    assert_eq!(steps(&["operation.duration=4 ms"]), step_at(4, 1000));
-    assert_eq!(steps(&["operation.duration=2 ms"]), 1);
-    assert_eq!(steps(&["operation.duration=1 us"]), 1);
-    // Less than 1e-9 of a step beyond a step is rounding, more is another step: 391 (1 + 1e-12) and 391 (1 + 1e-10).
-    assert_eq!(steps(&["operation.duration=0.8000000000008 s"]), 391);
-    assert_eq!(steps(&["operation.duration=0.80000000008 s"]), 392);
-    // m = 7: 60 · 850 · 690 / (7 · 60) = 83 785.7.
-    assert_eq!(steps(&["operation.duration=60 s", "numerics.time_acceleration=7"]), 83_786);
-    assert_eq!(steps(&["operation.steps=17"]), 17);
 }
 
 #[test]

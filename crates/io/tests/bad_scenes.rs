@@ -59,6 +59,66 @@ fn every_bad_set_is_refused_with_its_message() {
     insta::assert_snapshot!("bad_sets", messages.join("\n"));
 }
 
+/// The quick scene with these lines in place of its load, speed and duration, beside a table of its cycle.
+fn with_cycle(folder: &Path, lines: &str, table: &str) -> String {
+    let text = std::fs::read_to_string("../../data/scenes/quick.toml").unwrap();
+    let constant = "normal_force = \"5 N\"\nrotational_speed = \"850 rpm\"\nduration = \"60 s\"\n";
+    assert!(text.contains(constant), "{text}");
+    std::fs::write(folder.join("stops.csv"), table).unwrap();
+    std::fs::write(folder.join("scene.toml"), text.replace(constant, lines)).unwrap();
+    message(&folder.join("scene.toml"), &[]).replace(&format!("{}/", folder.display()), "")
+}
+
+#[test]
+fn every_bad_cycle_is_refused_with_its_place() {
+    let folder = tempfile::tempdir().unwrap();
+    let header = "time [s], normal_force [N], rotational_speed [rpm]\n";
+    let rows = ["0,1,1\n2,1,1\n1,1,1\n", "0,1,1\n2,-1,1\n", "0,1,1\n2,nan,1\n", "0,1,1\n2,,1\n", "0,1,1\n2\n"];
+    let rows = rows.into_iter().chain(["0,1,1\n2,4 N,1\n", "0,1,1\n2,1,1,1\n", "0,1,1\n", "0,1,0\n2,1,0\n"]);
+    let tables = rows.map(|rows| format!("{header}{rows}"));
+    let tables = tables.chain(
+        [
+            "",
+            "time,normal_force [N]\n0,1\n",
+            "time [h:mm:ss],normal_force [N]\n0:60:00,1\n",
+            "time [s],normal_force\n0,1\n",
+            "time [s],force [N]\n0,1\n",
+            "time [s],normal_force [N],nominal_pressure [Pa]\n",
+            "normal_force [N]\n1\n",
+            "time [s],normal_force [N]\n0,1\n2,1\n",
+            // As a spreadsheet of Germany or France writes 1200 rpm and 10.5 N.
+            "time [s];normal_force [N];rotational_speed [rpm]\n0;10,5;1.200\n3;10,5;0\n",
+            "time [s],normal_force [N]\n0,1\n\n2,1\n",
+            "time [s],normal_force [N]\n0,1\ntime [s],normal_force [N]\n0,1\n",
+            "time [s],normal_force [N]\n0,O.3\n",
+            "time [s],normal_force [N]\n0,1e400\n",
+        ]
+        .map(str::to_owned),
+    );
+    let file = "[operation.cycle]\nfile = \"stops.csv\"\n";
+    let mut found: Vec<String> =
+        tables.map(|table| format!("# {table:?}\n{}\n", with_cycle(folder.path(), file, &table))).collect();
+    let logger = "Uhrzeit;Tempo (km/h);Druck;Temp [degC]\n12:00:05,5;36;0,5;kalt\n12:01:00;18;10;warm\n";
+    let columns = ["time = \"Zeit\"", "time = \"Uhrzeit\", road_speed = \"Tempo [m/s]\""];
+    let columns = columns.into_iter().chain(["time = \"Uhrzeit\", brake_torque = \"Druck\""]);
+    found.extend(columns.map(|columns| {
+        let lines = format!("{file}columns = {{ {columns} }}\n");
+        format!("# {columns}\n{}\n", with_cycle(folder.path(), &lines, logger))
+    }));
+    let first = "[operation.cycle]\npoints = [[\"0 s\", \"5 N\", \"850 rpm\"]";
+    let scenes = [
+        "[operation.cycle]\n".to_owned(),
+        format!("{first}, [\"3 s\", \"5 Pa\", \"850 rpm\"]]\n"),
+        format!("{first}, [\"3 s\", \"5 N\"]]\n"),
+        format!("duration = \"20 s\"\n{first}, [\"3 s\", \"5 N\", \"50 rpm\"]]\n"),
+    ];
+    found.extend(scenes.map(|lines| format!("# {lines}{}\n", with_cycle(folder.path(), &lines, ""))));
+    // Not together with an acceleration that the run chooses.
+    let chosen = "numerics.time_acceleration={ tolerance = 0.01, max = 100 }";
+    found.push(format!("# {chosen}\n{}\n", message(Path::new("../../data/scenes/stops.toml"), &[chosen])));
+    insta::assert_snapshot!("bad_cycles", found.join("\n"));
+}
+
 #[test]
 fn what_is_no_readable_file_is_refused() {
     assert!(message(Path::new("tests/scenes"), &[]).starts_with("tests/scenes: cannot read the scene: "));

@@ -291,16 +291,34 @@ fn the_steps_that_straighten_and_filter_a_surface_are_read() {
 
 #[test]
 fn a_duration_of_whole_steps_is_not_rounded_up() {
-    // One revolution in 1 s and 100 columns: a step lasts 0.01 s, which no double is.
-    let steps = |duration: &str| {
-        let duration = format!("operation.duration={duration}");
-        let sets = ["mesh.disc_columns=100", "operation.rotational_speed=60 rpm", &duration];
-        load("minimal.toml", &sets).steps
+    let steps = |sets: &[&str]| {
+        let quick = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../data/scenes/quick.toml");
+        let sets: Vec<String> = sets.iter().map(|set| format!("operation.{set}")).collect();
+        scene::load(&quick, &sets).unwrap_or_else(|error| panic!("{error}")).steps
     };
-    assert_eq!(steps("0.29 s"), 29);
-    assert_eq!(steps("0.57 s"), 57);
-    assert_eq!(steps("0.571 s"), 58);
-    assert_eq!(steps("1e-15 s"), 1);
+    // A step of the quick scene lasts 20 · 60 s/(850 · 690) = 4/1955 s. 60 s are 29 325 of them and 0.8 s 391: no step more because
+    // of rounding. What ends within a step takes the whole step, but for 1e-9 of one.
+    for (duration, expected) in [
+        ("60 s", 29_325),
+        ("0.8 s", 391),
+        ("400 s", 195_500),
+        ("1 h", 1_759_500),
+        ("1 s", 489),
+        ("4 ms", 2),
+        ("2 ms", 1),
+        ("1 us", 1),
+        ("0.8000000000008 s", 391),
+        ("0.80000000008 s", 392),
+    ] {
+        assert_eq!(steps(&[&format!("duration={duration}")]), expected, "{duration}");
+    }
+    assert_eq!(steps(&["steps=17"]), 17);
+    // One revolution in 1 s and 100 columns: a step lasts 0.01 s, which no double is.
+    let load = |duration: &str| {
+        let duration = format!("operation.duration={duration}");
+        load("minimal.toml", &["mesh.disc_columns=100", "operation.rotational_speed=60 rpm", &duration]).steps
+    };
+    assert_eq!(["0.29 s", "0.57 s", "0.571 s", "1e-15 s"].map(load), [29, 57, 58, 1]);
 }
 
 #[test]

@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use plateau_core::model::mesh::Outline;
+use plateau_core::model::mesh::{Mesh, Outline};
 use plateau_core::observe::schedule::SampleEvery;
 use plateau_io::scene::{self, Scene};
 
@@ -37,6 +37,9 @@ fn a_mesh_in_lengths_is_that_in_rows_and_columns() {
     let again = scene::load(&path, &[&cells[..], &radii].concat()).unwrap();
     assert_eq!(again.parameters, in_cells.parameters);
     assert!(!again.resolved.contains("cell_size"));
+    // Table 2 of the paper. By hand: 2π · 22 mm/50 µm = 2764.6, so 2765 columns of 49.99 µm, of which 8 mm take 160.02.
+    let finer = [&lengths[..], &["mesh.cell_size=50 um".to_owned()]].concat();
+    assert_eq!(of(&finer).parameters.mesh, Mesh::new(80, 2765, 160, 20e-3, 24e-3).unwrap());
 }
 
 #[test]

@@ -483,7 +483,3 @@ pub fn converted(scene: &Path, disc: &Path, force: bool) -> Result<PathBuf, Fail
     let arguments = to.into_iter().chain(force.then_some(OsStr::new("--force"))).chain(from);
     hand_over::succeeded(hand_over::asked(WORD, arguments)?, "it was not converted").map(|_| output)
 }
-
-#[cfg(test)]
-#[path = "../../tests/unit/commands/new.rs"]
-mod tests;
