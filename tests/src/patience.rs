@@ -23,25 +23,3 @@ pub fn within<T: Send + 'static>(patience: Duration, what: &str, work: impl FnOn
         },
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn who_ends_in_time_is_heard() {
-        assert_eq!(within(Duration::from_secs(60), "a sum", || 2 + 2), 4);
-    }
-
-    #[test]
-    #[should_panic(expected = "a nap: no end within 10ms")]
-    fn who_takes_too_long_is_named() {
-        within(Duration::from_millis(10), "a nap", || std::thread::sleep(Duration::from_secs(5)));
-    }
-
-    #[test]
-    #[should_panic(expected = "out of paper")]
-    fn a_panic_goes_on() {
-        within(Duration::from_secs(60), "a panic", || panic!("out of paper"));
-    }
-}

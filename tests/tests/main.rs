@@ -9,6 +9,7 @@ mod claims;
 mod commands;
 mod cycle;
 mod determinism;
+mod divergence;
 mod documentation;
 mod elsewhere;
 mod faults;
