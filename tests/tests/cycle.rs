@@ -49,7 +49,7 @@ fn a_cycle_that_never_changes_takes_no_step_beyond_its_end() {
     let directory = WorkingDirectory::new();
     let lines = "[operation.cycle]\npoints = [[\"0 s\", \"5 N\", \"850 rpm\"], [\"3.33 s\", \"5 N\", \"850 rpm\"]]\nrepeat = 3\n";
     directory.write("scene.toml", quick_with_operation(lines));
-    for m in [1, 20, 45] {
+    for m in [7, 20, 45] {
         let set = format!("numerics.time_acceleration={m}");
         let sets = ["--set", &set, "--set", "output.sample_every_steps=1"];
         directory.plateau([&["run", "scene.toml", "-o", "run.h5", "--force"][..], &sets].concat()).ends(0, &[]);
@@ -65,7 +65,7 @@ fn a_cycle_that_never_changes_takes_no_step_beyond_its_end() {
 fn the_largest_acceleration_without_a_warning_gives_none() {
     let directory = WorkingDirectory::new();
     let stops = scene("stops.toml");
-    for scale in ["1", "1.1", "1.234", "0.937", "0.771", "2.0001"] {
+    for scale in ["1", "1.234", "0.771"] {
         let set = format!("operation.cycle.speed_scale={scale}");
         let check = |m: &str| {
             let m = format!("numerics.time_acceleration={m}");
@@ -92,7 +92,7 @@ fn the_work_of_a_run_is_that_of_its_cycle_for_every_acceleration() {
     let work = 3.0 * 4.0 * (2.0 * 600.0 + 4.0 * 4.0 * 450.0 + 6.0 * 300.0) / 6.0 * TAU / 60.0;
     let angle = 3.0 * 4.0 * 450.0 * TAU / 60.0;
     directory.write("scene.toml", quick_with_operation(lines));
-    for m in [1.0, 3.0, 10.0, 45.0] {
+    for m in [3.0, 10.0, 45.0] {
         let set = format!("numerics.time_acceleration={m}");
         let sets = ["--set", &set, "--set", "output.sample_every_steps=1"];
         let outcome = directory.plateau([&["run", "scene.toml", "-o", "run.h5", "--force"][..], &sets].concat());
@@ -190,11 +190,11 @@ fn a_run_with_a_cycle_that_is_killed_ends_like_an_undisturbed_one() {
     let stops = scene("stops.toml");
     let arguments = |name: &'static str, more: &[&'static str]| {
         let sets = [
-            "operation.cycle.repeat=5",
-            "operation.duration=290 s",
+            "operation.cycle.repeat=2",
+            "operation.duration=116 s",
             "numerics.time_acceleration=1",
             "output.sample_every=0.01 s",
-            "output.maps_at=[\"12 s\", \"16 s\", \"55 s\", \"200 s\", \"290 s\"]",
+            "output.maps_at=[\"12 s\", \"16 s\", \"55 s\", \"100 s\", \"116 s\"]",
             "output.checkpoint_every=0.03 s",
         ];
         let mut arguments = vec!["run".to_owned(), stops.clone(), "-o".to_owned(), name.to_owned()];
@@ -209,12 +209,12 @@ fn a_run_with_a_cycle_that_is_killed_ends_like_an_undisturbed_one() {
     assert!(whole.contains_key("/event/worn"));
     assert_eq!(differences(&whole, &run), [""; 0], "after {killed} kills");
     // It goes on beyond its end, which lies in a pause, as a longer run goes on there.
-    let extended = ["--extend-to", "300 s"];
+    let extended = ["--extend-to", "120 s"];
     assert_eq!(
         directory.plateau([arguments("run.h5", &[]), extended.map(str::to_owned).to_vec()].concat()).status,
         Some(0)
     );
-    let longer = ["--set", "operation.duration=300 s"];
+    let longer = ["--set", "operation.duration=120 s"];
     directory.plateau(arguments("longer.h5", &longer)).quiet_success();
     let values = |name: &str, path: &str| RunFile::open(directory.path(name)).floats(path);
     for path in ["/event/worn", "/event/contact_area_end"] {
@@ -282,76 +282,6 @@ fn a_run_that_is_extended_again_and_again_accounts_for_every_event() {
         assert_eq!(extended.floats(path), whole.floats(path), "{path}");
     }
     assert_eq!(extended.last_map("/disc/height"), whole.last_map("/disc/height"));
-}
-
-#[test]
-fn what_is_wrong_with_a_cycle_is_said_with_its_place() {
-    let directory = WorkingDirectory::new();
-    let refused = |lines: &str, table: &str| {
-        directory.write("stops.csv", table);
-        directory.write("scene.toml", quick_with_operation(lines));
-        let outcome = directory.plateau(["check", "scene.toml"]).ends(2, &[]);
-        directory.without_path(&outcome.stderr).replace("[directory]/", "")
-    };
-    let file = "[operation.cycle]\nfile = \"stops.csv\"\n";
-    let header = "time [s], normal_force [N], rotational_speed [rpm]\n";
-    let table = |rows: &str| format!("{header}{rows}");
-    for (rows, expected) in [
-        ("0,1,1\n2,1,1\n1,1,1\n", "stops.csv:4:1: operation.cycle.file: a time of 1 s after 2 s"),
-        ("0,1,1\n2,-1,1\n", "stops.csv:3:3: normal_force [N]: found -1, expected a number of 0 or more"),
-        ("0,1,1\n2,,1\n", "stops.csv:3:3: normal_force [N]: no value, expected a number in every row"),
-        ("0,1,1\n", "scene.toml:15:8: operation.cycle.file: fewer than two rows (1)"),
-        ("0,1,0\n2,1,0\n", "operation.cycle.file: nowhere between two rows is there load and speed"),
-    ] {
-        let found = refused(file, &table(rows));
-        assert!(found.contains(expected), "{found}\nexpected {expected}");
-    }
-    for (table, expected) in [
-        // As a spreadsheet of Germany or France writes 1200 rpm and 10.5 N.
-        (
-            "time [s];normal_force [N];rotational_speed [rpm]\n0;10,5;1.200\n3;10,5;0\n",
-            "stops.csv:2:8: \"1.200\" and \"10,5\" in line 2, column 3: a decimal point and a decimal comma in one table;",
-        ),
-        ("time [s],normal_force [N]\n0,1\n\n2,1\n", "stops.csv:4:1: another table begins here, below a blank line: "),
-        (
-            "time [s],normal_force [N]\n0,1\ntime [s],normal_force [N]\n0,1\n",
-            "stops.csv:3:1: another table begins here, ",
-        ),
-        ("time [s],normal_force [N]\n0,O.3\n", "stops.csv:2:3: normal_force [N]: found \"O.3\", expected a number"),
-        (
-            "time [s],normal_force [N]\n0,1e400\n",
-            "stops.csv:2:3: normal_force [N]: found 1e400, expected a number of 0 or more",
-        ),
-    ] {
-        let found = refused(file, table);
-        assert!(found.contains(expected), "{found}\nexpected {expected}");
-    }
-    let found = refused(file, "time,normal_force [N]\n0,1\n");
-    assert!(
-        found.contains("stops.csv:2:1: time: found \"0\" without a unit, expected a header such as time [s]"),
-        "{found}"
-    );
-    let found = refused(file, "time [s],normal_force [N]\n0,1\n2,1\n");
-    assert!(
-        found.contains("there is no column of speed, and no rotational_speed or sliding_speed in [operation]"),
-        "{found}"
-    );
-    let found = refused("[operation.cycle]\n", "");
-    assert!(found.contains("one of {cycle.file, cycle.points}"), "{found}");
-    let rows = "[operation.cycle]\npoints = [[\"0 s\", \"5 N\", \"850 rpm\"], [\"3 s\", \"5 Pa\", \"850 rpm\"]]\n";
-    assert!(
-        refused(rows, "")
-            .contains("scene.toml:15:46: operation.cycle.points: a load of another kind than in the rows above")
-    );
-    let rows = "[operation.cycle]\npoints = [[\"0 s\", \"5 N\", \"850 rpm\"], [\"3 s\", \"5 N\"]]\n";
-    assert!(refused(rows, "").contains("a row of 2 values, expected three: time, load, speed"));
-    let long = "duration = \"20 s\"\n[operation.cycle]\npoints = [[\"0 s\", \"5 N\", \"850 rpm\"], [\"3 s\", \"5 N\", \"50 rpm\"]]\n";
-    assert!(refused(long, "").contains("operation.duration: the cycle ends after 3 s and"));
-    // Not together with an acceleration that the run chooses.
-    let set = "numerics.time_acceleration={ tolerance = 0.01, max = 100 }";
-    directory
-        .plateau(["check", &scene("stops.toml"), "--set", set])
-        .ends(2, &["write time_acceleration = 2 (with it every event has ten simulated revolutions) or less"]);
 }
 
 #[test]

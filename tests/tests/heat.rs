@@ -242,7 +242,7 @@ fn a_hot_run_that_is_killed_ends_like_an_undisturbed_one() {
         hot("stops.toml", "sample_every = \"0.05 s\"\nmaps_at = [\"12 s\", \"55 s\"]\ncheckpoint_every = \"0.03 s\""),
     );
     let arguments = |name: &'static str, more: &'static [&'static str]| {
-        let sets = ["--set", "operation.cycle.repeat=3", "--set", "operation.duration=170 s"];
+        let sets = ["--set", "operation.cycle.repeat=2", "--set", "operation.duration=110 s"];
         [&["run", "hot.toml", "-o", name, "--set", "numerics.time_acceleration=1"][..], &sets, more].concat()
     };
     directory.plateau(arguments("whole.h5", &[])).quiet_success();

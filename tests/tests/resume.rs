@@ -100,7 +100,7 @@ fn check_that_it_holds_a_start(directory: &WorkingDirectory, name: &str, whole: 
 fn a_run_that_chooses_its_acceleration_goes_on_too() {
     let directory = WorkingDirectory::new();
     let chosen =
-        ["--set", "numerics.time_acceleration={ tolerance = 0.01, max = 1000 }", "--set", "operation.duration=600 s"];
+        ["--set", "numerics.time_acceleration={ tolerance = 0.01, max = 1000 }", "--set", "operation.duration=250 s"];
     assert_eq!(run(&directory, "whole.h5", &chosen).status, Some(0));
     let mut random = Stream(9);
     for _ in 0..4 {
@@ -114,7 +114,7 @@ fn a_run_that_chooses_its_acceleration_goes_on_too() {
 #[test]
 fn signals_leave_a_checkpoint_of_the_moment() {
     let directory = WorkingDirectory::new();
-    let rarely = ["--set", "output.checkpoint_every=1 h", "--set", "operation.duration=250 s"];
+    let rarely = ["--set", "output.checkpoint_every=1 h", "--set", "operation.duration=120 s"];
     assert_eq!(run(&directory, "whole.h5", &rarely).status, Some(0));
     assert_eq!(
         directory.names(),
@@ -223,11 +223,11 @@ fn a_checkpoint_of_the_end_is_believed_only_beside_the_file_of_the_end() {
 #[test]
 fn a_finished_run_goes_on_beyond_its_end() {
     let directory = WorkingDirectory::new();
-    assert_eq!(run(&directory, "run.h5", &["--set", "operation.duration=20 s"]).status, Some(0));
-    run(&directory, "run.h5", &["--set", "operation.duration=20 s", "--extend-to", "60 s"]).ends(0, &[]);
-    assert_eq!(run(&directory, "whole.h5", &[]).status, Some(0));
+    assert_eq!(run(&directory, "run.h5", &["--set", "operation.duration=5 s"]).status, Some(0));
+    run(&directory, "run.h5", &["--set", "operation.duration=5 s", "--extend-to", "15 s"]).ends(0, &[]);
+    assert_eq!(run(&directory, "whole.h5", &["--set", "operation.duration=15 s"]).status, Some(0));
     let [longer, whole] = ["run.h5", "whole.h5"].map(|name| RunFile::open(directory.path(name)));
-    // 20 s is a multiple of the samples' time, so there is none more.
+    // 5 s is a multiple of the samples' time, so there is none more.
     for series in ["contact_area", "pool", "filled_fraction"] {
         let of = |run: &RunFile| run.floats(&format!("/series/{series}"));
         assert_eq!(of(&longer), of(&whole), "{series}");
@@ -238,24 +238,24 @@ fn a_finished_run_goes_on_beyond_its_end() {
 #[test]
 fn only_the_same_run_is_gone_on_with() {
     let directory = WorkingDirectory::new();
-    let short = ["--set", "operation.duration=20 s"];
+    let short = ["--set", "operation.duration=2 s"];
     let with = |more: &[&str]| run(&directory, "run.h5", &[&short[..], more].concat());
     assert_eq!(with(&[]).status, Some(0));
     // There is nothing to do, and that is said.
-    for more in [["--resume", "--json"], ["--extend-to", "20 s"]] {
+    for more in [["--resume", "--json"], ["--extend-to", "2 s"]] {
         with(&more).ends(0, &["is finished"]);
     }
-    with(&["--extend-to", "10 s"]).ends(2, &["has come to 20.00 s already"]);
+    with(&["--extend-to", "1 s"]).ends(2, &["has come to 2.000 s already"]);
     for name in ["run.h5.checkpoint", "run.h5.checkpoint-before"] {
         fs::remove_file(directory.path(name)).unwrap();
     }
     let before = directory.content();
-    with(&["--extend-to", "30 s"]).ends(2, &["has no checkpoint"]);
+    with(&["--extend-to", "3 s"]).ends(2, &["has no checkpoint"]);
     with(&["--resume", "--set", "operation.normal_force=7 N"]).ends(2, &["operation.normal_force"]);
     assert_eq!(with(&["--resume"]).status, Some(0));
     assert!(directory.content() == before);
     fs::write(directory.path("run.h5"), "notes").unwrap();
-    for more in [["--resume", "--json"], ["--extend-to", "30 s"]] {
+    for more in [["--resume", "--json"], ["--extend-to", "3 s"]] {
         assert_eq!(with(&more).status, Some(2));
     }
     assert_eq!(fs::read_to_string(directory.path("run.h5")).unwrap(), "notes");

@@ -106,10 +106,14 @@ fn surfaces_that_are_given_cell_for_cell_have_no_other_mesh() {
 
 #[test]
 fn a_mesh_in_lengths_is_not_varied() {
-    let cells = "rows = 20\ndisc_columns = 690\npin_columns = 40\n";
-    let lengths = "pin_width = \"1 mm\"\npin_length = \"7.5 mm\"\ncell_size = \"100 um\"\nmean_radius = \"20.5 mm\"\n";
-    let radii = ("inner_radius = \"20 mm\"\nouter_radius = \"21 mm\"\n", "");
-    let directory = with_scene(&[EDITS[0], (cells, lengths), radii]);
+    let cells =
+        "inner_radius = \"20 mm\"\nouter_radius = \"20.4 mm\"\nrows = 8\ndisc_columns = 690\npin_columns = 40\n";
+    let lengths =
+        "pin_width = \"0.4 mm\"\npin_length = \"7.5 mm\"\ncell_size = \"100 um\"\nmean_radius = \"20.2 mm\"\n";
+    let directory = with_scene(&EDITS);
+    let scene = std::fs::read_to_string(directory.path("scene.toml")).unwrap();
+    assert!(scene.contains(cells), "{scene}");
+    directory.write("scene.toml", scene.replace(cells, lengths));
     let (text, rows) = measured(&directory, &["--ladder", "time_acceleration,mesh"]);
     assert!(text.contains("the mesh is not varied: columns cannot be set where it is given in lengths"), "{text}");
     assert!(rows.iter().all(|row| row["ladder"] == "time_acceleration"), "{text}");

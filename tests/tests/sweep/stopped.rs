@@ -12,6 +12,15 @@ use plateau_tests::scenes::few_or_all;
 
 use super::{directory, records, results, study, sweep};
 
+/// The study with four runs of which each takes some tenths of a second and keeps its state on the way.
+fn long() -> String {
+    study()
+        .replace("'3 s'\"", "'30 s'\", \"numerics.time_acceleration = 1\", \"output.checkpoint_every = '0.05 s'\"")
+        .replace("\"10 N\", \"20 N\"", "\"10 N\"")
+        .replace("levels = [0.2, 0.3, 0.4]", "levels = [0.2, 0.3]")
+        .replace("seeds = [7, 8, 9]", "seeds = [7]")
+}
+
 #[test]
 fn a_sweep_killed_again_and_again_ends_like_an_undisturbed_one() {
     let (kills, seeds) = few_or_all((12, 10), (500, 60));
@@ -65,11 +74,7 @@ fn an_interrupted_sweep_says_what_is_left() {
 #[test]
 fn what_was_kept_of_a_run_that_has_ended_goes() {
     let directory = directory();
-    let long = study()
-        .replace("'3 s'\"", "'40 s'\", \"numerics.time_acceleration = 1\", \"output.checkpoint_every = '0.05 s'\"")
-        .replace("levels = [0.2, 0.3, 0.4]", "levels = [0.2, 0.3]")
-        .replace("seeds = [7, 8, 9]", "seeds = [7]");
-    directory.write("study.toml", &long);
+    directory.write("study.toml", long());
     let mut command = directory.command(["sweep", "run", "study.toml", "--jobs", "1"]);
     let child = command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
     let folder = directory.path("results/under-way");
@@ -94,13 +99,9 @@ fn what_was_kept_of_a_run_that_has_ended_goes() {
 
 #[test]
 fn a_long_run_that_was_stopped_or_killed_goes_on() {
-    let long = study()
-        .replace("'3 s'\"", "'40 s'\", \"numerics.time_acceleration = 1\", \"output.checkpoint_every = '0.05 s'\"");
-    let long =
-        long.replace("levels = [0.2, 0.3, 0.4]", "levels = [0.2, 0.3]").replace("seeds = [7, 8, 9]", "seeds = [7]");
     let [whole, directory] = [(), ()].map(|()| {
         let directory = WorkingDirectory::new();
-        directory.write("study.toml", &long);
+        directory.write("study.toml", long());
         directory
     });
     let start = ["sweep", "run", "study.toml", "--jobs", "2"];
