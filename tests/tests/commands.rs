@@ -153,19 +153,6 @@ fn the_mean_contact_area_is_that_of_the_last_tenth() {
 }
 
 #[test]
-fn force_replaces_a_run() {
-    let directory = short();
-    directory.plateau(["run", "scene.toml", "-o", "run.h5"]).quiet_success();
-    let first = RunFile::open(directory.path("run.h5")).content();
-    let again = ["run", "scene.toml", "-o", "run.h5", "--set", "operation.steps=30"];
-    directory.plateau(again).ends(2, &[]);
-    assert!(RunFile::open(directory.path("run.h5")).content() == first);
-    directory.plateau(again.iter().chain(&["--force"])).quiet_success();
-    assert_eq!(RunFile::open(directory.path("run.h5")).shape("/time"), [30]);
-    assert_eq!(directory.names(), ["run.h5", "run.h5.checkpoint", "scene.toml"]);
-}
-
-#[test]
 fn outputs_are_found_from_the_working_directory_and_surfaces_from_the_scene() {
     let directory = WorkingDirectory::new();
     for file in ["scene.toml", "init.h5"] {

@@ -43,17 +43,6 @@ fn a_slip_of_the_unit_is_told_by_check_and_run_and_stops_neither() {
 }
 
 #[test]
-fn a_cutoff_that_cuts_nothing_is_told_once_the_surfaces_are_made() {
-    let directory = WorkingDirectory::new();
-    let quick = scene("quick.toml");
-    let cutoff = |value: &str| {
-        keys(&told(directory.plateau(["check", &quick, "--json", "--set", &format!("disc.prepare.cutoff={value}")])))
-    };
-    assert_eq!(cutoff("3 mm"), ["disc.prepare.cutoff"]);
-    assert_eq!(cutoff("3 um"), [""; 0]);
-}
-
-#[test]
 fn a_run_tells_at_its_end_that_the_disc_wore_below_its_lowlands() {
     let directory = WorkingDirectory::new();
     let edits = [("duration = \"60 s\"", "steps = 1380"), ("sample_every = \"0.1 s\"\n", "")];

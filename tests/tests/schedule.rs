@@ -63,13 +63,6 @@ fn samples_can_be_counted_in_steps_and_the_last_step_has_one() {
 }
 
 #[test]
-fn by_default_there_is_a_sample_every_revolution() {
-    let directory = WorkingDirectory::new();
-    let run = quick_run(&directory, &[("duration = \"60 s\"", "steps = 1500"), ("sample_every = \"0.1 s\"", "")]);
-    assert_steps(&run.floats("/time"), &[690, 1380, 1500], "disc_columns = 690");
-}
-
-#[test]
 fn maps_are_taken_when_asked_for_and_at_the_end() {
     let cases: [(&str, &[u64]); 4] = [
         // 0.8 s are 391 steps; 0.1 s end in step 49; the last state is written once.
@@ -86,27 +79,6 @@ fn maps_are_taken_when_asked_for_and_at_the_end() {
         assert_steps(&run.floats("/map_time"), expected, times);
         assert_eq!(run.shape("/disc/height"), [expected.len(), 690, 20], "{times}");
         assert_eq!(run.shape("/pin/status"), [expected.len(), 40, 20], "{times}");
-    }
-}
-
-#[test]
-fn only_the_maps_that_are_asked_for_are_in_the_file() {
-    let all = ["/disc/height", "/disc/substrate", "/disc/status"].into_iter();
-    let all: Vec<_> = all.chain(["/pin/height", "/pin/substrate", "/pin/status", "/pin/pressure"]).collect();
-    let steps = ("duration = \"60 s\"", "steps = 5");
-    let cases: [(&str, &[&str]); 3] = [
-        ("maps = [\"pressure\", \"disc_height\"]", &["/disc/height", "/pin/pressure"]),
-        ("maps = []", &[]),
-        ("", all.as_slice()),
-    ];
-    for (maps, expected) in cases {
-        let directory = WorkingDirectory::new();
-        let maps_at = format!("maps_at = [\"0 s\"]\n{maps}");
-        let run = quick_run(&directory, &[steps, ("maps_at = [\"0 s\"]", &maps_at)]);
-        let found: Vec<_> = all.iter().filter(|map| run.has(map)).copied().collect();
-        assert_eq!(found, expected, "{maps}");
-        assert_eq!(run.shape("/pin/base"), [40, 20], "the fibre map is no map of a moment");
-        assert_eq!(run.text("state"), "finished");
     }
 }
 

@@ -72,24 +72,6 @@ fn files_are_replaced_only_on_demand() {
 }
 
 #[test]
-fn what_is_no_surface_is_refused() {
-    let directory = WorkingDirectory::new();
-    let rows = "BAD BAD BAD BAD\n".repeat(3);
-    directory.write("all-missing.sdf", small_sdf().replace("0 1 2 3\n0 1 BAD 3\n0 1 2 3\n", &rows));
-    directory.write("not.sdf", "\u{1}\u{2}\u{3}");
-    for (file, reason) in [
-        ("absent.sdf", "cannot be read"),
-        (".", "this is a folder"),
-        ("not.sdf", "not a surface file that is known"),
-        ("all-missing.sdf", "none of its 12 points has a height"),
-    ] {
-        refused(&directory.plateau(["surface", file]), &format!("{file}: "));
-        refused(&directory.plateau(["surface", file]), reason);
-    }
-    assert_eq!(directory.plateau(["surface"]).status, Some(2));
-}
-
-#[test]
 fn roughness_is_in_the_run_file_on_request() {
     let directory = WorkingDirectory::new();
     let edits = [

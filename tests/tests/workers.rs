@@ -85,15 +85,6 @@ fn equal_scenes_give_equal_bits() {
 }
 
 #[test]
-fn another_seed_gives_other_numbers() {
-    let ((_, one, _first), (_, other, _second)) = (run(&[]), run(&["--set", "pin.surface.synthetic.seed=4"]));
-    let different = differences(&one.content(), &other.content());
-    for path in ["/pin/height", "/disc/height", "/series/displacement"] {
-        assert!(different.iter().any(|text| text.starts_with(path)), "{path} is not in {different:?}");
-    }
-}
-
-#[test]
 fn neither_workers_nor_instruction_sets_show_in_a_run_file() {
     // Resin wears and build-up breaks away at this acceleration, and there are maps on the way.
     let local = ["numerics.time_acceleration=400", "output.maps_at=[\"0 s\", \"20 s\", \"40 s\"]"];

@@ -1,20 +1,6 @@
-use std::os::unix::fs::{PermissionsExt, symlink};
+use std::os::unix::fs::symlink;
 
 use super::*;
-
-#[test]
-fn a_file_that_is_replaced_keeps_its_permissions() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("run.h5");
-    let mode = || fs::metadata(&path).unwrap().permissions().mode() & 0o777;
-    fs::write(&path, "old").unwrap();
-    fs::set_permissions(&path, fs::Permissions::from_mode(0o604)).unwrap();
-    for durably in [false, true] {
-        let (temporary, _) = Temporary::create(&path).unwrap();
-        if durably { temporary.publish_durably() } else { temporary.publish(true) }.unwrap();
-        assert_eq!((mode(), fs::read(&path).unwrap().len()), (0o604, 0));
-    }
-}
 
 #[test]
 fn only_what_a_dead_process_left_is_removed() {
