@@ -23,7 +23,7 @@ from plateau.errors import InputError, RunFailed, in_python  # noqa: E402
 from plateau import command_line, output_folder, progress, style  # noqa: E402
 from plateau.command_line import main, shown  # noqa: E402
 from plateau.output_folder import HEAD, LIST, all_or_none, put, write  # noqa: E402
-from plateau.study import words  # noqa: E402
+from plateau.study import likelihood, variance_parts, words  # noqa: E402
 
 PROGRAM = os.environ.setdefault("PLATEAU_PROGRAM", str(ROOT / "plateau"))
 QUICK = ROOT / "data" / "scenes" / "quick.toml"
@@ -88,10 +88,16 @@ class Words(unittest.TestCase):
         self.addCleanup(os.chdir, here)
         os.chdir(folder.name)
         os.environ["PLATEAU_CALLED"] = "plateau"
-        # Most calls draw one format alone, which is quicker.
-        formats = unittest.mock.patch.object(style, "FORMATS", {"svg": style.FORMATS["svg"]})
-        formats.start()
-        self.addCleanup(formats.stop)
+        # Most calls draw one format alone, profiles of few places and few functions that may be true, which is quicker.
+        for module, name, value in (
+            (style, "FORMATS", {"svg": style.FORMATS["svg"]}),
+            (likelihood, "PLACES", 5),
+            (likelihood, "AROUND", 3),
+            (variance_parts, "FUNCTIONS", 10),
+        ):
+            quick = unittest.mock.patch.object(module, name, value)
+            quick.start()
+            self.addCleanup(quick.stop)
 
     def call(self, *words, status=0):
         """What is printed and said."""

@@ -26,8 +26,9 @@ SETTLED = 0.1
 REGION = 6.0
 # A run is made at the most likely place where none is nearer than this, in coded units; steps between places of runs.
 NEAR, STEP = 0.1, 1.0 / 256.0
-# Places of a profile, and along each key of a region: without other keys, and where each place is a search.
-PLACES, SIDES = 41, (41, 15)
+# Places of a profile over the range and near the most likely one, and along each key of a region: without other keys, and where each place is a
+# search.
+PLACES, AROUND, SIDES = 41, 17, (41, 15)
 # Exponents of products below this are none; how many times as well as its leading key a product is known that is told beside the keys.
 EXPONENT, BETTER = 0.05, 3.0
 
@@ -291,7 +292,7 @@ def profile(likelihood: Likelihood, key: int, threshold: float) -> tuple[Numbers
     """Coded values of a key with how far -2 ln L rises there, and the pieces in which it stays below a threshold."""
     best, (axes, deviation) = likelihood.best, likelihood.shape(likelihood.best)
     width = math.sqrt(float(np.square(axes[key] * deviation).sum()))
-    values = np.unique(np.clip([*np.linspace(-1.0, 1.0, PLACES), *(best[key] + width * np.linspace(-4.0, 4.0, 17))], -1.0, 1.0))
+    values = np.unique(np.clip([*np.linspace(-1.0, 1.0, PLACES), *(best[key] + width * np.linspace(-4.0, 4.0, AROUND))], -1.0, 1.0))
     rises, places = np.empty(len(values)), np.empty((len(values), likelihood.keys))
     middle = int(np.abs(values - best[key]).argmin())
     for steps in (range(middle, len(values)), range(middle - 1, -1, -1)):

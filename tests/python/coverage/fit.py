@@ -4,6 +4,7 @@ Two keys, three responses that are curved by lot, three sets of seeds that add s
 response at true keys with a normal error. A failed check gives no interval; its share is told.
 """
 
+import itertools
 import sys
 from pathlib import Path
 
@@ -102,29 +103,17 @@ def coverage(experiments, first=0, given=None, **made):
 
 
 def budgets(number, budgets=(30, 31, 40, 60), **made):
-    """For each budget the end of the fit: whether it has intervals, the most likely place, and what of the places of the others is in its region."""
+    """Of fits with these budgets: how many have intervals, how many pairs of intervals exclude each other, and the most likely places."""
     outcomes = [Experiment(number, **made).fitted(most=most, points=12) for most in budgets]
-    good = [outcome for outcome in outcomes if not outcome.has_failed]
-    limit = stats.chi2.ppf(0.95, 1)
-    exclusive = 0
-    for one in good:
-        for other in good:
-            for key in (0, 1):
-                # Intervals exclude each other if no value of the key is in both.
-                values = np.linspace(-1.0, 1.0, 41)
-                both = [
-                    max(best_with(each.likelihood, {key: value}, each.likelihood.best)[1] - each.likelihood.least for each in (one, other))
-                    for value in np.unique(
-                        np.concatenate(
-                            [
-                                values[np.abs(values - one.likelihood.best[key]) < 0.2],
-                                [one.likelihood.best[key], other.likelihood.best[key]],
-                            ]
-                        )
-                    )
-                ]
-                exclusive += min(both) > limit if one is not other else 0
-    return len(good), exclusive // 2, [outcome.likelihood.best for outcome in outcomes]
+    good = [outcome.likelihood for outcome in outcomes if not outcome.has_failed]
+    limit, exclusive = stats.chi2.ppf(0.95, 1), 0
+    for (one, other), key in itertools.product(itertools.combinations(good, 2), (0, 1)):
+        # Intervals exclude each other if no value of the key is in both; first those are tried that lie between.
+        between = np.linspace(one.best[key], other.best[key], 5)
+        values = [*between[[2, 1, 3, 0, 4]], *(one.best[key] + np.linspace(-0.2, 0.2, 9))]
+        rises = (max(best_with(each, {key: value}, each.best)[1] - each.least for each in (one, other)) for value in np.clip(values, -1.0, 1.0))
+        exclusive += not any(rise <= limit for rise in rises)
+    return len(good), exclusive, [outcome.likelihood.best for outcome in outcomes]
 
 
 CASES = [
