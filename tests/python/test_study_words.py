@@ -23,7 +23,7 @@ from plateau.errors import InputError, RunFailed, in_python  # noqa: E402
 from plateau import command_line, output_folder, progress, style  # noqa: E402
 from plateau.command_line import main, shown  # noqa: E402
 from plateau.output_folder import HEAD, LIST, all_or_none, put, write  # noqa: E402
-from plateau.study import likelihood, variance_parts, words  # noqa: E402
+from plateau.study import analysis, likelihood, variance_parts, words  # noqa: E402
 
 PROGRAM = os.environ.setdefault("PLATEAU_PROGRAM", str(ROOT / "plateau"))
 QUICK = ROOT / "data" / "scenes" / "quick.toml"
@@ -89,15 +89,20 @@ class Words(unittest.TestCase):
         os.chdir(folder.name)
         os.environ["PLATEAU_CALLED"] = "plateau"
         # Most calls draw one format alone, profiles of few places and few functions that may be true, which is quicker.
-        for module, name, value in (
-            (style, "FORMATS", {"svg": style.FORMATS["svg"]}),
-            (likelihood, "PLACES", 5),
-            (likelihood, "AROUND", 3),
-            (variance_parts, "FUNCTIONS", 10),
-        ):
-            quick = unittest.mock.patch.object(module, name, value)
-            quick.start()
-            self.addCleanup(quick.stop)
+        self.patch(style, "FORMATS", {"svg": style.FORMATS["svg"]})
+        self.patch(likelihood, "PLACES", 5)
+        self.patch(likelihood, "AROUND", 3)
+        self.patch(variance_parts, "FUNCTIONS", 10)
+
+    def patch(self, module, name, value):
+        patch = unittest.mock.patch.object(module, name, value)
+        patch.start()
+        self.addCleanup(patch.stop)
+
+    def draw_nothing(self):
+        """For what is no matter of figures, which take half of the time."""
+        self.patch(analysis, "DRAWINGS", {})
+        self.patch(words, "saved", lambda figures: {})
 
     def call(self, *words, status=0):
         """What is printed and said."""
@@ -133,6 +138,7 @@ class Words(unittest.TestCase):
         return self.call("sweep", "import", "study.toml", table)[0]
 
     def test_names_of_columns_of_tables_are_names_of_factors_and_responses(self):
+        self.draw_nothing()
         text = MEASURED.replace('name = "load"', 'name = "state"').replace('name = "grip"', 'name = "order"')
         self.import_all(text, names=("state", "order"))
         document = self.document("sweep", "effects", "study.toml")
@@ -227,6 +233,7 @@ class Words(unittest.TestCase):
         self.refused("sweep", "sensitivity", "study.toml", "-o", "study/fit", said="has the files of an earlier call")
 
     def test_results_in_another_folder(self):
+        self.draw_nothing()
         self.import_all()
         pathlib.Path("study").rename("there")
         settings = {"optimize": ["--minimize", "leak"], "predict": ["--at", "load=2 N", "--at", "dose=0.5"], "import": ["measured.csv"]}
@@ -238,6 +245,7 @@ class Words(unittest.TestCase):
         self.assertLessEqual({"effects", "sensitivity", "optimum", "fit", "imported.csv"}, {path.name for path in pathlib.Path("there").iterdir()})
 
     def test_predictions_and_optima(self):
+        self.draw_nothing()
         self.import_all()
         self.call("sweep", "predict", "study.toml", "--grid", 3, "-o", "grid.csv", "-q")
         with open("grid.csv", newline="") as file:
