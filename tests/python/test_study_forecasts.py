@@ -6,6 +6,7 @@ import os
 import sys
 import tempfile
 import unittest
+import unittest.mock
 import warnings
 from pathlib import Path
 
@@ -14,6 +15,7 @@ import pandas
 from scipy import stats
 
 from plateau.errors import InputError
+from plateau.study import variance_parts
 from plateau.study.prediction import predict
 from plateau.study.process import Equations, Process
 from plateau.study.surrogate import surrogates
@@ -186,6 +188,12 @@ class PredictionTest(unittest.TestCase):
 
 
 class SensitivityTest(unittest.TestCase):
+    def setUp(self):
+        # Enough for what is told here, in less time.
+        fewer = unittest.mock.patch.object(variance_parts, "FUNCTIONS", 30)
+        fewer.start()
+        self.addCleanup(fewer.stop)
+
     def test_elementary_effects_agree_with_salib(self):
         case = REFERENCES["morris"]
         study = forecasts.study_of(2.0 * np.array(case["points"]) - 1.0, np.array(case["responses"]), design="morris")
