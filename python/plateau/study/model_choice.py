@@ -1,5 +1,6 @@
 """Which model is fitted to a response, and what it misses."""
 
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -76,6 +77,8 @@ def no_squares(fit: Fitted) -> str:
     return f"the runs cannot tell {', '.join(aliased)} from other terms" if aliased else ""
 
 
+# Cautions, advice and JSON ask for it, and each time all other models would be fitted.
+@lru_cache(maxsize=32)
 def misfit(fit: Fitted) -> dict[str, Any] | None:
     """What a model misses significantly, by replicates or by models with all its terms and more (Bonferroni), and the model to try."""
     if np.isnan(fit.error):
