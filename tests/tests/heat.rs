@@ -186,6 +186,30 @@ fn a_brake_is_its_pin_in_the_ratio_of_areas_and_radii() {
 }
 
 #[test]
+fn flat_on_flat_has_the_coefficient_of_the_closed_form() {
+    let directory = WorkingDirectory::new();
+    let friction = "friction={ pressure_coefficient = 0.33, shear_strength = \"0.75 MPa\", maximum = 0.6 }";
+    let flat = [friction, "disc.surface.flat=true", "pin.surface.flat=true", "pin.base.uniform=primary"];
+    for force in [60.0, 30.0, 3.0] {
+        let (force_set, name) = (format!("operation.normal_force={force} N"), format!("{force}.h5"));
+        let sets = [&flat[..], &["operation.duration=1 s", &force_set]].concat();
+        let sets: Vec<&str> = sets.into_iter().flat_map(|set| ["--set", set]).collect();
+        let quick = scene("quick.toml");
+        directory.plateau([&["run", &quick, "-o", &name][..], &sets].concat()).quiet_success();
+        let run = RunFile::open(directory.path(&name));
+        // The pin covers 40 of 690 columns of a ring from 20 to 21 mm.
+        let area = std::f64::consts::PI * (21e-3_f64.powi(2) - 20e-3_f64.powi(2)) * 40.0 / 690.0;
+        let expected = (0.33 + 0.75e6 * area / force).min(0.6);
+        for path in ["/series/friction_coefficient", "/series/friction_coefficient_mean"] {
+            assert!(run.floats(path).iter().all(|found| (found / expected - 1.0).abs() < 1e-12), "{force} N, {path}");
+        }
+        let (work, distance) = (run.floats("/series/friction_work"), run.floats("/series/sliding_distance"));
+        let whole = |(work, distance): (&f64, &f64)| (work / (expected * force * distance) - 1.0).abs() < 1e-12;
+        assert!(work.iter().zip(&distance).all(whole));
+    }
+}
+
+#[test]
 fn workers_and_instruction_sets_agree_on_heat() {
     let directory = WorkingDirectory::new();
     directory.write("hot.toml", hot("stops.toml", "sample_every = \"0.3 s\"\nmaps_at = [\"12 s\", \"16 s\"]"));

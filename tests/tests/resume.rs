@@ -100,7 +100,7 @@ fn check_that_it_holds_a_start(directory: &WorkingDirectory, name: &str, whole: 
 fn a_run_that_chooses_its_acceleration_goes_on_too() {
     let directory = WorkingDirectory::new();
     let chosen =
-        ["--set", "numerics.time_acceleration={ tolerance = 0.01, max = 1000 }", "--set", "operation.duration=250 s"];
+        ["--set", "numerics.time_acceleration={ tolerance = 0.01, max = 1000 }", "--set", "operation.duration=600 s"];
     assert_eq!(run(&directory, "whole.h5", &chosen).status, Some(0));
     let mut random = Stream(9);
     for _ in 0..4 {
@@ -114,7 +114,7 @@ fn a_run_that_chooses_its_acceleration_goes_on_too() {
 #[test]
 fn signals_leave_a_checkpoint_of_the_moment() {
     let directory = WorkingDirectory::new();
-    let rarely = ["--set", "output.checkpoint_every=1 h", "--set", "operation.duration=120 s"];
+    let rarely = ["--set", "output.checkpoint_every=1 h", "--set", "operation.duration=250 s"];
     assert_eq!(run(&directory, "whole.h5", &rarely).status, Some(0));
     assert_eq!(
         directory.names(),

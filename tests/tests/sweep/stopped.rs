@@ -15,7 +15,7 @@ use super::{directory, records, results, study, sweep};
 /// The study with four runs of which each takes some tenths of a second and keeps its state on the way.
 fn long() -> String {
     study()
-        .replace("'3 s'\"", "'30 s'\", \"numerics.time_acceleration = 1\", \"output.checkpoint_every = '0.05 s'\"")
+        .replace("'3 s'\"", "'40 s'\", \"numerics.time_acceleration = 1\", \"output.checkpoint_every = '0.05 s'\"")
         .replace("\"10 N\", \"20 N\"", "\"10 N\"")
         .replace("levels = [0.2, 0.3, 0.4]", "levels = [0.2, 0.3]")
         .replace("seeds = [7, 8, 9]", "seeds = [7]")
