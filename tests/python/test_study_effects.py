@@ -129,7 +129,7 @@ class Seeds(unittest.TestCase):
 
     def test_intervals_hold_the_mean_over_all_seeds(self) -> None:
         for missing in (0.0, 0.1):
-            shares = simulated(3, 2.0, 150, missing)
+            shares = simulated(3, 2.0, 300, missing)
             self.assertLess(shares[0, 1], 0.75)  # From the residual: 52 %.
             self.assertTrue((np.abs(shares[:, 0] - 0.95) < 0.045).all(), shares)
 

@@ -48,16 +48,17 @@ class LikelihoodTest(unittest.TestCase):
         slopes, uncertainty = np.array([[1.0, 0.5], [-0.3, 0.8], [0.4, 0.4]]), np.array([0.10, 0.05, 0.08])
         x, truth = places(16, 2), np.array([0.2, -0.1])
         runs = Runs(x, np.zeros(16), list((x @ slopes.T).T[:, :, None]))
-        for key, correlation, discrepancy in ((0, 0.7, 0.0), (1, 0.0, 0.1)):
+        for correlation, discrepancy in ((0.0, 0.0), (0.7, 0.0), (0.0, 0.1)):
             correlations = np.eye(3)
             correlations[0, 1] = correlations[1, 0] = correlation
             numbers = slopes @ truth
             covariance = correlations * np.outer(uncertainty, uncertainty) + np.diag((discrepancy * numbers) ** 2)
             likelihood = Likelihood(Target(list(map(value, numbers, uncertainty)), [discrepancy] * 3, correlations), runs)
             expected = np.linalg.inv(slopes.T @ np.linalg.inv(covariance) @ slopes)
-            middle, half = self.interval(likelihood, key)
-            self.assertAlmostEqual(middle, truth[key], delta=0.01)
-            self.assertAlmostEqual(half / (1.959964 * expected[key, key] ** 0.5), 1.0, delta=0.02)
+            for key in (0, 1):
+                middle, half = self.interval(likelihood, key)
+                self.assertAlmostEqual(middle, truth[key], delta=0.01)
+                self.assertAlmostEqual(half / (1.959964 * expected[key, key] ** 0.5), 1.0, delta=0.02)
             self.assertLess(likelihood.misfit(likelihood.best[None], with_processes=False)[0], 1e-3)
 
     def test_correlated_points_of_a_series_count_for_fewer(self):
@@ -153,14 +154,14 @@ class OutcomeTest(unittest.TestCase):
         self.assertTrue(moved.has_failed or abs(best - 0.3) > 0.15, best)
 
     def test_true_keys_are_inside(self):
-        shares = experiments.coverage(6)
-        self.assertGreaterEqual(shares[0], 5 / 6)
-        self.assertGreaterEqual(shares[1], 10 / 12)
-        self.assertEqual(experiments.coverage(2, bias=0.1, given={"discrepancy": 0.1})[0], 1.0)
+        shares = experiments.coverage(8)
+        self.assertGreaterEqual(shares[0], 6 / 8)
+        self.assertGreaterEqual(shares[1], 13 / 16)
+        self.assertGreaterEqual(experiments.coverage(4, bias=0.1, given={"discrepancy": 0.1})[0], 3 / 4)
 
     def test_budgets_do_not_exclude_each_other(self):
-        good, exclusive, _ = experiments.budgets(1, (30, 60), sharp=1.5, seeds=2)
-        self.assertEqual(good, 2)
+        good, exclusive, _ = experiments.budgets(1, sharp=1.5, seeds=2)
+        self.assertGreaterEqual(good, 2)
         self.assertEqual(exclusive, 0)
 
 
