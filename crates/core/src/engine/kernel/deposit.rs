@@ -3,8 +3,8 @@
 //! Between an open cell and one that touches ahead of it is an edge. What is lost within L columns ahead of it comes upon the open
 //! cells within L columns behind it; without a transport length L is one column, the gaps of a strip are filled before any of its
 //! cells wears, and only the columns ahead of edges are worn in passing. With one, all that touches is worn first, for most of it
-//! is near an edge. From the bytes that tell which cells touch, columns with something to do are listed first: a branch that goes
-//! either way costs more.
+//! is near an edge: from the last column to the first, so that what is lost ahead of an edge is at hand there. From the bytes that
+//! tell which cells touch, columns with something to do are listed first: a branch that goes either way costs more.
 
 use super::edge::{Edge, Edges, Reach};
 use super::instructions::{InstructionSet, kernel, with_build_up};
@@ -14,12 +14,12 @@ use super::read::Span;
 use super::rules::{Conditions, Rules, StripRules};
 use super::strip::Strip;
 use super::worn::wear;
-use super::worn_column::{store_worn, wear_and_note, wear_ordinary_column};
+use super::worn_column::{store_worn, wear_any_and_note, wear_ordinary_column};
 use crate::engine::lanes::{BYTES, Chunk, Integers, LANES, Lanes, Mask};
 use crate::engine::parts::{Needs, build_up};
 use crate::engine::strips::{DiscSector, PinStrips};
 
-/// Columns ahead of an edge that are looked at whether their cells touch or not.
+/// L up to which what is lost stays in registers: that of 200 µm on the paper's mesh.
 const NEAR: usize = 4;
 
 kernel! {
@@ -78,27 +78,33 @@ fn deposit_on_rows<L: Lanes, const BUILD_UP: u8, const DISC_WEARS: bool, const T
     }
     let mut deposits = Deposits::<L>::new();
     let count = list::<L>(&mut edges.listed, &edges.fed, columns);
-    let Edges { listed, fed, open, touches, lost, plateau: plateaus, .. } = edges;
+    let Edges { listed, fed, open, plateau: plateaus, share: shares, .. } = edges;
     let fed = &fed[..columns];
     if TRANSPORT {
-        let reach = rules.rules.reach;
-        // Each cell is fed from the nearest edge ahead. An open cell ahead, which has been filled, counts as it was before.
-        let mut nearest = L::load(&ahead.share);
-        let (mut last, mut before) = (columns, ahead.height);
+        let (open, plateaus, shares) = (&open[..columns], &plateaus[1..][..columns], &shares[1..][..columns]);
+        // Each cell is fed from the nearest edge ahead. An open cell ahead, which has been filled, counts as it was before: so what a
+        // column becomes is stored a column later.
+        let (mut nearest, height_ahead) = (L::load(&ahead.share), L::load(&ahead.height));
+        let mut filled = (columns, height_ahead);
         for column in listed[..count].iter().rev() {
             let column = *column as usize;
-            let next = column + 1;
-            let (Some(open), Some(touches), Some(lost)) =
-                (open.get(column), touches.get(next..next + reach), lost.get(next..next + reach))
-            else {
+            if column >= columns {
                 break;
+            }
+            nearest = L::select(L::Mask::of_byte(open[column]), L::load(&shares[column]), nearest);
+            let height = match strip.pin.height.get(column + 1) {
+                Some(height) => L::load(height),
+                None => height_ahead,
             };
-            let at = open & L::ROWS;
-            nearest = L::select(L::Mask::of_byte(at), gathered(rules, at, touches, lost), nearest);
-            let height = if next == last { &before } else { &strip.pin.height[next] };
-            let height = L::select(L::Mask::of_byte(plateaus[next]), L::load(height), L::splat(f64::INFINITY));
-            (last, before) = (column, strip.pin.height[column]);
-            deposits.fill(rules, strip, column, [fed[column], 0], [nearest, height], &mut moved.seldom);
+            let height = L::select(L::Mask::of_byte(plateaus[column]), height, L::splat(f64::INFINITY));
+            if let Some(place) = strip.pin.height.get_mut(filled.0) {
+                filled.1.store(place);
+            }
+            let ahead = [nearest, height];
+            filled = (column, deposits.fill(rules, strip, column, [fed[column], 0], ahead, &mut moved.seldom));
+        }
+        if let Some(place) = strip.pin.height.get_mut(filled.0) {
+            filled.1.store(place);
         }
     } else {
         for column in &listed[..count] {
@@ -116,11 +122,12 @@ fn deposit_on_rows<L: Lanes, const BUILD_UP: u8, const DISC_WEARS: bool, const T
                 of_resin = rows & height.at_least(L::splat(f64::INFINITY)).byte();
                 next = [L::load(&ahead.lost[0]), height];
             };
-            deposits.fill(rules, strip, column, [rows, of_resin], next, &mut moved.seldom);
+            let filled = deposits.fill(rules, strip, column, [rows, of_resin], next, &mut moved.seldom);
+            filled.store(&mut strip.pin.height[column]);
         }
     }
-    add::<L>(&mut moved.deposited_pin.0[index], rules.deposits(deposits.on_pins, deposits.terms));
-    add::<L>(&mut moved.deposited_disc.0[index], rules.deposits(deposits.on_discs, deposits.terms));
+    add::<L>(&mut moved.deposited_pin.0[index], rules.deposits(deposits.on_pins, count));
+    add::<L>(&mut moved.deposited_disc.0[index], rules.deposits(deposits.on_discs, count));
 }
 
 /// Where the set bits of each byte are, in ascending order.
@@ -224,24 +231,59 @@ impl Edges {
         moved: &mut Moved,
     ) {
         let columns = strip.disc_height.len();
-        self.lost.resize(columns, ahead.height);
-        self.lost.extend_from_slice(&ahead.lost);
+        let reach = rules.rules.reach;
         self.plateau.clear();
         self.plateau.extend_from_slice(&strip.pin.plateau[..columns]);
         // What lies ahead has told its plateaus by its height.
         self.plateau.push(u8::MAX);
+        let part = L::splat(rules.rules.transport_part);
+        self.share.resize(columns + 1, ahead.height);
+        (gathered::<L>(u8::MAX, &ahead.touches, &ahead.lost) * part).store(&mut self.share[columns]);
+        if reach > NEAR {
+            self.lost.resize(columns, ahead.height);
+            self.lost.extend_from_slice(&ahead.lost);
+        }
+        let mut run = Run::<L>::of(ahead);
         let count = list::<L>(&mut self.listed, &self.touches, columns);
-        let lost = &mut self.lost[..columns];
         let mut strip_moved = StripMoved::<L>::new();
-        for column in &self.listed[..count] {
+        let (shares, mut last) = (&mut self.share[..columns], columns);
+        for column in self.listed[..count].iter().rev() {
             let column = *column as usize;
             if column >= columns {
                 break;
             }
-            let worn =
-                wear_and_note::<L, BUILD_UP, DISC_WEARS>(rules, strip, column, &mut strip_moved, &mut moved.seldom);
-            worn.lost::<DISC_WEARS>(true).store(&mut lost[column]);
-            store_worn::<L, BUILD_UP, DISC_WEARS>(strip, column, &worn);
+            let worn = match wear_ordinary_column::<L, BUILD_UP, DISC_WEARS>(rules, strip, column) {
+                Some(worn) => {
+                    // Build-up stays build-up.
+                    worn.z_p.store(&mut strip.pin.height[column]);
+                    if DISC_WEARS {
+                        worn.z_d.store(&mut strip.disc_height[column]);
+                        worn.b_d.store(&mut strip.disc_substrate[column]);
+                    }
+                    worn
+                }
+                None => {
+                    let worn = wear_any_and_note::<L, BUILD_UP, DISC_WEARS>(rules, strip, column, &mut moved.seldom);
+                    store_worn::<L, BUILD_UP, DISC_WEARS>(strip, column, &worn);
+                    worn
+                }
+            };
+            if BUILD_UP == build_up::DISTINCT {
+                strip_moved.add::<DISC_WEARS>(rules, &worn);
+            }
+            let lost = worn.lost::<DISC_WEARS>(true);
+            // Without a branch, which goes either way.
+            let joined = L::Mask::of_byte(u8::from(column + 1 == last).wrapping_neg());
+            run.step_back(worn.touches & joined, lost);
+            last = column;
+            let mut sum = run.sum(NEAR);
+            if reach < NEAR {
+                sum = run.sum(reach);
+            } else if reach > NEAR {
+                lost.store(&mut self.lost[column]);
+                sum = gathered::<L>(u8::MAX, &self.touches[column..][..reach], &self.lost[column..][..reach]);
+            }
+            (sum * part).store(&mut shares[column]);
         }
         strip_moved.store::<BUILD_UP, DISC_WEARS>(rules, strip.index, count, moved);
     }
@@ -275,41 +317,83 @@ impl Edges {
         for next in 1..columns.min(own) {
             open &= !self.touches[next - 1];
             let edges = open & self.touches[next];
-            let share = gathered::<L>(rules, edges, &self.touches[next..][..columns], &self.lost[next..][..columns]);
+            let share = gathered::<L>(edges, &self.touches[next..][..columns], &self.lost[next..][..columns])
+                * L::splat(rules.rules.transport_part);
             L::select(L::Mask::of_byte(edges), share, L::load(&reach.share)).store(&mut reach.share);
         }
         reach.lost.copy_from_slice(&self.lost[..columns]);
     }
 }
 
-/// v̄ of edges, m: those cells of the first of L columns, of which is given what touches and what it loses.
+/// Σ v of the first of L columns and the others as far as cells touch, m, of some cells; of the columns is given what touches and
+/// what it loses.
 #[inline(always)]
-fn gathered<L: Lanes>(rules: &StripRules<L>, mut run: u8, touches: &[u8], lost: &[Chunk]) -> L {
+fn gathered<L: Lanes>(mut run: u8, touches: &[u8], lost: &[Chunk]) -> L {
     let lost = &lost[..touches.len()];
     let mut sum = L::load(&lost[0]);
+    run &= touches[0] & L::ROWS;
     for next in 1..touches.len() {
         run &= touches[next];
-        if next >= NEAR && run == 0 {
+        if run == 0 {
             break;
         }
         sum = sum + L::load(&lost[next]).only(L::Mask::of_byte(run));
     }
-    sum * L::splat(rules.rules.transport_part)
+    sum
+}
+
+/// What the columns from one on lose, m, each as far as it and all before it touch; else 0.
+struct Run<L: Lanes>([L; NEAR]);
+
+impl<L: Lanes> Run<L> {
+    /// What lies ahead of a span.
+    #[inline(always)]
+    fn of(ahead: &Reach) -> Self {
+        let mut lost = [L::splat(0.0); NEAR];
+        let (mut run, mut next) = (u8::MAX, 0);
+        while next < ahead.touches.len() && next < NEAR {
+            run &= ahead.touches[next];
+            lost[next] = L::load(&ahead.lost[next]).only(L::Mask::of_byte(run));
+            next += 1;
+        }
+        Self(lost)
+    }
+
+    /// Steps back by a column, in which some cells touch that go on a run, and which loses so much.
+    #[inline(always)]
+    fn step_back(&mut self, touches: L::Mask, lost: L) {
+        let mut next = NEAR - 1;
+        while next > 0 {
+            self.0[next] = self.0[next - 1].only(touches);
+            next -= 1;
+        }
+        self.0[0] = lost;
+    }
+
+    /// What so many of them lose in all, the nearest first.
+    #[inline(always)]
+    fn sum(&self, columns: usize) -> L {
+        let mut sum = self.0[0];
+        let mut next = 1;
+        while next < columns {
+            sum = sum + self.0[next];
+            next += 1;
+        }
+        sum
+    }
 }
 
 /// What is compacted on a strip, anchored.
 struct Deposits<L: Lanes> {
     on_pins: L::Integers,
     on_discs: L::Integers,
-    /// How many terms these sums have.
-    terms: usize,
 }
 
 impl<L: Lanes> Deposits<L> {
     /// Nothing yet.
     #[inline(always)]
     fn new() -> Self {
-        Self { on_pins: L::Integers::splat(0), on_discs: L::Integers::splat(0), terms: 0 }
+        Self { on_pins: L::Integers::splat(0), on_discs: L::Integers::splat(0) }
     }
 
     /// Fills the gaps at some of the eight cells of a column, with v̄, m, up to z_p of the cells ahead after wear and before any
@@ -323,7 +407,7 @@ impl<L: Lanes> Deposits<L> {
         [rows, of_resin]: [u8; 2],
         [share, height_ahead]: [L; 2],
         seldom: &mut Vec<SeldomEvent>,
-    ) {
+    ) -> L {
         let reference = L::splat(rules.rules.reference_height);
         let receivers = L::Mask::of_byte(rows);
         let (z_p, z_d) = (L::load(&strip.pin.height[column]), L::load(&strip.disc_height[column]));
@@ -343,11 +427,9 @@ impl<L: Lanes> Deposits<L> {
             [height, disc_height]
         };
         let substrate = L::load(&strip.pin.substrate[column]).greater(z_p);
-        height.store(&mut strip.pin.height[column]);
         disc_height.store(&mut strip.disc_height[column]);
         substrate.store(&mut strip.pin.substrate[column]);
         strip.pin.plateau[column] |= height.below(substrate).byte();
-        self.terms += 1;
         let [on_pin, on_disc] = if of_resin != 0 {
             note_of_resin(of_resin, rules.strip * LANES, [on_pin, on_disc], seldom);
             let others = L::Mask::of_byte(!of_resin);
@@ -357,6 +439,7 @@ impl<L: Lanes> Deposits<L> {
         };
         self.on_pins = rules.plus_deposit(self.on_pins, on_pin);
         self.on_discs = rules.plus_deposit(self.on_discs, on_disc);
+        height
     }
 }
 

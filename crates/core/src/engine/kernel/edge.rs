@@ -32,6 +32,8 @@ pub(super) struct Edges {
     pub fed: Vec<u8>,
     /// v of each of these columns, m; of no meaning where nothing touches.
     pub lost: Vec<Chunk>,
+    /// v̄ of the edge behind each of the columns of the strip and behind the next, m; of no meaning where nothing touches.
+    pub share: Vec<Chunk>,
     /// Which cells of the columns of the strip were plateaus at the start of the step, one bit each, and all of the next.
     pub plateau: Vec<u8>,
     /// Columns of the strip with something to do.

@@ -3,6 +3,7 @@
 use super::edge::Edges;
 use super::pairs::lanes_of;
 use super::rules::StripRules;
+use super::worn::Worn;
 use crate::engine::exact::RowIntegers;
 use crate::engine::lanes::{Chunk, IntegerChunk, Integers, LANES, Lanes};
 use crate::engine::parts::build_up;
@@ -88,6 +89,15 @@ impl<L: Lanes> StripMoved<L> {
     pub fn new() -> Self {
         let zero = L::Integers::splat(0);
         Self { lost_pin: [zero; 2], lost_disc: [zero; 2] }
+    }
+
+    /// Adds what eight cells lost.
+    #[inline(always)]
+    pub fn add<const DISC_WEARS: bool>(&mut self, rules: &StripRules<L>, worn: &Worn<L>) {
+        self.lost_pin = rules.plus_loss(self.lost_pin, worn.lost_pin);
+        if DISC_WEARS {
+            self.lost_disc = rules.plus_loss(self.lost_disc, worn.lost_disc);
+        }
     }
 
     /// Adds the sums of the strip, with a term for each of so many columns, to the others.

@@ -41,8 +41,8 @@ pub(super) fn pass_over_ordinary<L: Lanes, const BUILD_UP: u8, const DISC_WEARS:
             &mut []
         },
         strength: L::splat(rules.rules.strength.map_or(f64::INFINITY, |[on_coating, _]| -on_coating)),
-        pin_loss: rules.zero - rules.pin_loss().plateau(),
-        disc_loss: rules.zero - rules.disc_loss().plateau(),
+        pin_loss: rules.zero - rules.pin_loss.plateau(),
+        disc_loss: rules.zero - rules.disc_loss.plateau(),
         next: *next,
         reading,
     };

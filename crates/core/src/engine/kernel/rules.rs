@@ -103,6 +103,14 @@ pub(super) struct StripRules<'a, L: Lanes> {
     /// Numbers whose last bits are worth a coarse and a fine quantum of the losses.
     loss_anchors: [L; 2],
     pub bracket: BracketLanes<L>,
+    /// Raw loss of the pin per overlap, negative.
+    pub pin_loss: Entries<L>,
+    /// Raw loss of the disc per overlap, negative.
+    pub disc_loss: Entries<L>,
+    /// Δh_sub/Δh of the fibre below a build-up.
+    pub fibre: Entries<L>,
+    /// Δh_sub/Δh of the coating below a build-up.
+    pub coating: Entries<L>,
 }
 
 impl<'a, L: Lanes> StripRules<'a, L> {
@@ -118,31 +126,11 @@ impl<'a, L: Lanes> StripRules<'a, L> {
             deposit_anchor: L::splat(conditions.deposit_quantum.anchor()),
             loss_anchors: [L::splat(conditions.loss_quanta[0].anchor()), L::splat(conditions.loss_quanta[1].anchor())],
             bracket: BracketLanes::new(&conditions.bracket),
+            pin_loss: rules.pin_loss.strip(strip),
+            disc_loss: rules.disc_loss.strip(strip),
+            fibre: rules.fibre.strip(strip),
+            coating: rules.coating.strip(strip),
         }
-    }
-
-    /// Raw loss of the pin per overlap, negative.
-    #[inline(always)]
-    pub fn pin_loss(&self) -> Entries<L> {
-        self.rules.pin_loss.strip(self.strip)
-    }
-
-    /// Raw loss of the disc per overlap, negative.
-    #[inline(always)]
-    pub fn disc_loss(&self) -> Entries<L> {
-        self.rules.disc_loss.strip(self.strip)
-    }
-
-    /// Δh_sub/Δh of the fibre below a build-up.
-    #[inline(always)]
-    pub fn fibre(&self) -> Entries<L> {
-        self.rules.fibre.strip(self.strip)
-    }
-
-    /// Δh_sub/Δh of the coating below a build-up.
-    #[inline(always)]
-    pub fn coating(&self) -> Entries<L> {
-        self.rules.coating.strip(self.strip)
     }
 
     /// h_m, m.

@@ -24,6 +24,7 @@ pub(super) struct Worn<L: Lanes> {
     pub b_p: L,
     pub z_d: L,
     pub b_d: L,
+    pub touches: L::Mask,
     pub on_resin: L::Mask,
     /// Resin without build-up before wear.
     pub resin: L::Mask,
@@ -79,11 +80,11 @@ pub(super) fn wear<L: Lanes, const BUILD_UP: u8, const DISC_WEARS: bool>(
     let touches = clearance.below(rules.zero);
 
     // 4.2 Resin loses its wear height at once, all else wears by its coefficient times the overlap.
-    let raw_pin = (clearance * pairs.pick::<BUILD_UP>(&rules.pin_loss())).only(touches & !pairs.resin());
+    let raw_pin = (clearance * pairs.pick::<BUILD_UP>(&rules.pin_loss)).only(touches & !pairs.resin());
     let before = z_p;
     let mut lost_pin = raw_pin;
     if BUILD_UP == build_up::DISTINCT {
-        let below = L::select(on_resin, rules.zero, pairs.pick::<{ build_up::DISTINCT }>(&rules.fibre()));
+        let below = L::select(on_resin, rules.zero, pairs.pick::<{ build_up::DISTINCT }>(&rules.fibre));
         let worn = wear::pin(z_p, b_p, raw_pin, below);
         (z_p, lost_pin) = (worn.height, worn.lost);
     } else {
@@ -93,9 +94,9 @@ pub(super) fn wear<L: Lanes, const BUILD_UP: u8, const DISC_WEARS: bool>(
     z_p = z_p.plus_where(resin, rules.wear_height());
     let mut lost_disc = rules.zero;
     if DISC_WEARS {
-        let raw_disc = (clearance * pairs.pick::<BUILD_UP>(&rules.disc_loss())).only(touches);
+        let raw_disc = (clearance * pairs.pick::<BUILD_UP>(&rules.disc_loss)).only(touches);
         if BUILD_UP == build_up::DISTINCT {
-            let worn = wear::disc(z_d, b_d, raw_disc, pairs.pick::<{ build_up::DISTINCT }>(&rules.coating()));
+            let worn = wear::disc(z_d, b_d, raw_disc, pairs.pick::<{ build_up::DISTINCT }>(&rules.coating));
             (z_d, lost_disc) = (worn.height, worn.lost);
         } else {
             (z_d, lost_disc) = (z_d - raw_disc, raw_disc);
@@ -119,7 +120,7 @@ pub(super) fn wear<L: Lanes, const BUILD_UP: u8, const DISC_WEARS: bool>(
         let least = L::select(pairs.disc_secondary, L::splat(on_secondary), L::splat(on_coating));
         broken = on_resin & pairs.pin_secondary & clearance.below(least) & !worn_through;
     }
-    Worn { z_p, b_p, z_d, b_d, on_resin, resin: pairs.resin(), worn_through, broken, lost_pin, lost_disc }
+    Worn { z_p, b_p, z_d, b_d, touches, on_resin, resin: pairs.resin(), worn_through, broken, lost_pin, lost_disc }
 }
 
 /// Wears eight pairs by [`wear`]'s rules, with fewer instructions; none where one of them is bare resin that touches, or loses
@@ -138,7 +139,7 @@ pub(super) fn wear_ordinary<L: Lanes, const BUILD_UP: u8, const DISC_WEARS: bool
     let clearance = z_p - z_d - rules.displacement;
     let distinct = BUILD_UP == build_up::DISTINCT;
     let secondary = if distinct { [z_p.below(b_p), b_d.below(z_d)] } else { [nothing; 2] };
-    let lost_pin = (clearance * rules.pin_loss().plateaus::<BUILD_UP>(secondary)).only(touches);
+    let lost_pin = (clearance * rules.pin_loss.plateaus::<BUILD_UP>(secondary)).only(touches);
     let worn = z_p + lost_pin;
     let mut ends = worn.at_least(b_p);
     if distinct {
@@ -153,7 +154,7 @@ pub(super) fn wear_ordinary<L: Lanes, const BUILD_UP: u8, const DISC_WEARS: bool
     }
     let mut lost_disc = rules.zero;
     if DISC_WEARS {
-        lost_disc = (clearance * rules.disc_loss().plateaus::<BUILD_UP>(secondary)).only(touches);
+        lost_disc = (clearance * rules.disc_loss.plateaus::<BUILD_UP>(secondary)).only(touches);
         if distinct {
             unusual |= (secondary[1] & lost_disc.at_least(z_d - b_d)).byte();
         }
@@ -169,6 +170,7 @@ pub(super) fn wear_ordinary<L: Lanes, const BUILD_UP: u8, const DISC_WEARS: bool
         b_p,
         z_d,
         b_d,
+        touches,
         on_resin,
         resin: L::Mask::of_byte(!plateau),
         worn_through: nothing,

@@ -22,10 +22,7 @@ pub fn wear_and_note<L: Lanes, const BUILD_UP: u8, const DISC_WEARS: bool>(
         None => wear_any_and_note::<L, BUILD_UP, DISC_WEARS>(rules, strip, column, seldom),
     };
     if BUILD_UP == build_up::DISTINCT {
-        moved.lost_pin = rules.plus_loss(moved.lost_pin, worn.lost_pin);
-        if DISC_WEARS {
-            moved.lost_disc = rules.plus_loss(moved.lost_disc, worn.lost_disc);
-        }
+        moved.add::<DISC_WEARS>(rules, &worn);
     }
     worn
 }
