@@ -1,15 +1,15 @@
 //! Wear of cells to which nothing out of the ordinary happens.
 //!
-//! Where build-up has the properties of what it lies on, it is ordinary
-//! - to touch as a plateau and wear, but not through build-up on resin, which does not break away either, or to be open;
-//! - to be read for the next step as touching, as a plateau, or as open.
+//! Where build-up has the properties of what it lies on, it is ordinary to touch as a plateau and wear, but not through build-up on
+//! resin, which does not break away either, or to be open.
 //!
 //! This takes a part of the instructions of [`super::pass`], and gives the same bits: b_p of fibres follows z_p up only
 //! when debris comes upon them, as is said at [`crate::engine::strips::PinStrips::substrate`].
 
 use std::ops::Range;
 
-use super::reading::{Reading, Stand, StripReading, note_near};
+use super::pairs::Pairs;
+use super::reading::{Reading, StripReading};
 use super::rules::StripRules;
 use super::strip::Strip;
 use crate::engine::lanes::{Chunk, Lanes, Mask};
@@ -94,23 +94,18 @@ impl<L: Lanes, const BUILD_UP: u8> Ordinary<'_, L, BUILD_UP> {
         if BUILD_UP == build_up::BRITTLE {
             on_ground |= self.strength.below(overlap).byte();
         }
-        on_ground &= self.resin[column] & self.touches[column];
+        if on_ground & self.resin[column] & self.touches[column] != 0 {
+            return false;
+        }
+        worn.store(&mut self.pin_height[column]);
 
         // 4.1 of the next step
         let gap = worn - L::load(&self.disc_height[column]);
-        let stand = Stand::new(gap, &self.rules.bracket);
-        let touching = stand.touches.byte();
-        if on_ground | (touching & !self.plateau[column]) != 0 {
-            return false;
-        }
-        if stand.near.any() {
-            let [strip, first] = self.place;
-            let bare = [!self.plateau[column], 0, 0];
-            note_near::<L, BUILD_UP>(self.reading, gap, stand.near.byte(), bare, [strip, first + column]);
-        }
-
-        worn.store(&mut self.pin_height[column]);
-        self.touches[column] = touching;
+        let [strip, first] = self.place;
+        let nothing = L::Mask::of_byte(0);
+        let alike = Pairs { on_resin: nothing, pin_secondary: nothing, disc_secondary: nothing };
+        let (bare, place) = (!self.plateau[column], [strip, first + column]);
+        self.touches[column] = self.next.add(gap, bare, alike, &self.rules.bracket, place, self.reading);
         if DISC_WEARS {
             let z_d = z_d - overlap * self.disc_loss;
             z_d.store(&mut self.disc_height[column + 1]);
@@ -118,7 +113,6 @@ impl<L: Lanes, const BUILD_UP: u8> Ordinary<'_, L, BUILD_UP> {
                 L::load(&self.disc_substrate[column]).lesser(z_d).store(&mut self.disc_substrate[column]);
             }
         }
-        self.next.add_plateaus(&stand);
         true
     }
 }

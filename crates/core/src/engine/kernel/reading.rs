@@ -111,19 +111,19 @@ impl<L: Lanes> BracketLanes<L> {
 
 /// How eight pairs stand to a bracket.
 #[derive(Clone, Copy)]
-pub(super) struct Stand<L: Lanes> {
+struct Stand<L: Lanes> {
     /// Their overlaps at its lower end, anchored; of no meaning for pairs that do not touch there.
     overlap: L,
     /// Which touch at the lower end.
-    pub touches: L::Mask,
+    touches: L::Mask,
     /// Which touch somewhere in the bracket, but not at its lower end.
-    pub near: L::Mask,
+    near: L::Mask,
 }
 
 impl<L: Lanes> Stand<L> {
     /// How eight pairs with gaps g = z_p − z_d stand to a bracket.
     #[inline(always)]
-    pub fn new(gap: L, bracket: &BracketLanes<L>) -> Self {
+    fn new(gap: L, bracket: &BracketLanes<L>) -> Self {
         let overlap = bracket.low - gap;
         let touches = bracket.none.below(overlap);
         Self { overlap, touches, near: overlap.at_least(bracket.high) & !touches }
@@ -202,7 +202,7 @@ impl<L: Lanes, const BUILD_UP: u8> StripReading<L, BUILD_UP> {
 
     /// Adds eight pairs of which those that touch are plateaus.
     #[inline(always)]
-    pub fn add_plateaus(&mut self, stand: &Stand<L>) {
+    fn add_plateaus(&mut self, stand: &Stand<L>) {
         self.largest = stand.overlap.greater(self.largest);
         self.overlap[PLATEAU] = self.overlap[PLATEAU].plus_where(stand.touches, stand.overlap.bits());
     }
@@ -247,7 +247,7 @@ fn give_to_resin(reading: &mut Reading, strip: usize, resin: u8, overlap: &Integ
 
 /// Notes the few pairs of which the bracket does not say whether they touch.
 #[inline(always)]
-pub(super) fn note_near<L: Lanes, const BUILD_UP: u8>(
+fn note_near<L: Lanes, const BUILD_UP: u8>(
     reading: &mut Reading,
     gap: L,
     lanes: u8,
