@@ -14,7 +14,7 @@ use super::read::Span;
 use super::rules::{Conditions, Rules, StripRules};
 use super::strip::Strip;
 use super::worn::wear;
-use super::worn_column::{store_worn, wear_any_and_note, wear_ordinary_column};
+use super::worn_column::{store_heights, store_worn, wear_any_and_note, wear_ordinary_column};
 use crate::engine::lanes::{BYTES, Chunk, Integers, LANES, Lanes, Mask};
 use crate::engine::parts::{Needs, build_up};
 use crate::engine::strips::{DiscSector, PinStrips};
@@ -254,12 +254,7 @@ impl Edges {
             }
             let worn = match wear_ordinary_column::<L, BUILD_UP, DISC_WEARS>(rules, strip, column) {
                 Some(worn) => {
-                    // Build-up stays build-up.
-                    worn.z_p.store(&mut strip.pin.height[column]);
-                    if DISC_WEARS {
-                        worn.z_d.store(&mut strip.disc_height[column]);
-                        worn.b_d.store(&mut strip.disc_substrate[column]);
-                    }
+                    store_heights::<L, BUILD_UP, DISC_WEARS>(strip, column, worn.z_p, &worn);
                     worn
                 }
                 None => {

@@ -78,6 +78,19 @@ pub fn store_worn<L: Lanes, const BUILD_UP: u8, const DISC_WEARS: bool>(
         let plateau = &mut strip.pin.plateau[column];
         *plateau = *plateau & !L::ROWS | (pin_secondary | !worn.on_resin).byte();
     }
+    store_heights::<L, BUILD_UP, DISC_WEARS>(strip, column, z_p, worn);
+    (z_p, pin_secondary)
+}
+
+/// Stores z_p, m, of the eight worn cells of a column, and their disc: all of it where nothing out of the ordinary happened, so that
+/// build-up stays build-up.
+#[inline(always)]
+pub fn store_heights<L: Lanes, const BUILD_UP: u8, const DISC_WEARS: bool>(
+    strip: &mut Strip,
+    column: usize,
+    z_p: L,
+    worn: &Worn<L>,
+) {
     z_p.store(&mut strip.pin.height[column]);
     if DISC_WEARS {
         worn.z_d.store(&mut strip.disc_height[column]);
@@ -85,5 +98,4 @@ pub fn store_worn<L: Lanes, const BUILD_UP: u8, const DISC_WEARS: bool>(
             worn.b_d.store(&mut strip.disc_substrate[column]);
         }
     }
-    (z_p, pin_secondary)
 }
