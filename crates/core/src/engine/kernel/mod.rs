@@ -5,6 +5,7 @@
 
 mod deposit;
 mod edge;
+mod edges;
 mod instructions;
 mod moved;
 mod ordinary;
@@ -17,8 +18,8 @@ mod strip;
 mod worn;
 mod worn_column;
 
-pub(crate) use deposit::{EdgeOf, edge_of};
 pub(crate) use edge::Edge;
+pub(crate) use edges::{EdgeOf, edge_of};
 pub use instructions::InstructionSet;
 pub(crate) use moved::Moved;
 pub(crate) use pairs::PLATEAU;

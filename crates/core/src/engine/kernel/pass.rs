@@ -10,6 +10,7 @@
 //! instructions ([`super::ordinary`]), which also show where something else happens; those eight are then done by all rules.
 
 use super::deposit::deposit;
+use super::edges::wear_before_deposit;
 use super::instructions::{InstructionSet, kernel, with_build_up};
 use super::moved::{Moved, SeldomEvent, StripMoved};
 use super::ordinary::pass_over_ordinary;
@@ -56,6 +57,9 @@ fn pass_over_span<const BUILD_UP: u8, const DISC_WEARS: bool, const TRANSPORT: b
 ) {
     // A strip stays near the processor in between.
     for strip in 0..pin.height.strips() {
+        if TRANSPORT {
+            wear_before_deposit::<BUILD_UP, DISC_WEARS>(set, rules, conditions, pin, disc, span, strip, moved);
+        }
         if BUILD_UP != build_up::NONE {
             deposit::<BUILD_UP, DISC_WEARS, TRANSPORT>(set, rules, conditions, pin, disc, span, strip, moved);
         }

@@ -24,7 +24,6 @@ pub(super) struct Worn<L: Lanes> {
     pub b_p: L,
     pub z_d: L,
     pub b_d: L,
-    pub touches: L::Mask,
     pub on_resin: L::Mask,
     /// Resin without build-up before wear.
     pub resin: L::Mask,
@@ -120,7 +119,7 @@ pub(super) fn wear<L: Lanes, const BUILD_UP: u8, const DISC_WEARS: bool>(
         let least = L::select(pairs.disc_secondary, L::splat(on_secondary), L::splat(on_coating));
         broken = on_resin & pairs.pin_secondary & clearance.below(least) & !worn_through;
     }
-    Worn { z_p, b_p, z_d, b_d, touches, on_resin, resin: pairs.resin(), worn_through, broken, lost_pin, lost_disc }
+    Worn { z_p, b_p, z_d, b_d, on_resin, resin: pairs.resin(), worn_through, broken, lost_pin, lost_disc }
 }
 
 /// Wears eight pairs by [`wear`]'s rules, with fewer instructions; none where one of them is bare resin that touches, or loses
@@ -135,11 +134,12 @@ pub(super) fn wear_ordinary<L: Lanes, const BUILD_UP: u8, const DISC_WEARS: bool
         return None;
     }
     let Cells { z_p, b_p, mut z_d, mut b_d, on_resin } = cells;
-    let (touches, nothing) = (L::Mask::of_byte(touching), L::Mask::of_byte(0));
-    let clearance = z_p - z_d - rules.displacement;
+    let nothing = L::Mask::of_byte(0);
+    // 0 where they do not touch.
+    let clearance = (z_p - z_d - rules.displacement).lesser(rules.zero);
     let distinct = BUILD_UP == build_up::DISTINCT;
     let secondary = if distinct { [z_p.below(b_p), b_d.below(z_d)] } else { [nothing; 2] };
-    let lost_pin = (clearance * rules.pin_loss.plateaus::<BUILD_UP>(secondary)).only(touches);
+    let lost_pin = clearance * rules.pin_loss.plateaus::<BUILD_UP>(secondary);
     let worn = z_p + lost_pin;
     let mut ends = worn.at_least(b_p);
     if distinct {
@@ -154,7 +154,7 @@ pub(super) fn wear_ordinary<L: Lanes, const BUILD_UP: u8, const DISC_WEARS: bool
     }
     let mut lost_disc = rules.zero;
     if DISC_WEARS {
-        lost_disc = (clearance * rules.disc_loss.plateaus::<BUILD_UP>(secondary)).only(touches);
+        lost_disc = clearance * rules.disc_loss.plateaus::<BUILD_UP>(secondary);
         if distinct {
             unusual |= (secondary[1] & lost_disc.at_least(z_d - b_d)).byte();
         }
@@ -170,7 +170,6 @@ pub(super) fn wear_ordinary<L: Lanes, const BUILD_UP: u8, const DISC_WEARS: bool
         b_p,
         z_d,
         b_d,
-        touches,
         on_resin,
         resin: L::Mask::of_byte(!plateau),
         worn_through: nothing,
