@@ -138,31 +138,9 @@ impl<L: Lanes> Deposits<L> {
         [share, height_ahead]: [L; 2],
         seldom: &mut Vec<SeldomEvent>,
     ) -> L {
-        let reference = L::splat(rules.rules.reference_height);
-        let receivers = L::Mask::of_byte(rows);
         let (z_p, z_d) = (L::load(&strip.pin.height[column]), L::load(&strip.disc_height[column]));
-        let clearance = z_p - z_d - rules.displacement;
-        let flush = z_p.lesser(height_ahead);
-        let to_plateau = z_p - flush;
-        let deposit = (to_plateau + (reference - z_d)).lesser(share).only(receivers);
-        // Neither beyond the plateau ahead nor above the reference, in rounded numbers too.
-        let mut on_pin = deposit.lesser(to_plateau);
-        let mut on_disc = deposit - on_pin;
-        let (mut height, mut disc_height) = ((z_p - on_pin).greater(flush), (z_d + on_disc).lesser(reference));
-        // Rounding moves a height by no more than twice what comes upon it: a quarter of the clearance makes no cell touch.
-        let near = clearance.below(share * L::splat(4.0)).byte() & rows;
-        if near != 0 {
-            let deposit = clearance.lesser(deposit).only(receivers);
-            on_pin = deposit.lesser(to_plateau);
-            on_disc = deposit - on_pin;
-            (height, disc_height) = ((z_p - on_pin).greater(flush), (z_d + on_disc).lesser(reference));
-            // Nor does a cell touch in the step in which it is filled up.
-            let touching = receivers & (height - disc_height).below(rules.displacement);
-            if touching.any() {
-                [height, disc_height] =
-                    taken_back_of(touching.byte(), [z_p, z_d], [height, disc_height], rules.conditions.displacement);
-            }
-        }
+        let bounds = [rules.conditions.displacement, rules.rules.reference_height];
+        let Filled { height, disc_height, on_pin, on_disc } = filled(rows, [z_p, z_d], [share, height_ahead], bounds);
         let substrate = L::load(&strip.pin.substrate[column]).greater(z_p);
         disc_height.store(&mut strip.disc_height[column]);
         substrate.store(&mut strip.pin.substrate[column]);
@@ -178,6 +156,49 @@ impl<L: Lanes> Deposits<L> {
         self.on_discs = rules.plus_deposit(self.on_discs, on_disc);
         height
     }
+}
+
+/// Eight cells after a deposit.
+struct Filled<L: Lanes> {
+    /// z_p and z_d, m.
+    height: L,
+    disc_height: L,
+    /// What is compacted on pin and disc, m.
+    on_pin: L,
+    on_disc: L,
+}
+
+/// Fills the gaps at some of eight cells of these z_p and z_d, m, with v̄, m, up to z_p ahead, m; δ and z_ref, m, bound them.
+#[inline(always)]
+fn filled<L: Lanes>(
+    rows: u8,
+    [z_p, z_d]: [L; 2],
+    [share, height_ahead]: [L; 2],
+    [displacement, reference]: [f64; 2],
+) -> Filled<L> {
+    let (receivers, reference) = (L::Mask::of_byte(rows), L::splat(reference));
+    let clearance = z_p - z_d - L::splat(displacement);
+    let flush = z_p.lesser(height_ahead);
+    let to_plateau = z_p - flush;
+    let deposit = (to_plateau + (reference - z_d)).lesser(share).only(receivers);
+    // Neither beyond the plateau ahead nor above the reference, in rounded numbers too.
+    let mut on_pin = deposit.lesser(to_plateau);
+    let mut on_disc = deposit - on_pin;
+    let (mut height, mut disc_height) = ((z_p - on_pin).greater(flush), (z_d + on_disc).lesser(reference));
+    // Rounding moves a height by no more than twice what comes upon it: a quarter of the clearance makes no cell touch.
+    let near = clearance.below(share * L::splat(4.0)).byte() & rows;
+    if near != 0 {
+        let deposit = clearance.lesser(deposit).only(receivers);
+        on_pin = deposit.lesser(to_plateau);
+        on_disc = deposit - on_pin;
+        (height, disc_height) = ((z_p - on_pin).greater(flush), (z_d + on_disc).lesser(reference));
+        // Nor does a cell touch in the step in which it is filled up.
+        let touching = receivers & (height - disc_height).below(L::splat(displacement));
+        if touching.any() {
+            [height, disc_height] = taken_back_of(touching.byte(), [z_p, z_d], [height, disc_height], displacement);
+        }
+    }
+    Filled { height, disc_height, on_pin, on_disc }
 }
 
 /// Notes what is compacted on some of eight cells of what resin ahead loses, in the rows from this on.
@@ -234,3 +255,7 @@ fn lesser(a: f64, b: f64) -> f64 {
 fn greater(a: f64, b: f64) -> f64 {
     if a > b { a } else { b }
 }
+
+#[cfg(test)]
+#[path = "../../../tests/unit/engine/deposit.rs"]
+mod tests;
