@@ -92,6 +92,14 @@ pub(crate) trait Lanes: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Out
     /// Which of so many bytes, with a bit for each row, have one of these rows set, the first byte lowest.
     fn some_of(bytes: &[u8; BYTES]) -> u32;
 
+    /// In memory.
+    #[inline(always)]
+    fn chunk(self) -> Chunk {
+        let mut chunk = Chunk([0.0; LANES]);
+        self.store(&mut chunk);
+        chunk
+    }
+
     /// Sums where the mask says so, else as they are.
     #[inline(always)]
     fn plus_where(self, mask: Self::Mask, other: Self) -> Self {

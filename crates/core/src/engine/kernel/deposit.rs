@@ -11,7 +11,7 @@ use super::pairs::lanes_of;
 use super::read::Span;
 use super::rules::{Conditions, Rules, StripRules};
 use super::strip::Strip;
-use crate::engine::lanes::{Chunk, Integers, LANES, Lanes, Mask};
+use crate::engine::lanes::{Integers, LANES, Lanes, Mask};
 use crate::engine::strips::{DiscSector, PinStrips};
 
 kernel! {
@@ -37,20 +37,18 @@ fn deposit_on_strip<L: Lanes, const BUILD_UP: u8, const DISC_WEARS: bool, const 
     index: usize,
     moved: &mut Moved,
 ) {
-    let ahead = conditions.ahead.map_or(&rules.nothing_ahead, |edge| &edge.strips[index]);
-    let mut strip = Strip::new::<L, BUILD_UP>(index, pin, disc, span, false);
-    strip.shorten(span.columns);
+    let ahead = conditions.ahead_of(index, rules);
+    let strip = &mut Strip::alone::<L, BUILD_UP>(index, pin, disc, span);
     let mut edges = std::mem::take(&mut moved.edges);
     if !TRANSPORT {
-        edges.take_touches(&strip, ahead);
+        edges.take_touches(strip, ahead);
     }
-    let (strip, edges_of) = (&mut strip, &mut edges);
-    if <L::First as Lanes>::ROWS == L::ROWS {
-        deposit_on_rows::<L, BUILD_UP, DISC_WEARS, TRANSPORT>(rules, conditions, strip, ahead, edges_of, moved);
-    } else {
-        // Most columns with something to do have it in one half, and half of the registers are enough.
-        deposit_on_rows::<L::First, BUILD_UP, DISC_WEARS, TRANSPORT>(rules, conditions, strip, ahead, edges_of, moved);
-        deposit_on_rows::<L::Second, BUILD_UP, DISC_WEARS, TRANSPORT>(rules, conditions, strip, ahead, edges_of, moved);
+    // Most columns with something to do have it in one half, and half of the registers are enough.
+    deposit_on_rows::<L::First, BUILD_UP, DISC_WEARS, TRANSPORT>(rules, conditions, strip, ahead, &mut edges, moved);
+    if <L::First as Lanes>::ROWS != L::ROWS {
+        deposit_on_rows::<L::Second, BUILD_UP, DISC_WEARS, TRANSPORT>(
+            rules, conditions, strip, ahead, &mut edges, moved,
+        );
     }
     moved.edges = edges;
 }
@@ -85,9 +83,8 @@ fn deposit_on_rows<L: Lanes, const BUILD_UP: u8, const DISC_WEARS: bool, const T
             }
             nearest = L::select(L::Mask::of_byte(open[column]), L::load(&shares[column]), nearest);
             let height = L::select(L::Mask::of_byte(plateaus[column]), height_ahead, L::splat(f64::INFINITY));
-            let filled = deposits.fill(rules, strip, column, [fed[column], 0], [nearest, height], &mut moved.seldom);
             height_ahead = L::load(&strip.pin.height[behind]);
-            filled.store(&mut strip.pin.height[column]);
+            deposits.fill(rules, strip, column, [fed[column], 0], [nearest, height], &mut moved.seldom);
         }
     } else {
         for column in &listed[1..=count] {
@@ -105,8 +102,7 @@ fn deposit_on_rows<L: Lanes, const BUILD_UP: u8, const DISC_WEARS: bool, const T
                 of_resin = rows & height.at_least(L::splat(f64::INFINITY)).byte();
                 next = [L::load(&ahead.lost[0]), height];
             };
-            let filled = deposits.fill(rules, strip, column, [rows, of_resin], next, &mut moved.seldom);
-            filled.store(&mut strip.pin.height[column]);
+            deposits.fill(rules, strip, column, [rows, of_resin], next, &mut moved.seldom);
         }
     }
     add::<L>(&mut moved.deposited_pin.0[index], rules.deposits(deposits.on_pins, count));
@@ -137,11 +133,12 @@ impl<L: Lanes> Deposits<L> {
         [rows, of_resin]: [u8; 2],
         [share, height_ahead]: [L; 2],
         seldom: &mut Vec<SeldomEvent>,
-    ) -> L {
+    ) {
         let (z_p, z_d) = (L::load(&strip.pin.height[column]), L::load(&strip.disc_height[column]));
         let bounds = [rules.conditions.displacement, rules.rules.reference_height];
         let Filled { height, disc_height, on_pin, on_disc } = filled(rows, [z_p, z_d], [share, height_ahead], bounds);
         let substrate = L::load(&strip.pin.substrate[column]).greater(z_p);
+        height.store(&mut strip.pin.height[column]);
         disc_height.store(&mut strip.disc_height[column]);
         substrate.store(&mut strip.pin.substrate[column]);
         strip.pin.plateau[column] |= height.below(substrate).byte();
@@ -154,7 +151,6 @@ impl<L: Lanes> Deposits<L> {
         };
         self.on_pins = rules.plus_deposit(self.on_pins, on_pin);
         self.on_discs = rules.plus_deposit(self.on_discs, on_disc);
-        height
     }
 }
 
@@ -179,25 +175,29 @@ fn filled<L: Lanes>(
     let (receivers, reference) = (L::Mask::of_byte(rows), L::splat(reference));
     let clearance = z_p - z_d - L::splat(displacement);
     let flush = z_p.lesser(height_ahead);
-    let to_plateau = z_p - flush;
-    let deposit = (to_plateau + (reference - z_d)).lesser(share).only(receivers);
-    // Neither beyond the plateau ahead nor above the reference, in rounded numbers too.
-    let mut on_pin = deposit.lesser(to_plateau);
-    let mut on_disc = deposit - on_pin;
-    let (mut height, mut disc_height) = ((z_p - on_pin).greater(flush), (z_d + on_disc).lesser(reference));
+    let deposit = (z_p - flush + (reference - z_d)).lesser(share).only(receivers);
     // Rounding moves a height by no more than twice what comes upon it: a quarter of the clearance makes no cell touch.
     let near = clearance.below(share * L::splat(4.0)).byte() & rows;
-    if near != 0 {
-        let deposit = clearance.lesser(deposit).only(receivers);
-        on_pin = deposit.lesser(to_plateau);
-        on_disc = deposit - on_pin;
-        (height, disc_height) = ((z_p - on_pin).greater(flush), (z_d + on_disc).lesser(reference));
-        // Nor does a cell touch in the step in which it is filled up.
-        let touching = receivers & (height - disc_height).below(L::splat(displacement));
-        if touching.any() {
-            [height, disc_height] = taken_back_of(touching.byte(), [z_p, z_d], [height, disc_height], displacement);
-        }
+    if near == 0 {
+        return parted(deposit, [z_p, z_d], [flush, reference]);
     }
+    let mut filled = parted(clearance.lesser(deposit).only(receivers), [z_p, z_d], [flush, reference]);
+    // Nor does a cell touch in the step in which it is filled up.
+    let touching = receivers & (filled.height - filled.disc_height).below(L::splat(displacement));
+    if touching.any() {
+        [filled.height, filled.disc_height] =
+            taken_back_of(touching.byte(), [z_p, z_d], [filled.height, filled.disc_height], displacement);
+    }
+    filled
+}
+
+/// Parts a deposit on eight cells, m: the pin has it up to a height, m, and the disc the rest.
+#[inline(always)]
+fn parted<L: Lanes>(deposit: L, [z_p, z_d]: [L; 2], [flush, reference]: [L; 2]) -> Filled<L> {
+    let on_pin = deposit.lesser(z_p - flush);
+    let on_disc = deposit - on_pin;
+    // Neither beyond the plateau ahead nor above the reference, in rounded numbers too.
+    let (height, disc_height) = ((z_p - on_pin).greater(flush), (z_d + on_disc).lesser(reference));
     Filled { height, disc_height, on_pin, on_disc }
 }
 
@@ -205,9 +205,7 @@ fn filled<L: Lanes>(
 #[cold]
 #[inline(never)]
 fn note_of_resin<L: Lanes>(cells: u8, first_row: usize, [on_pin, on_disc]: [L; 2], seldom: &mut Vec<SeldomEvent>) {
-    let (mut pin, mut disc) = (Chunk([0.0; LANES]), Chunk([0.0; LANES]));
-    on_pin.store(&mut pin);
-    on_disc.store(&mut disc);
+    let (pin, disc) = (on_pin.chunk(), on_disc.chunk());
     let event = |lane: usize| SeldomEvent::deposited(first_row + lane, [pin.0[lane], disc.0[lane]]);
     seldom.extend(lanes_of(cells).map(event).filter(|event| event.deposited != [0.0; 2]));
 }
@@ -216,12 +214,7 @@ fn note_of_resin<L: Lanes>(cells: u8, first_row: usize, [on_pin, on_disc]: [L; 2
 #[cold]
 #[inline(never)]
 fn taken_back_of<L: Lanes>(touching: u8, before: [L; 2], after: [L; 2], displacement: f64) -> [L; 2] {
-    let chunk = |lanes: L| {
-        let mut chunk = Chunk([0.0; LANES]);
-        lanes.store(&mut chunk);
-        chunk
-    };
-    let ([z_p, z_d], [mut height, mut disc_height]) = (before.map(chunk), after.map(chunk));
+    let ([z_p, z_d], [mut height, mut disc_height]) = (before.map(L::chunk), after.map(L::chunk));
     for lane in lanes_of(touching) {
         [height.0[lane], disc_height.0[lane]] =
             taken_back([z_p.0[lane], z_d.0[lane]], [height.0[lane], disc_height.0[lane]], displacement);

@@ -43,16 +43,14 @@ fn wear_strip_before_deposit<L: Lanes, const BUILD_UP: u8, const DISC_WEARS: boo
     index: usize,
     moved: &mut Moved,
 ) {
-    let ahead = conditions.ahead.map_or(&rules.nothing_ahead, |edge| &edge.strips[index]);
-    let mut strip = Strip::new::<L, BUILD_UP>(index, pin, disc, span, false);
-    strip.shorten(span.columns);
+    let ahead = conditions.ahead_of(index, rules);
+    let strip = &mut Strip::alone::<L, BUILD_UP>(index, pin, disc, span);
     let mut edges = std::mem::take(&mut moved.edges);
-    edges.take_touches(&strip, ahead);
-    edges.take_plateaus(&strip);
-    let (first, second) = (StripRules::new(rules, conditions, index), StripRules::new(rules, conditions, index));
-    edges.wear::<L::First, BUILD_UP, DISC_WEARS>(&first, &mut strip, ahead, moved);
+    edges.take_touches(strip, ahead);
+    edges.take_plateaus(strip);
+    edges.wear::<L::First, BUILD_UP, DISC_WEARS>(&StripRules::new(rules, conditions, index), strip, ahead, moved);
     if <L::First as Lanes>::ROWS != L::ROWS {
-        edges.wear::<L::Second, BUILD_UP, DISC_WEARS>(&second, &mut strip, ahead, moved);
+        edges.wear::<L::Second, BUILD_UP, DISC_WEARS>(&StripRules::new(rules, conditions, index), strip, ahead, moved);
     }
     moved.edges = edges;
 }
@@ -271,9 +269,7 @@ impl<L: Lanes> Losses<'_, L> {
         column: usize,
         worn: &Worn<L>,
     ) {
-        if BUILD_UP == build_up::DISTINCT {
-            self.moved.add::<DISC_WEARS>(rules, worn);
-        }
+        self.moved.add::<BUILD_UP, DISC_WEARS>(rules, worn);
         let (lost, reach) = (worn.lost::<DISC_WEARS>(true), rules.rules.reach);
         self.run.step_back(L::Mask::of_byte(self.touches_ahead[column]), lost);
         let mut sum = self.run.sum(NEAR);

@@ -91,12 +91,14 @@ impl<L: Lanes> StripMoved<L> {
         Self { lost_pin: [zero; 2], lost_disc: [zero; 2] }
     }
 
-    /// Adds what eight cells lost.
+    /// Adds what eight cells lost, where build-up has properties of its own; else it follows from the overlaps.
     #[inline(always)]
-    pub fn add<const DISC_WEARS: bool>(&mut self, rules: &StripRules<L>, worn: &Worn<L>) {
-        self.lost_pin = rules.plus_loss(self.lost_pin, worn.lost_pin);
-        if DISC_WEARS {
-            self.lost_disc = rules.plus_loss(self.lost_disc, worn.lost_disc);
+    pub fn add<const BUILD_UP: u8, const DISC_WEARS: bool>(&mut self, rules: &StripRules<L>, worn: &Worn<L>) {
+        if BUILD_UP == build_up::DISTINCT {
+            self.lost_pin = rules.plus_loss(self.lost_pin, worn.lost_pin);
+            if DISC_WEARS {
+                self.lost_disc = rules.plus_loss(self.lost_disc, worn.lost_disc);
+            }
         }
     }
 

@@ -90,6 +90,13 @@ pub struct Conditions<'a> {
     pub first_strip: usize,
 }
 
+impl<'a> Conditions<'a> {
+    /// What lies ahead of a strip of the worker.
+    pub(super) fn ahead_of(&self, strip: usize, rules: &'a Rules) -> &'a Reach {
+        self.ahead.map_or(&rules.nothing_ahead, |edge| &edge.strips[strip])
+    }
+}
+
 /// Rules and conditions of a strip, for eight cells at a time.
 pub(super) struct StripRules<'a, L: Lanes> {
     pub rules: &'a Rules,

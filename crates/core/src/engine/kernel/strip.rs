@@ -68,9 +68,23 @@ impl<'a> Strip<'a> {
         strip
     }
 
-    /// Leaves out the columns from `end` on: of fields of one length it is seen that each has a column that one has.
+    /// A strip of the columns of a span alone, of which what lies behind is not to be read: of fields of one length it is seen that
+    /// each has a column that one has.
     #[inline(always)]
-    pub fn shorten(&mut self, end: usize) {
+    pub fn alone<L: Lanes, const BUILD_UP: u8>(
+        index: usize,
+        pin: &'a mut PinStrips,
+        disc: &'a mut DiscSector,
+        span: Span,
+    ) -> Self {
+        let mut strip = Self::new::<L, BUILD_UP>(index, pin, disc, span, false);
+        strip.shorten(span.columns);
+        strip
+    }
+
+    /// Leaves out the columns from `end` on.
+    #[inline(always)]
+    fn shorten(&mut self, end: usize) {
         let PinStrip { height, substrate, resin, plateau, touches, present } = &mut self.pin;
         *height = &mut std::mem::take(height)[..end];
         *substrate = &mut std::mem::take(substrate)[..end];

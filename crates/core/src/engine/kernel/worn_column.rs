@@ -4,7 +4,7 @@ use super::moved::{SeldomEvent, StripMoved, note_broken, note_worn_through};
 use super::rules::StripRules;
 use super::strip::Strip;
 use super::worn::{Worn, wear, wear_ordinary};
-use crate::engine::lanes::{Chunk, LANES, Lanes, Mask};
+use crate::engine::lanes::{Lanes, Mask};
 use crate::engine::parts::build_up;
 
 /// Wears the eight cells of a column, with few instructions where nothing out of the ordinary happens to them, and notes what
@@ -21,9 +21,7 @@ pub fn wear_and_note<L: Lanes, const BUILD_UP: u8, const DISC_WEARS: bool>(
         Some(worn) => worn,
         None => wear_any_and_note::<L, BUILD_UP, DISC_WEARS>(rules, strip, column, seldom),
     };
-    if BUILD_UP == build_up::DISTINCT {
-        moved.add::<DISC_WEARS>(rules, &worn);
-    }
+    moved.add::<BUILD_UP, DISC_WEARS>(rules, &worn);
     worn
 }
 
@@ -38,15 +36,11 @@ pub fn wear_any_and_note<L: Lanes, const BUILD_UP: u8, const DISC_WEARS: bool>(
     let cells = strip.cells::<L, BUILD_UP, DISC_WEARS>(column);
     let worn = wear::<L, BUILD_UP, DISC_WEARS>(rules, cells);
     if BUILD_UP != build_up::DISTINCT && worn.worn_through.any() {
-        let (mut heights, mut gaps) = (Chunk([0.0; LANES]), Chunk([0.0; LANES]));
-        (worn.b_p - cells.z_p).store(&mut heights);
-        (cells.z_p - cells.z_d).store(&mut gaps);
+        let (heights, gaps) = ((worn.b_p - cells.z_p).chunk(), (cells.z_p - cells.z_d).chunk());
         note_worn_through(seldom, &heights, &gaps, worn.worn_through.byte(), rules.strip);
     }
     if (BUILD_UP == build_up::BRITTLE || BUILD_UP == build_up::DISTINCT) && worn.broken.any() {
-        let mut heights = Chunk([0.0; LANES]);
-        (worn.b_p - worn.z_p).store(&mut heights);
-        note_broken(seldom, &heights, worn.broken.byte(), rules.strip);
+        note_broken(seldom, &(worn.b_p - worn.z_p).chunk(), worn.broken.byte(), rules.strip);
     }
     worn
 }

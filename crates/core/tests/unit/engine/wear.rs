@@ -1,17 +1,11 @@
 use super::*;
-use crate::engine::lanes::{Chunk, Portable};
-
-fn values(lanes: Portable) -> [f64; 8] {
-    let mut chunk = Chunk([0.0; 8]);
-    lanes.store(&mut chunk);
-    chunk.0
-}
+use crate::engine::lanes::{Lanes, Portable};
 
 /// Height and loss of one cell.
 fn worn(wear: fn(Portable, Portable, Portable, Portable) -> Worn<Portable>, cell: [f64; 4]) -> (f64, f64) {
     let [height, substrate, raw, below] = cell.map(Portable::splat);
     let worn = wear(height, substrate, raw, below);
-    (values(worn.height)[5], values(worn.lost)[5])
+    (worn.height.chunk().0[5], worn.lost.chunk().0[5])
 }
 
 #[test]
