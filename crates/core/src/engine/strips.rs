@@ -130,14 +130,15 @@ impl DiscSector {
         }
     }
 
-    /// A strip of z_d and of b_d (none where it is not kept).
-    #[inline]
-    pub fn strip_mut(&mut self, strip: usize) -> (&mut [Chunk], &mut [Chunk]) {
+    /// z_d and b_d (none where it is not kept) of so many columns of a strip, from one on.
+    #[inline(always)]
+    pub fn strip_mut(&mut self, strip: usize, first: usize, columns: usize) -> (&mut [Chunk], &mut [Chunk]) {
+        let start = strip * self.columns + first;
         let substrate = match &mut self.substrate {
-            Some(substrate) => substrate.strip_mut(strip),
+            Some(substrate) => &mut substrate.chunks[start..][..columns],
             None => &mut [],
         };
-        (self.height.strip_mut(strip), substrate)
+        (&mut self.height.chunks[start..][..columns], substrate)
     }
 
     /// b_d, m, kept or not.
@@ -146,7 +147,7 @@ impl DiscSector {
     }
 }
 
-/// The pin, with a column of resin behind its last, which has nothing before it (model section 1).
+/// The pin.
 ///
 /// A worker's pin is as wide as the whole pin, but only the columns over its own sectors are up to date.
 #[derive(Debug, Clone, PartialEq)]
@@ -186,11 +187,11 @@ pub struct PinStrip<'a> {
 impl PinStrips {
     /// Some rows of the pin, from the beginning of a strip on, before the first step.
     pub fn new(mesh: &Mesh, own: Range<usize>, heights: &[f64], base: &[Base], needs: Needs) -> Self {
-        let (rows, columns) = (own.len(), mesh.pin_columns() + 1);
+        let (rows, columns) = (own.len(), mesh.pin_columns());
         let mut height = Strips::new(rows, columns, OUT_OF_REACH);
         let mut resin = vec![0; strips(rows) * columns];
         let presence = Presence::of(mesh, own.clone());
-        for column in 0..columns - 1 {
+        for column in 0..columns {
             let cells = mesh.column(column).start + own.start..mesh.column(column).start + own.end;
             height.set_column(column, &heights[cells.clone()]);
             for (row, base) in base[cells].iter().enumerate() {
@@ -199,10 +200,7 @@ impl PinStrips {
             }
         }
         if let Some(presence) = &presence {
-            (0..columns - 1).for_each(|column| put_out_of_reach(presence, &mut height, column));
-        }
-        for strip in resin.chunks_exact_mut(columns) {
-            strip[columns - 1] = u8::MAX;
+            (0..columns).for_each(|column| put_out_of_reach(presence, &mut height, column));
         }
         let plateau = resin.iter().map(|resin| !resin).collect();
         let touches = vec![0; resin.len()];
@@ -234,21 +232,23 @@ impl PinStrips {
         self.touches[row / LANES * self.columns + column] |= 1 << (row % LANES);
     }
 
-    /// Some columns of a strip.
-    #[inline]
-    pub fn strip_mut(&mut self, strip: usize, columns: Range<usize>) -> PinStrip<'_> {
-        let bytes = strip * self.columns + columns.start..strip * self.columns + columns.end;
-        let there = columns.start..columns.end.min(self.columns - 1);
+    /// So many columns of a strip, from one on.
+    #[inline(always)]
+    pub fn strip_mut(&mut self, strip: usize, first: usize, columns: usize) -> PinStrip<'_> {
+        let start = strip * self.columns + first;
         PinStrip {
+            height: &mut self.height.chunks[start..][..columns],
             substrate: match &mut self.substrate {
-                Some(substrate) => &mut substrate.strip_mut(strip)[columns.clone()],
+                Some(substrate) => &mut substrate.chunks[start..][..columns],
                 None => &mut [],
             },
-            height: &mut self.height.strip_mut(strip)[columns],
-            present: self.presence.as_ref().map_or(&[], |presence| presence.cells(strip, &there)),
-            resin: &self.resin[bytes.clone()],
-            plateau: &mut self.plateau[bytes.clone()],
-            touches: &mut self.touches[bytes],
+            resin: &self.resin[start..][..columns],
+            plateau: &mut self.plateau[start..][..columns],
+            touches: &mut self.touches[start..][..columns],
+            present: match &self.presence {
+                Some(presence) => &presence.cells[start..][..columns],
+                None => &[],
+            },
         }
     }
 

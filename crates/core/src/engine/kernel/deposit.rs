@@ -38,19 +38,15 @@ fn deposit_on_strip<L: Lanes, const BUILD_UP: u8, const DISC_WEARS: bool, const 
     moved: &mut Moved,
 ) {
     let ahead = conditions.ahead_of(index, rules);
-    let strip = &mut Strip::alone::<L, BUILD_UP>(index, pin, disc, span);
-    let mut edges = std::mem::take(&mut moved.edges);
+    let strip = &mut Strip::new::<L, BUILD_UP>(index, pin, disc, span, false);
     if !TRANSPORT {
-        edges.take_touches(strip, ahead);
+        moved.edges.take_fed(strip, ahead);
     }
     // Most columns with something to do have it in one half, and half of the registers are enough.
-    deposit_on_rows::<L::First, BUILD_UP, DISC_WEARS, TRANSPORT>(rules, conditions, strip, ahead, &mut edges, moved);
+    deposit_on_rows::<L::First, BUILD_UP, DISC_WEARS, TRANSPORT>(rules, conditions, strip, ahead, moved);
     if <L::First as Lanes>::ROWS != L::ROWS {
-        deposit_on_rows::<L::Second, BUILD_UP, DISC_WEARS, TRANSPORT>(
-            rules, conditions, strip, ahead, &mut edges, moved,
-        );
+        deposit_on_rows::<L::Second, BUILD_UP, DISC_WEARS, TRANSPORT>(rules, conditions, strip, ahead, moved);
     }
-    moved.edges = edges;
 }
 
 /// Fills the gaps in some rows of a strip.
@@ -60,14 +56,13 @@ fn deposit_on_rows<L: Lanes, const BUILD_UP: u8, const DISC_WEARS: bool, const T
     conditions: &Conditions,
     strip: &mut Strip,
     ahead: &Reach,
-    edges: &mut Edges,
     moved: &mut Moved,
 ) {
     let (index, columns) = (strip.index, strip.disc_height.len());
     let rules = &StripRules::<L>::new(rules, conditions, index);
     let mut deposits = Deposits::<L>::new();
-    let count = list::<L>(&mut edges.listed, &edges.fed, columns);
-    let Edges { listed, fed, open, plateau: plateaus, share: shares, .. } = edges;
+    let Edges { listed, fed, open, plateau: plateaus, share: shares, .. } = &mut moved.edges;
+    let count = list::<L>(listed, fed, columns);
     let fed = &fed[..columns];
     if TRANSPORT {
         let (open, plateaus, shares) = (&open[..columns], &plateaus[1..][..columns], &shares[1..][..columns]);

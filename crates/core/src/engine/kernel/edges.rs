@@ -44,15 +44,66 @@ fn wear_strip_before_deposit<L: Lanes, const BUILD_UP: u8, const DISC_WEARS: boo
     moved: &mut Moved,
 ) {
     let ahead = conditions.ahead_of(index, rules);
-    let strip = &mut Strip::alone::<L, BUILD_UP>(index, pin, disc, span);
-    let mut edges = std::mem::take(&mut moved.edges);
-    edges.take_touches(strip, ahead);
-    edges.take_plateaus(strip);
-    edges.wear::<L::First, BUILD_UP, DISC_WEARS>(&StripRules::new(rules, conditions, index), strip, ahead, moved);
+    let strip = &mut Strip::new::<L, BUILD_UP>(index, pin, disc, span, false);
+    moved.edges.take_touches(strip, ahead);
+    moved.edges.take_plateaus(strip);
+    wear_rows::<L::First, BUILD_UP, DISC_WEARS>(&StripRules::new(rules, conditions, index), strip, ahead, moved);
     if <L::First as Lanes>::ROWS != L::ROWS {
-        edges.wear::<L::Second, BUILD_UP, DISC_WEARS>(&StripRules::new(rules, conditions, index), strip, ahead, moved);
+        wear_rows::<L::Second, BUILD_UP, DISC_WEARS>(&StripRules::new(rules, conditions, index), strip, ahead, moved);
     }
-    moved.edges = edges;
+}
+
+/// Wears what touches in some rows of a strip, from the last column to the first, so that what is lost ahead of an edge is at hand
+/// there.
+#[inline(always)]
+fn wear_rows<L: Lanes, const BUILD_UP: u8, const DISC_WEARS: bool>(
+    rules: &StripRules<L>,
+    strip: &mut Strip,
+    ahead: &Reach,
+    moved: &mut Moved,
+) {
+    let (columns, reach) = (strip.disc_height.len(), rules.rules.reach);
+    let part = L::splat(rules.rules.transport_part);
+    let Edges { touches, lost, share, listed, .. } = &mut moved.edges;
+    share.resize(columns + 1, ahead.share);
+    (gathered::<L>(u8::MAX, &ahead.touches, &ahead.lost) * part).store(&mut share[columns]);
+    if reach > NEAR {
+        lost.resize(columns, ahead.height);
+        lost.extend_from_slice(&ahead.lost);
+    }
+    let count = list::<L>(listed, touches, columns);
+    let mut losses = Losses::<L> {
+        moved: StripMoved::new(),
+        run: Run::of(ahead),
+        touches: &touches[..columns + reach],
+        touches_ahead: &touches[1..][..columns],
+        lost,
+        part,
+        share: &mut share[..columns],
+    };
+    let mut listed = listed[1..=count].iter().rev();
+    // What is out of the ordinary is left to the outer loop: so the inner one keeps its sums in registers.
+    'strip: loop {
+        let column = loop {
+            let Some(column) = listed.next() else {
+                break 'strip;
+            };
+            let column = *column as usize;
+            if column >= columns {
+                break 'strip;
+            }
+            let Some(worn) = wear_ordinary_column::<L, BUILD_UP, DISC_WEARS>(rules, strip, column) else {
+                break column;
+            };
+            store_heights::<L, BUILD_UP, DISC_WEARS>(strip, column, worn.z_p, &worn);
+            losses.add::<BUILD_UP, DISC_WEARS>(rules, column, &worn);
+        };
+        let worn = wear_any_and_note::<L, BUILD_UP, DISC_WEARS>(rules, strip, column, &mut moved.seldom);
+        store_worn::<L, BUILD_UP, DISC_WEARS>(strip, column, &worn);
+        losses.add::<BUILD_UP, DISC_WEARS>(rules, column, &worn);
+    }
+    let lost = losses.moved;
+    lost.store::<BUILD_UP, DISC_WEARS>(rules, strip.index, count, moved);
 }
 
 /// Where the set bits of each byte are, in ascending order.
@@ -100,6 +151,22 @@ pub(super) fn list<L: Lanes>(listed: &mut Vec<u32>, bytes: &[u8], columns: usize
 }
 
 impl Edges {
+    /// Finds which cells an edge feeds without a transport length: the open ones right behind it.
+    #[inline(always)]
+    pub fn take_fed(&mut self, strip: &Strip, ahead: &Reach) {
+        let touches = &strip.pin.touches[..strip.disc_height.len()];
+        let last = touches.len() - 1;
+        self.fed.resize(touches.len().next_multiple_of(BYTES), 0);
+        let (fed, beyond) = self.fed.split_at_mut(touches.len());
+        // A compiler makes wide loops of these.
+        for ((fed, own), next) in fed[..last].iter_mut().zip(touches).zip(&touches[1..]) {
+            *fed = !own & next;
+        }
+        fed[last] = !touches[last] & ahead.touches[0];
+        beyond.fill(0);
+        keep_present(fed, strip);
+    }
+
     /// Finds which cells an edge feeds: the open ones behind it.
     #[inline(always)]
     pub fn take_touches(&mut self, strip: &Strip, ahead: &Reach) {
@@ -125,10 +192,7 @@ impl Edges {
             *open = !own & next;
             *fed &= !own;
         }
-        // No cell that is not there is filled.
-        for (fed, present) in fed.iter_mut().zip(strip.pin.present) {
-            *fed &= present;
-        }
+        keep_present(fed, strip);
     }
 
     /// Keeps which cells are plateaus before any wears.
@@ -138,58 +202,6 @@ impl Edges {
         self.plateau.extend_from_slice(&strip.pin.plateau[..strip.disc_height.len()]);
         // What lies ahead has told its plateaus by its height.
         self.plateau.push(u8::MAX);
-    }
-
-    /// Wears what touches, from the last column to the first, so that what is lost ahead of an edge is at hand there.
-    #[inline(always)]
-    fn wear<L: Lanes, const BUILD_UP: u8, const DISC_WEARS: bool>(
-        &mut self,
-        rules: &StripRules<L>,
-        strip: &mut Strip,
-        ahead: &Reach,
-        moved: &mut Moved,
-    ) {
-        let columns = strip.disc_height.len();
-        let reach = rules.rules.reach;
-        let part = L::splat(rules.rules.transport_part);
-        self.share.resize(columns + 1, ahead.share);
-        (gathered::<L>(u8::MAX, &ahead.touches, &ahead.lost) * part).store(&mut self.share[columns]);
-        if reach > NEAR {
-            self.lost.resize(columns, ahead.height);
-            self.lost.extend_from_slice(&ahead.lost);
-        }
-        let count = list::<L>(&mut self.listed, &self.touches, columns);
-        let mut losses = Losses::<L> {
-            moved: StripMoved::new(),
-            run: Run::of(ahead),
-            touches: &self.touches[..columns + reach],
-            touches_ahead: &self.touches[1..][..columns],
-            lost: &mut self.lost,
-            part,
-            share: &mut self.share[..columns],
-        };
-        let mut listed = self.listed[1..=count].iter().rev();
-        // What is out of the ordinary is left to the outer loop: so the inner one keeps its sums in registers.
-        'strip: loop {
-            let column = loop {
-                let Some(column) = listed.next() else {
-                    break 'strip;
-                };
-                let column = *column as usize;
-                if column >= columns {
-                    break 'strip;
-                }
-                let Some(worn) = wear_ordinary_column::<L, BUILD_UP, DISC_WEARS>(rules, strip, column) else {
-                    break column;
-                };
-                store_heights::<L, BUILD_UP, DISC_WEARS>(strip, column, worn.z_p, &worn);
-                losses.add::<BUILD_UP, DISC_WEARS>(rules, column, &worn);
-            };
-            let worn = wear_any_and_note::<L, BUILD_UP, DISC_WEARS>(rules, strip, column, &mut moved.seldom);
-            store_worn::<L, BUILD_UP, DISC_WEARS>(strip, column, &worn);
-            losses.add::<BUILD_UP, DISC_WEARS>(rules, column, &worn);
-        }
-        losses.moved.store::<BUILD_UP, DISC_WEARS>(rules, strip.index, count, moved);
     }
 
     /// Finds what the first column means to the one behind it, from the state at the start of the step.
@@ -226,6 +238,14 @@ impl Edges {
             L::select(L::Mask::of_byte(edges), share, L::load(&reach.share)).store(&mut reach.share);
         }
         reach.lost.copy_from_slice(&self.lost[..columns]);
+    }
+}
+
+/// Leaves out cells that are not there, which no debris fills.
+#[inline(always)]
+fn keep_present(fed: &mut [u8], strip: &Strip) {
+    for (fed, present) in fed.iter_mut().zip(strip.pin.present) {
+        *fed &= present;
     }
 }
 

@@ -5,29 +5,24 @@ use crate::engine::lanes::{Chunk, LANES, Lanes};
 use crate::engine::parts::build_up;
 use crate::engine::strips::chunks;
 
-/// A table of [`crate::engine::coefficients::Coefficients`] in chunks.
+/// A table of [`crate::engine::coefficients::Coefficients`] in chunks, strip by strip.
 #[derive(Debug, Clone, PartialEq)]
-pub struct ChunkTable([Vec<Chunk>; StatusPair::COUNT]);
+pub struct ChunkTable(Vec<[Chunk; StatusPair::COUNT]>);
 
 impl ChunkTable {
     /// The table times a factor.
     pub fn new(table: &Table, factor: f64) -> Self {
-        Self(table.each_ref().map(|rows| chunks(&rows.iter().map(|entry| entry * factor).collect::<Vec<_>>(), 0.0)))
+        let pairs =
+            table.each_ref().map(|rows| chunks(&rows.iter().map(|entry| entry * factor).collect::<Vec<_>>(), 0.0));
+        Self((0..pairs[0].len()).map(|strip| pairs.each_ref().map(|chunks| chunks[strip])).collect())
     }
 
     /// Each pair's entries in a strip.
     #[inline(always)]
     pub(super) fn strip<L: Lanes>(&self, strip: usize) -> Entries<L> {
         // Without a closure, which would be compiled without the instruction set.
-        let [a, b, c, d, e, f] = &self.0;
-        Entries([
-            L::load(&a[strip]),
-            L::load(&b[strip]),
-            L::load(&c[strip]),
-            L::load(&d[strip]),
-            L::load(&e[strip]),
-            L::load(&f[strip]),
-        ])
+        let [a, b, c, d, e, f] = &self.0[strip];
+        Entries([L::load(a), L::load(b), L::load(c), L::load(d), L::load(e), L::load(f)])
     }
 }
 

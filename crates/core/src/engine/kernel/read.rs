@@ -77,7 +77,7 @@ fn read_strips<L: Lanes, const BUILD_UP: u8>(
     let bracket = BracketLanes::<L>::new(bracket);
     let nothing = L::Mask::of_byte(0);
     for strip in strips {
-        let pin = pin.strip_mut(strip, span.first..span.first + span.columns);
+        let pin = pin.strip_mut(strip, span.first, span.columns);
         let disc_height = &disc.height.strip(strip)[span.over..][..span.columns];
         let disc_substrate = disc.substrate.as_ref().map(|field| &field.strip(strip)[span.over..][..span.columns]);
         let (pin_height, plateau) = (&pin.height[..span.columns], &pin.plateau[..span.columns]);

@@ -14,7 +14,6 @@ pub(super) struct Strip<'a> {
     pub index: usize,
     /// The first column of the pin.
     pub first: usize,
-    /// The pin, with the column that is ahead of the last.
     pub pin: PinStrip<'a>,
     /// Columns outside of which no cell of the pin is there.
     pub extent: Range<usize>,
@@ -45,55 +44,23 @@ impl<'a> Strip<'a> {
         Span { first, over, columns }: Span,
         joined: bool,
     ) -> Self {
-        let (disc_height, disc_substrate) = disc.strip_mut(index);
-        let mut strip = Self {
-            index,
-            first,
-            extent: pin.extent(index, first..first + columns),
-            pin: pin.strip_mut(index, first..first + columns + 1),
-            behind_height: if joined { disc_height[over - 1] } else { Chunk([f64::NEG_INFINITY; LANES]) },
-            behind_secondary: 0,
-            disc_height: &mut disc_height[over..][..columns],
-            disc_substrate: &mut [],
-        };
-        if BUILD_UP != build_up::NONE {
-            let (before, substrate) = disc_substrate.split_at_mut(over);
-            if BUILD_UP == build_up::DISTINCT
-                && let (true, Some(before)) = (joined, before.last())
-            {
-                strip.behind_secondary = L::load(before).below(L::load(&strip.behind_height)).byte();
+        let (mut behind_height, mut behind_secondary) = (Chunk([f64::NEG_INFINITY; LANES]), 0);
+        if joined {
+            behind_height = *disc.height.chunk(index, over - 1);
+            if BUILD_UP == build_up::DISTINCT {
+                let substrate = L::load(disc.substrate().chunk(index, over - 1));
+                behind_secondary = substrate.below(L::load(&behind_height)).byte();
             }
-            strip.disc_substrate = &mut substrate[..columns];
         }
-        strip
-    }
-
-    /// A strip of the columns of a span alone, of which what lies behind is not to be read: of fields of one length it is seen that
-    /// each has a column that one has.
-    #[inline(always)]
-    pub fn alone<L: Lanes, const BUILD_UP: u8>(
-        index: usize,
-        pin: &'a mut PinStrips,
-        disc: &'a mut DiscSector,
-        span: Span,
-    ) -> Self {
-        let mut strip = Self::new::<L, BUILD_UP>(index, pin, disc, span, false);
-        strip.shorten(span.columns);
-        strip
-    }
-
-    /// Leaves out the columns from `end` on.
-    #[inline(always)]
-    fn shorten(&mut self, end: usize) {
-        let PinStrip { height, substrate, resin, plateau, touches, present } = &mut self.pin;
-        *height = &mut std::mem::take(height)[..end];
-        *substrate = &mut std::mem::take(substrate)[..end];
-        *resin = &resin[..end];
-        *plateau = &mut std::mem::take(plateau)[..end];
-        *touches = &mut std::mem::take(touches)[..end];
-        *present = &present[..present.len().min(end)];
-        self.disc_height = &mut std::mem::take(&mut self.disc_height)[..end];
-        self.disc_substrate = &mut std::mem::take(&mut self.disc_substrate)[..end];
+        let extent = pin.extent(index, first..first + columns);
+        let mut pin = pin.strip_mut(index, first, columns);
+        let (disc_height, mut disc_substrate) = disc.strip_mut(index, over, columns);
+        if BUILD_UP != build_up::NONE {
+            // Of fields that may not be kept it is seen once that they have all columns.
+            pin.substrate = &mut std::mem::take(&mut pin.substrate)[..columns];
+            disc_substrate = &mut disc_substrate[..columns];
+        }
+        Self { index, first, extent, pin, disc_height, disc_substrate, behind_height, behind_secondary }
     }
 
     /// The pairs of a column, as far as a scene keeps and needs the fields: without substrates b = z.

@@ -12,7 +12,7 @@ fn a_column_crosses_with_its_status() {
     let plateau = |row: usize| row.is_multiple_of(3);
     from.height.set_column(1, &[7.0; 11]);
     for row in (0..11).filter(|row| plateau(*row)) {
-        from.strip_mut(row / LANES, 1..2).plateau[0] |= 1 << (row % LANES);
+        from.strip_mut(row / LANES, 1, 1).plateau[0] |= 1 << (row % LANES);
     }
     let mut words = Vec::new();
     from.write_crossing(1, &mut words);
@@ -21,7 +21,7 @@ fn a_column_crosses_with_its_status() {
     assert!(to.height.column(1).eq([7.0; 11]));
     assert!(to.substrate().column(1).eq((11..22).map(f64::from)));
     let statuses: Vec<bool> =
-        (0..11).map(|row| to.strip_mut(row / LANES, 1..2).plateau[0] >> (row % LANES) & 1 == 1).collect();
+        (0..11).map(|row| to.strip_mut(row / LANES, 1, 1).plateau[0] >> (row % LANES) & 1 == 1).collect();
     assert_eq!(statuses, (0..11).map(plateau).collect::<Vec<_>>());
 }
 
