@@ -13,7 +13,7 @@ pub struct Edge {
 pub(super) struct Reach {
     /// z_p of the next column after wear and before any deposit, m; out of reach where it was no plateau.
     pub height: Chunk,
-    /// v̄ of the edge that the next column is fed from, m.
+    /// v̄ of the edge that the next column is fed from, m; of no meaning where debris is spread over one column.
     pub share: Chunk,
     /// Which cells touch in each of the next L columns, one bit each.
     pub touches: Vec<u8>,
@@ -78,13 +78,14 @@ impl Reach {
 
     /// Words of one on its way to another worker.
     fn words(columns: usize) -> usize {
-        2 * LANES + columns * (LANES + 1)
+        (1 + usize::from(columns > 1)) * LANES + columns * (LANES + 1)
     }
 
     /// Writes it for another worker.
     fn write(&self, words: &mut Vec<u64>) {
         let Self { height, share, touches, lost } = self;
-        for chunk in [height, share].into_iter().chain(lost) {
+        let share = (lost.len() > 1).then_some(share);
+        for chunk in lost.iter().chain([height]).chain(share) {
             words.extend(chunk.0.map(f64::to_bits));
         }
         words.extend(touches.iter().map(|touches| u64::from(*touches)));
@@ -93,8 +94,8 @@ impl Reach {
     /// Takes over one that another worker wrote.
     fn read(&mut self, words: &[u64]) {
         let Self { height, share, touches, lost } = self;
-        let (chunks, bytes) = words.split_at((2 + lost.len()) * LANES);
-        for (chunk, words) in [height, share].into_iter().chain(lost).zip(chunks.chunks_exact(LANES)) {
+        let (chunks, bytes) = words.split_at(words.len() - touches.len());
+        for (chunk, words) in lost.iter_mut().chain([height, share]).zip(chunks.chunks_exact(LANES)) {
             *chunk = Chunk(std::array::from_fn(|lane| f64::from_bits(words[lane])));
         }
         touches.iter_mut().zip(bytes).for_each(|(touches, word)| *touches = *word as u8);

@@ -204,7 +204,7 @@ impl Edges {
         self.plateau.push(u8::MAX);
     }
 
-    /// Finds what the first column means to the one behind it, from the state at the start of the step.
+    /// Finds what the first columns mean to those behind them with a transport length, from the state at the start of the step.
     #[inline(always)]
     fn find_reach<L: Lanes, const BUILD_UP: u8, const DISC_WEARS: bool>(
         &mut self,
@@ -212,16 +212,11 @@ impl Edges {
         strip: &Strip,
         reach: &mut Reach,
     ) {
-        let columns = rules.rules.reach;
+        let (columns, own) = (rules.rules.reach, strip.disc_height.len());
         let worn = wear::<L, BUILD_UP, DISC_WEARS>(rules, strip.cells::<L, BUILD_UP, DISC_WEARS>(0));
         worn.height_of_plateaus().store(&mut reach.height);
+        self.take_touches(strip, &rules.rules.nothing_ahead);
         reach.touches.copy_from_slice(&self.touches[..columns]);
-        if rules.rules.transport.is_none() {
-            let [lost, _] = worn_ahead::<L, BUILD_UP, DISC_WEARS>(rules, strip, 0);
-            lost.store(&mut reach.lost[0]);
-            return;
-        }
-        let own = strip.disc_height.len();
         self.lost.resize(own, reach.height);
         self.lost.extend_from_slice(&rules.rules.nothing_ahead.lost);
         for column in 0..own {
@@ -395,8 +390,13 @@ fn edge_of_strips<L: Lanes, const BUILD_UP: u8, const DISC_WEARS: bool>(
     for (index, reach) in edge.reaches(pin.height.strips(), rules.reach).iter_mut().enumerate() {
         let strip = Strip::new::<L, BUILD_UP>(index, pin, disc, span, false);
         let strip_rules = StripRules::<L>::new(rules, conditions, index);
-        let edges = &mut moved.edges;
-        edges.take_touches(&strip, &rules.nothing_ahead);
-        edges.find_reach::<L, BUILD_UP, DISC_WEARS>(&strip_rules, &strip, reach);
+        if rules.transport.is_some() {
+            moved.edges.find_reach::<L, BUILD_UP, DISC_WEARS>(&strip_rules, &strip, reach);
+            continue;
+        }
+        let [lost, height] = worn_ahead::<L, BUILD_UP, DISC_WEARS>(&strip_rules, &strip, 0);
+        lost.store(&mut reach.lost[0]);
+        height.store(&mut reach.height);
+        reach.touches[0] = strip.pin.touches[0];
     }
 }
