@@ -392,11 +392,11 @@ fn edge_of_strips<L: Lanes, const BUILD_UP: u8, const DISC_WEARS: bool>(
         let strip_rules = StripRules::<L>::new(rules, conditions, index);
         if rules.transport.is_some() {
             moved.edges.find_reach::<L, BUILD_UP, DISC_WEARS>(&strip_rules, &strip, reach);
-            continue;
+        } else {
+            let [lost, height] = worn_ahead::<L, BUILD_UP, DISC_WEARS>(&strip_rules, &strip, 0);
+            lost.store(&mut reach.lost[0]);
+            height.store(&mut reach.height);
+            reach.touches[0] = strip.pin.touches[0];
         }
-        let [lost, height] = worn_ahead::<L, BUILD_UP, DISC_WEARS>(&strip_rules, &strip, 0);
-        lost.store(&mut reach.lost[0]);
-        height.store(&mut reach.height);
-        reach.touches[0] = strip.pin.touches[0];
     }
 }

@@ -14,6 +14,7 @@ pub(super) struct Strip<'a> {
     pub index: usize,
     /// The first column of the pin.
     pub first: usize,
+    /// Its columns of the pin.
     pub pin: PinStrip<'a>,
     /// Columns outside of which no cell of the pin is there.
     pub extent: Range<usize>,
