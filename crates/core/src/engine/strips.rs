@@ -101,6 +101,15 @@ impl Strips {
     }
 }
 
+/// Columns of a field, from a place on; none where it is not kept.
+#[inline(always)]
+fn kept(field: &mut Option<Strips>, start: usize, columns: usize) -> &mut [Chunk] {
+    match field {
+        Some(field) => &mut field.chunks[start..][..columns],
+        None => &mut [],
+    }
+}
+
 /// A sector of the disc: the columns from `first` on.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DiscSector {
@@ -134,11 +143,8 @@ impl DiscSector {
     #[inline(always)]
     pub fn strip_mut(&mut self, strip: usize, first: usize, columns: usize) -> (&mut [Chunk], &mut [Chunk]) {
         let start = strip * self.columns + first;
-        let substrate = match &mut self.substrate {
-            Some(substrate) => &mut substrate.chunks[start..][..columns],
-            None => &mut [],
-        };
-        (&mut self.height.chunks[start..][..columns], substrate)
+        // That the strip has these columns is seen of one field.
+        (&mut self.height.strip_mut(strip)[first..][..columns], kept(&mut self.substrate, start, columns))
     }
 
     /// b_d, m, kept or not.
@@ -237,11 +243,9 @@ impl PinStrips {
     pub fn strip_mut(&mut self, strip: usize, first: usize, columns: usize) -> PinStrip<'_> {
         let start = strip * self.columns + first;
         PinStrip {
-            height: &mut self.height.chunks[start..][..columns],
-            substrate: match &mut self.substrate {
-                Some(substrate) => &mut substrate.chunks[start..][..columns],
-                None => &mut [],
-            },
+            // That the strip has these columns is seen of one field.
+            height: &mut self.height.strip_mut(strip)[first..][..columns],
+            substrate: kept(&mut self.substrate, start, columns),
             resin: &self.resin[start..][..columns],
             plateau: &mut self.plateau[start..][..columns],
             touches: &mut self.touches[start..][..columns],

@@ -102,8 +102,7 @@ fn wear_rows<L: Lanes, const BUILD_UP: u8, const DISC_WEARS: bool>(
         store_worn::<L, BUILD_UP, DISC_WEARS>(strip, column, &worn);
         losses.add::<BUILD_UP, DISC_WEARS>(rules, column, &worn);
     }
-    let lost = losses.moved;
-    lost.store::<BUILD_UP, DISC_WEARS>(rules, strip.index, count, moved);
+    losses.moved.store::<BUILD_UP, DISC_WEARS>(rules, strip.index, count, moved);
 }
 
 /// Where the set bits of each byte are, in ascending order.
@@ -154,11 +153,11 @@ impl Edges {
     /// Finds which cells an edge feeds without a transport length: the open ones right behind it.
     #[inline(always)]
     pub fn take_fed(&mut self, strip: &Strip, ahead: &Reach) {
-        let touches = &strip.pin.touches[..strip.disc_height.len()];
+        let touches = &*strip.pin.touches;
         let last = touches.len() - 1;
         self.fed.resize(touches.len().next_multiple_of(BYTES), 0);
         let (fed, beyond) = self.fed.split_at_mut(touches.len());
-        // A compiler makes wide loops of these.
+        // A compiler makes a wide loop of this.
         for ((fed, own), next) in fed[..last].iter_mut().zip(touches).zip(&touches[1..]) {
             *fed = !own & next;
         }
@@ -172,9 +171,9 @@ impl Edges {
     pub fn take_touches(&mut self, strip: &Strip, ahead: &Reach) {
         let columns = strip.disc_height.len();
         self.touches.clear();
-        self.touches.extend_from_slice(&strip.pin.touches[..columns]);
+        self.touches.extend_from_slice(strip.pin.touches);
         self.touches.extend_from_slice(&ahead.touches);
-        let bytes = columns.div_ceil(BYTES) * BYTES;
+        let bytes = columns.next_multiple_of(BYTES);
         self.touches.resize(bytes + ahead.touches.len(), 0);
         self.open.resize(bytes, 0);
         self.fed.resize(bytes, 0);
@@ -199,7 +198,7 @@ impl Edges {
     #[inline(always)]
     fn take_plateaus(&mut self, strip: &Strip) {
         self.plateau.clear();
-        self.plateau.extend_from_slice(&strip.pin.plateau[..strip.disc_height.len()]);
+        self.plateau.extend_from_slice(strip.pin.plateau);
         // What lies ahead has told its plateaus by its height.
         self.plateau.push(u8::MAX);
     }

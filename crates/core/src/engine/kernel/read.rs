@@ -80,11 +80,9 @@ fn read_strips<L: Lanes, const BUILD_UP: u8>(
         let pin = pin.strip_mut(strip, span.first, span.columns);
         let disc_height = &disc.height.strip(strip)[span.over..][..span.columns];
         let disc_substrate = disc.substrate.as_ref().map(|field| &field.strip(strip)[span.over..][..span.columns]);
-        let (pin_height, plateau) = (&pin.height[..span.columns], &pin.plateau[..span.columns]);
-        let touches = &mut pin.touches[..span.columns];
         let mut sums = StripReading::<L, BUILD_UP>::new();
         for column in 0..span.columns {
-            let (z_p, z_d) = (L::load(&pin_height[column]), L::load(&disc_height[column]));
+            let (z_p, z_d) = (L::load(&pin.height[column]), L::load(&disc_height[column]));
             let pairs = Pairs {
                 on_resin: L::Mask::of_byte(pin.resin[column]),
                 pin_secondary: match pin.substrate.get(column) {
@@ -97,7 +95,7 @@ fn read_strips<L: Lanes, const BUILD_UP: u8>(
                 },
             };
             let place = [strip, span.first + column];
-            touches[column] = sums.add(z_p - z_d, !plateau[column], pairs, &bracket, place, reading);
+            pin.touches[column] = sums.add(z_p - z_d, !pin.plateau[column], pairs, &bracket, place, reading);
         }
         sums.store(strip, reading);
     }
