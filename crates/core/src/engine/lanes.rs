@@ -28,6 +28,25 @@ pub const BYTES: usize = 32;
 #[repr(C, align(64))]
 pub struct Chunk(pub [f64; LANES]);
 
+impl Chunk {
+    /// Has the chunk so many behind this one brought near the processor. Only a hint: there need not be one.
+    #[inline(always)]
+    pub fn fetch(&self, distance: isize) {
+        #[cfg(target_arch = "x86_64")]
+        {
+            use std::arch::x86_64::{_MM_HINT_T1, _mm_prefetch};
+            let place = std::ptr::from_ref(self).wrapping_offset(distance);
+            #[allow(unsafe_code, reason = "an instruction of SSE")]
+            // SAFETY: every x86-64 processor has SSE, and a hint reads and writes nothing, wherever it points.
+            unsafe {
+                _mm_prefetch::<_MM_HINT_T1>(place.cast());
+            }
+        }
+        #[cfg(not(target_arch = "x86_64"))]
+        let _ = distance;
+    }
+}
+
 /// Eight integers of one strip.
 pub type IntegerChunk = [i64; LANES];
 

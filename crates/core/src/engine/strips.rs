@@ -67,6 +67,12 @@ impl Strips {
         strips(self.rows)
     }
 
+    /// Chunks from a column of a strip to that of the one that is passed over next: of the first after the last.
+    #[inline]
+    pub fn to_next(&self, strip: usize) -> isize {
+        if strip + 1 < self.strips() { self.columns as isize } else { -((strip * self.columns) as isize) }
+    }
+
     /// A strip, column by column.
     #[inline]
     pub fn strip(&self, strip: usize) -> &[Chunk] {
@@ -85,11 +91,9 @@ impl Strips {
         chunks.flat_map(|chunk| chunk.0).take(self.rows)
     }
 
-    /// Looks at every strip of a column, which brings it near the processor.
+    /// Has every strip of a column brought near the processor.
     pub fn fetch_column(&self, column: usize) {
-        for chunk in self.chunks.iter().skip(column).step_by(self.columns) {
-            std::hint::black_box(chunk.0[0]);
-        }
+        self.chunks.iter().skip(column).step_by(self.columns).for_each(|chunk| chunk.fetch(0));
     }
 
     /// Changes the rows of a column.

@@ -146,6 +146,7 @@ fn update<L: Lanes, const BUILD_UP: u8, const DISC_WEARS: bool>(
     next: &mut StripReading<L, BUILD_UP>,
     reading: &mut Reading,
 ) {
+    strip.fetch_next::<BUILD_UP, DISC_WEARS>(column);
     let worn = if BUILD_UP == build_up::DISTINCT {
         wear_and_note::<L, BUILD_UP, DISC_WEARS>(rules, strip, column, moved, seldom)
     } else {

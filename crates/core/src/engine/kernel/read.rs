@@ -77,16 +77,22 @@ fn read_strips<L: Lanes, const BUILD_UP: u8>(
     let bracket = BracketLanes::<L>::new(bracket);
     let nothing = L::Mask::of_byte(0);
     for strip in strips {
+        let (to_pin, to_disc) = (pin.height.to_next(strip), disc.height.to_next(strip));
         let pin = pin.strip_mut(strip, span.first, span.columns);
         let disc_height = &disc.height.strip(strip)[span.over..][..span.columns];
         let disc_substrate = disc.substrate.as_ref().map(|field| &field.strip(strip)[span.over..][..span.columns]);
         let mut sums = StripReading::<L, BUILD_UP>::new();
         for column in 0..span.columns {
+            pin.height[column].fetch(to_pin);
+            disc_height[column].fetch(to_disc);
             let (z_p, z_d) = (L::load(&pin.height[column]), L::load(&disc_height[column]));
             let pairs = Pairs {
                 on_resin: L::Mask::of_byte(pin.resin[column]),
                 pin_secondary: match pin.substrate.get(column) {
-                    Some(substrate) => z_p.below(L::load(substrate)),
+                    Some(substrate) => {
+                        substrate.fetch(to_pin);
+                        z_p.below(L::load(substrate))
+                    }
                     None => nothing,
                 },
                 disc_secondary: match disc_substrate {

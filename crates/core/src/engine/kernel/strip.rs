@@ -26,6 +26,8 @@ pub(super) struct Strip<'a> {
     behind_height: Chunk,
     /// Which of its cells are secondary, one bit each.
     behind_secondary: u8,
+    /// Chunks from a column to that of the next strip, of pin and disc.
+    pub to_next: [isize; 2],
 }
 
 /// The disc cells that the pin cells of a column lie over in the next step.
@@ -54,6 +56,7 @@ impl<'a> Strip<'a> {
             }
         }
         let extent = pin.extent(index, first..first + columns);
+        let to_next = [pin.height.to_next(index), disc.height.to_next(index)];
         let mut pin = pin.strip_mut(index, first, columns);
         let (disc_height, mut disc_substrate) = disc.strip_mut(index, over, columns);
         if BUILD_UP != build_up::NONE {
@@ -61,7 +64,7 @@ impl<'a> Strip<'a> {
             pin.substrate = &mut std::mem::take(&mut pin.substrate)[..columns];
             disc_substrate = &mut disc_substrate[..columns];
         }
-        Self { index, first, extent, pin, disc_height, disc_substrate, behind_height, behind_secondary }
+        Self { index, first, extent, pin, disc_height, disc_substrate, behind_height, behind_secondary, to_next }
     }
 
     /// The pairs of a column, as far as a scene keeps and needs the fields: without substrates b = z.
@@ -78,6 +81,21 @@ impl<'a> Strip<'a> {
                 z_d
             },
             on_resin: L::Mask::of_byte(self.pin.resin[column]),
+        }
+    }
+
+    /// Has a column of the next strip brought near the processor, as far as a scene keeps and needs the fields: the places that a
+    /// deposit looks at there are too few and too far apart for a processor to foresee.
+    #[inline(always)]
+    pub fn fetch_next<const BUILD_UP: u8, const DISC_WEARS: bool>(&self, column: usize) {
+        let [to_pin, to_disc] = self.to_next;
+        self.pin.height[column].fetch(to_pin);
+        self.disc_height[column].fetch(to_disc);
+        if BUILD_UP != build_up::NONE {
+            self.pin.substrate[column].fetch(to_pin);
+            if BUILD_UP == build_up::DISTINCT || DISC_WEARS {
+                self.disc_substrate[column].fetch(to_disc);
+            }
         }
     }
 
