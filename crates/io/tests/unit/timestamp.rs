@@ -1,3 +1,5 @@
+use std::time::Duration;
+
 use super::*;
 
 #[test]
@@ -20,7 +22,7 @@ fn agrees_with_gnu_date() {
 
 #[test]
 fn what_is_no_time_is_refused() {
-    for text in ["", "2019-12-15", "2019-12-15T08:30:00Z", "2019-13-15T08:30:00.000Z", "1969-12-31T23:59:59.999Z"] {
+    for text in ["", "2019-12-15", "2019-12-15T08:30:00.000", "2019-13-15T08:30:00.000Z", "1969-12-31T23:59:59.999Z"] {
         assert_eq!(from_iso_8601(text), None, "{text}");
     }
     let time = UNIX_EPOCH + Duration::from_millis(1_576_398_600_123);
@@ -31,21 +33,4 @@ fn what_is_no_time_is_refused() {
 fn day_month_and_year_without_anything_between() {
     // date -u -d @1576398600 +%d%m%Y%H%M
     assert_eq!(day_month_year(UNIX_EPOCH + Duration::from_secs(1_576_398_600)), "151220190830");
-}
-
-#[test]
-fn every_day_of_400_years_follows_the_one_before() {
-    let leap = |year: u64| year.is_multiple_of(4) && (!year.is_multiple_of(100) || year.is_multiple_of(400));
-    let mut expected = (1970, 1, 1);
-    for days in 0..146_097 {
-        assert_eq!(civil_date(days), expected, "{days} days after 1970-01-01");
-        let (year, month, day) = expected;
-        assert_eq!(days_since_1970(year, month, day), days);
-        let length = [31, 28 + u64::from(leap(year)), 31, 30, 31, 30, 31, 31, 30, 31, 30, 31][month as usize - 1];
-        expected = match (month, day) {
-            (12, 31) => (year + 1, 1, 1),
-            (_, day) if day == length => (year, month + 1, 1),
-            _ => (year, month, day + 1),
-        };
-    }
 }
