@@ -297,6 +297,53 @@ class Levels(unittest.TestCase):
         self.assertAlmostEqual(table.loc["c", "low"], expected.low[1], places=2)
         self.assertAlmostEqual(table.loc["c", "high"], expected.high[1], places=2)
 
+    def test_dunnett_is_that_of_his_tables(self) -> None:
+        # C. W. Dunnett, Biometrics 20, 482-491 (1964): two-sided, by groups beside the control, of each, and confidence.
+        published = [(2, 3, 0.95, 2.86), (4, 3, 0.95, 2.89), (4, 5, 0.95, 2.65), (4, 3, 0.99, 3.88), (4, 5, 0.99, 3.40)]
+        for others, each, confidence, expected in published:
+            names = [f"g{at}" for at in range(1 + others)]
+            runs = pandas.DataFrame([(name, at + 0.1 * one) for at, name in enumerate(names) for one in range(each)], columns=["g", "y"])
+            table = levels(study_of([word("g", *names)], runs), control="g0", confidence=confidence).table
+            self.assertTrue((table["freedom"] == len(names) * (each - 1)).all())
+            for reach in (table["high"] - table["low"]) / 2.0 / table["standard_error"]:
+                self.assertAlmostEqual(reach, expected, delta=0.006)
+
+    def test_far_out_the_chance_is_that_of_all_directions(self) -> None:
+        # Differences of three groups of equal size are components of a point of the plane in directions that are 60° apart; beyond a
+        # distance it is as likely as F says.
+        for scatter, each in ((1e-1, 3), (1e-3, 3), (1e-2, 15)):
+            runs = pandas.DataFrame([(name, at + scatter * (one % 3)) for at, name in enumerate("abc") for one in range(each)], columns=["g", "y"])
+            for control, directions in (("a", 2), (None, 3)):
+                for row in levels(study_of([word("g", "a", "b", "c")], runs), control=control).table.to_dict("records"):
+                    size, freedom = abs(row["difference"]) / row["standard_error"], row["freedom"]
+                    angles = np.linspace(0.0, np.pi, 60001)[1:]
+                    largest = np.abs(np.cos(angles[:, None] - np.arange(directions) * np.pi / 3.0)).max(axis=1)
+                    expected = stats.f.sf((size / largest) ** 2 / 2.0, 2, freedom).mean()
+                    self.assertAlmostEqual(row["p"] / expected, 1.0, places=5)
+                    self.assertTrue(1.0 <= row["p"] / (2.0 * stats.t.sf(size, freedom)) <= directions)
+
+    def test_what_the_runs_do_not_tell_is_said(self) -> None:
+        # No run has r with w: over all levels of the other factor neither is known with interactions, and both are without.
+        cells = [(pad, disc) for pad in "pqr" for disc in "uvw" if (pad, disc) != ("r", "w")]
+        y = {"p": 0.0, "q": 1.0, "r": 2.0, "u": 0.0, "v": 0.5, "w": 1.0}
+        runs = pandas.DataFrame([(pad, disc, y[pad] + y[disc] + 0.1 * (at % 3 - 1)) for pad, disc in cells for at in range(3)])
+        study = study_of([word("pad", "p", "q", "r"), word("disc", "u", "v", "w")], runs.set_axis(["pad", "disc", "y"], axis=1))
+        for control in (None, "p"):
+            found = levels(study, control=control).table
+            [row] = found[found["factor"] == "pad"].to_dict("records")
+            self.assertEqual((row["level"], row["other"]), ("q", "p"))
+            # One difference alone: its interval and p are those of Student's t.
+            self.assertAlmostEqual(row["p"] / (2.0 * stats.t.sf(1.0 / row["standard_error"], row["freedom"])), 1.0)
+            self.assertAlmostEqual((row["high"] - row["low"]) / 2.0 / row["standard_error"], stats.t.isf(0.025, row["freedom"]), places=4)
+        self.assertEqual(len(levels(study, control="p", model="main").table), 2)
+        both = study_of(study.factors, runs.set_axis(["pad", "disc", "y"], axis=1).query("pad != 'q' or disc != 'v'"))
+        for control in (None, "p"):
+            with self.assertRaisesRegex(InputError, r"pad.*: no run has some combinations .* model = \"main\""):
+                levels(both, control=control)
+        constant = study_of(study.factors, study.runs.assign(y=1.0))
+        with self.assertRaisesRegex(InputError, "y: the response is 1.0 in all 24 observations"):
+            levels(constant)
+
 
 if __name__ == "__main__":
     unittest.main()

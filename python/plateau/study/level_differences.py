@@ -2,16 +2,17 @@
 
 import itertools
 import os
+from collections.abc import Callable
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import partial
 
 import numpy as np
 import pandas
-from scipy import optimize, stats
+from scipy import optimize, special, stats
 
 from plateau.errors import InputError
 from plateau.study.analysis import usable
-from plateau.study.data import Study
+from plateau.study.data import Numbers, Study
 from plateau.study.model import Fitted, NothingToFit
 from plateau.study.model_choice import fitted
 from plateau.study.results import analysed
@@ -26,9 +27,9 @@ class LevelDifferences:
     Attributes
     ----------
     table : pandas.DataFrame
-        A row for each pair of levels of each factor: ``response``, ``factor``, ``level``, ``other``, ``difference`` (level less other, over
-        all levels of the other factors), ``standard_error``, ``freedom``, ``low``, ``high``, ``p`` and ``unit``. Intervals hold for all
-        pairs of a factor together at the confidence level, and p is for all of them.
+        A row for each pair of levels of each factor that the runs tell apart: ``response``, ``factor``, ``level``, ``other``, ``difference``
+        (level less other, over all levels of the other factors), ``standard_error``, ``freedom``, ``low``, ``high``, ``p`` and ``unit``.
+        Intervals hold for all pairs of a factor together at the confidence level, and p is for all of them.
     method : str
         ``"Tukey"`` for all pairs, ``"Dunnett"`` against one level.
     """
@@ -72,68 +73,102 @@ def levels(study: Study | str | os.PathLike[str], control: str | None = None, mo
     Notes
     -----
     The error is that of the model: with sets of seeds what the factor differs by between them, else the residual. Of unequal numbers of
-    runs the intervals are those of C. Y. Kramer, Biometrics 12, 307-310 (1956).
+    runs the intervals are those of C. Y. Kramer, Biometrics 12, 307-310 (1956), and against one level those of C. W. Dunnett, J. Am. Stat.
+    Assoc. 50, 1096-1121 (1955), where other factors make correlations no products with the nearest ones that are (J. C. Hsu, J. Comput.
+    Graph. Stat. 1, 151-168 (1992)).
     """
-    opened, rows = usable(analysed(study)), []
+    opened, tables, reasons = usable(analysed(study)), list[pandas.DataFrame](), dict[str, list[str]]()
     for response in opened.responses:
         try:
             fit = fitted(opened, response, model, confidence=confidence)
-        except NothingToFit:
+        except NothingToFit as error:
+            reasons.setdefault(str(error), []).append(response.name)
             continue
-        rows += [_of_factor(fit, at, control) for at, coding in enumerate(fit.codings) if len(coding.classes or ()) > 2]
-    if rows and all(part is None for part in rows):
-        raise InputError(f"{opened.title}: nothing tells the error of differences between levels; give [replicates] of seeds")
-    if not any(part is not None and len(part) for part in rows):
+        for at, coding in enumerate(fit.codings):
+            names = [coding.factor.text(level) for level in coding.classes or ()]
+            if len(names) > 2 and (control is None or control in names):
+                try:
+                    tables.append(_of_factor(fit, at, names, control))
+                except NothingToFit as error:
+                    reasons.setdefault(str(error), []).append(coding.factor.name)
+    if not tables:
         named = f" has a level {control!r} and" if control is not None else ""
-        raise InputError(f"no factor{named} has three levels or more in the model: effects says the difference between two")
-    return LevelDifferences(opened, pandas.concat(rows, ignore_index=True), "Tukey" if control is None else "Dunnett", confidence)
+        said = "; ".join(f"{', '.join(dict.fromkeys(names))}: {why}" for why, names in reasons.items())
+        said = said or f"no factor{named} has three levels or more in the model: effects says the difference between two"
+        raise InputError(f"{opened.title}: {said}")
+    return LevelDifferences(opened, pandas.concat(tables, ignore_index=True), "Tukey" if control is None else "Dunnett", confidence)
 
 
-@lru_cache
-def _tukey(confidence: float, levels: int, freedom: float) -> float:
-    """How many standard errors the intervals of all differences reach; a sum over two variables, the same for many responses."""
-    return float(stats.studentized_range.ppf(confidence, levels, freedom) / np.sqrt(2.0))
-
-
-def _of_factor(fit: Fitted, at: int, control: str | None) -> pandas.DataFrame | None:
-    """Differences of one factor, none if it has no such level; None where nothing tells the error."""
+def _of_factor(fit: Fitted, at: int, names: list[str], control: str | None) -> pandas.DataFrame:
+    """Differences of one factor; `NothingToFit` if the runs tell none, or no error."""
     coding = fit.codings[at]
-    classes = list(coding.classes or ())
-    names = [coding.factor.text(level) for level in classes]
-    if control is not None and control not in names:
-        return pandas.DataFrame()
     # The others are averaged: their contrasts are 0.
-    numbers = [one.numbers(pandas.Series(classes)) if one is coding else np.zeros((len(classes), one.width)) for one in fit.codings]
+    numbers = [one.numbers(pandas.Series(one.classes)) if one is coding else np.zeros((len(names), one.width)) for one in fit.codings]
     means = fit.products(numbers)
-    pairs = [(one, other) for other, one in itertools.combinations(range(len(classes)), 2)]
+    pairs = [(one, other) for other, one in itertools.combinations(range(len(names)), 2)]
     if control is not None:
-        pairs = [(one, names.index(control)) for one in range(len(classes)) if names[one] != control]
+        pairs = [(one, names.index(control)) for one in range(len(names)) if names[one] != control]
+    told = fit.fit.tells(means)
+    if not (pairs := [pair for pair in pairs if told[list(pair)].all()]):
+        advice = "" if fit.model == "main" else ', or give model = "main"'
+        why = "no run has some combinations with levels of other factors, so that no difference between levels can be told"
+        raise NothingToFit(f"{why}: make these runs{advice}")
     rows = np.array([means[one] - means[other] for one, other in pairs])
     weights = rows[:, fit.fit.kept] @ fit.fit.root @ fit.fit.basis.T
     # The error of the factor as a whole: levels are taken to differ alike between sets of seeds.
-    variances, freedoms = fit.errors(np.linalg.svd(weights, full_matrices=False)[2][: len(classes) - 1])
+    _, sizes, directions = np.linalg.svd(weights, full_matrices=False)
+    variances, freedoms = fit.errors(directions[sizes > 1e-9 * sizes[0]])
     freedom = float(freedoms.sum() if fit.seeds > 1 else freedoms[0])
-    errors = np.sqrt(variances.mean() * np.square(weights).sum(axis=1))
-    differences = rows @ fit.coefficients
-    differences[~(fit.fit.tells(means)[pairs].all(axis=1)) | np.isnan(errors)] = np.nan
     if np.isnan(freedom):
-        return None
-    if control is None:
-        reach = _tukey(fit.confidence, len(classes), round(freedom, 6))
-        chances = stats.studentized_range.sf(np.sqrt(2.0) * np.abs(differences) / errors, len(classes), freedom)
-    else:
-        lengths = np.linalg.norm(weights, axis=1)
-        together = stats.multivariate_t(shape=weights @ weights.T / np.outer(lengths, lengths), df=round(freedom))
-
-        def within(size: float) -> float:
-            # C. W. Dunnett, J. Am. Stat. Assoc. 50, 1096-1121 (1955). Points of the same sequence each time: it is smooth.
-            return float(together.cdf(np.full(len(pairs), size), lower_limit=np.full(len(pairs), -size), random_state=0, maxpts=100_000))
-
-        tail = (1.0 - fit.confidence) / 2.0
-        ends = 0.98 * stats.t.isf(tail, freedom), 1.02 * stats.t.isf(tail / len(pairs), freedom)
-        reach = float(optimize.brentq(lambda size: within(size) - fit.confidence, *ends, xtol=1e-4))
-        chances = np.array([1.0 - within(abs(size)) for size in differences / errors])
+        raise NothingToFit("nothing tells the error of differences between levels; give [replicates] of seeds")
+    lengths = np.linalg.norm(weights, axis=1)
+    differences, errors = rows @ fit.coefficients, np.sqrt(variances.mean()) * lengths
+    outside = partial(_range_beyond, len({level for pair in pairs for level in pair}))
+    if control is not None:
+        outside = partial(_any_beyond, _shared(weights @ weights.T / np.outer(lengths, lengths)))
+    # Wider than that of one difference alone, and narrower than C. E. Bonferroni's of more differences than there are.
+    tail = (1.0 - fit.confidence) / 2.0
+    ends = 0.98 * stats.t.isf(tail, freedom), stats.t.isf(tail / len(names) ** 2, freedom)
+    reach = float(optimize.brentq(lambda size: _tail(outside, size, freedom) - 2.0 * tail, *ends, xtol=1e-6))
+    chances = [_tail(outside, size, freedom) for size in np.abs(differences / errors)]
     whole = [(fit.response.name, coding.factor.name, names[one], names[other]) for one, other in pairs]
     table = pandas.DataFrame(whole, columns=["response", "factor", "level", "other"]).assign(difference=differences, standard_error=errors)
-    table = table.assign(freedom=freedom, low=differences - reach * errors, high=differences + reach * errors, p=np.clip(chances, 0.0, 1.0))
-    return table.assign(unit=fit.response.unit_of_fit)[table["difference"].notna()]
+    table = table.assign(freedom=freedom, low=differences - reach * errors, high=differences + reach * errors, p=chances)
+    return table.assign(unit=fit.response.unit_of_fit)
+
+
+def _tail(outside: Callable[[Numbers, Numbers], Numbers], size: float, freedom: float) -> float:
+    """How likely the largest difference is beyond a size, in standard errors.
+
+    It is a sum over the error and a normal variable of what is `outside`: 1 less what is within would be rounding alone far out.
+    """
+    # About the error, relative to its expectation, of which most of that comes, and as far as exp(-30) of it.
+    far = (30.0 / freedom) ** 0.5
+    logs, step = np.linspace(-far * (1.0 + far), 0.5 * np.log1p(2.0 * far * (1.0 + far)), 120, retstep=True)
+    squares = freedom**2 / (freedom + size**2) * np.exp(2.0 * logs)
+    weights = 2.0 * step * squares * stats.chi2.pdf(squares, freedom)
+    places = np.arange(-38.0, 38.0, 0.125)
+    return min(1.0, float(0.125 * stats.norm.pdf(places) @ outside(places[:, None], size * np.sqrt(squares / freedom)) @ weights))
+
+
+def _range_beyond(levels: int, highest: Numbers, size: Numbers) -> Numbers:
+    """How likely the lowest of several levels is farther below the highest one than √2 times a size (J. W. Tukey's range)."""
+    below, far = special.ndtr(highest), special.ndtr(highest - 2.0**0.5 * size)
+    return np.asarray(levels * far * sum(below**power * (below - far) ** (levels - 2 - power) for power in range(levels - 1)))
+
+
+def _any_beyond(shares: Numbers, shared: Numbers, size: Numbers) -> Numbers:
+    """How likely any of several normal variables is beyond ± a size, of which each has a share of a shared one."""
+    beyond = np.zeros(np.broadcast_shapes(shared.shape, size.shape))
+    for share in shares:
+        rest = (1.0 - share**2) ** 0.5
+        beyond += (1.0 - beyond) * (special.ndtr((share * shared - size) / rest) + special.ndtr((-share * shared - size) / rest))
+    return beyond
+
+
+def _shared(correlations: Numbers) -> Numbers:
+    """Shares of a variable that all have, whose products are the correlations, or nearest to them."""
+    pairs, starts = np.triu_indices(len(correlations), 1), np.full(len(correlations), 0.7)
+    # With less of their own the steps of the sum would be too wide; with more, p is larger.
+    found = optimize.least_squares(lambda shares: (np.outer(shares, shares) - correlations)[pairs], starts, bounds=(-0.995, 0.995))
+    return np.asarray(found.x)
