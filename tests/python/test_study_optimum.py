@@ -2,6 +2,7 @@
 
 import dataclasses
 import inspect
+import itertools
 import json
 import math
 import os
@@ -9,10 +10,11 @@ import pathlib
 import tempfile
 import unittest
 import warnings
+from unittest import mock
 
 import numpy as np
 import pandas
-from made_studies import span, study_of
+from made_studies import number, span, study_of, word
 from plateau.errors import InputError, RunFailed
 from plateau.study.data import Response
 from plateau.study.goals import Goal, Limit, Problem, beyond_runs, expected_improvement, improved, overall
@@ -203,6 +205,28 @@ class Improvement(unittest.TestCase):
         self.assertAlmostEqual(beyond_runs(found).best()["A"].iloc[0], 0.35, delta=0.06)
         with self.assertRaisesRegex(InputError, "one for each set of seeds"):
             improved(found, 1, make)
+
+    def test_runs_are_made_between_levels_and_where_factors_are_held(self):
+        # The peak lies at 9 between levels of 4, 8 and 12, and of the other factor at b.
+        factors = [number("load", 4.0, 8.0, 12.0), word("pad", "a", "b")]
+
+        def results(points):
+            y = np.exp(-(((points["load"] - 9.0) / 4.0) ** 2)) - 0.5 * (points["pad"] == "a")
+            return study_of(factors, points[["load", "pad"]].assign(y=y, z=y**2), responses={"y": "1", "z": "1"})
+
+        given = results(pandas.DataFrame(itertools.product([4.0, 8.0, 12.0], "ab"), columns=["load", "pad"]))
+        made = mock.patch("plateau.study.optimum.made_study", lambda study, points, **_: results(points))
+        for hold, best in ([], [9.0, "b"]), (["pad=a"], [9.0, "a"]), (["load=6"], [6.0, "b"]):
+            with self.subTest(hold), made:
+                found = optimize(given, maximize=["y"], hold=hold, runs=4)
+            load, pad = found.settings["value"]
+            self.assertAlmostEqual(load, best[0], delta=0.0 if hold == ["load=6"] else 0.3)
+            self.assertEqual(pad, best[1])
+            self.assertGreater(len(found.rounds), 0)
+            self.assertTrue(np.isfinite(found.table["confirmed"]).all())
+            # The answer is drawn and told with all its responses.
+            self.assertIn("z", found.text())
+            self.assertIn("profiler", found.figures())
 
 
 class Wishes(unittest.TestCase):

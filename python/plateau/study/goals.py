@@ -16,6 +16,7 @@ from scipy import optimize, stats
 
 from plateau.errors import InputError
 from plateau.study.data import Factor, Numbers, Study
+from plateau.study.model import is_same
 from plateau.study.settings import axis_of, beyond_of, ends_of, held_values, reach_of
 from plateau.study.surrogate import Surrogate, surrogates
 from plateau.units import quantity
@@ -104,6 +105,15 @@ class Problem:
         """Points of the factors at levels, and at coded places of the others."""
         columns: dict[str, Any] = {factor.name: [level] * len(coded) for factor, level in zip(self.study.factors, levels, strict=True)}
         return pandas.DataFrame(columns | {factor.name: factor.value(place) for factor, place in zip(self.free, coded.T, strict=True)})
+
+    @property
+    def known(self) -> pandas.DataFrame:
+        """Points that were run where factors are searched and held, one row each."""
+        points = self.study.runs.drop_duplicates("point")
+        for factor, axis in zip(self.study.factors, self.axes, strict=True):
+            if axis is not None:
+                points = points[np.any([is_same(points[factor.name], level) for level in axis], axis=0)]
+        return points
 
     @cached_property
     def _region(self) -> tuple[Numbers, float]:
@@ -284,19 +294,19 @@ def expected_improvement(problem: Problem, points: pandas.DataFrame) -> Numbers:
     at points that were run, too, is nothing that more runs tell.
     """
     names = problem.wanted
-    known = problem.study.runs.drop_duplicates("point")
+    runs = problem.study.runs.drop_duplicates("point")
     draws = stats.norm.ppf(stats.qmc.Sobol(len(names), rng=0).random(DRAWS) * (1.0 - 1e-9) + 0.5e-9)
     values, kept, forecasts = {}, np.ones((len(points), DRAWS), bool), problem.forecasts(points)
     for name, z in zip(names, draws.T, strict=True):
         surrogate = problem.surrogates[name]
-        open_part = np.sqrt(np.maximum(surrogate.deviation(points) ** 2 - surrogate.deviation(known).min() ** 2, 0.0))
+        open_part = np.sqrt(np.maximum(surrogate.deviation(points) ** 2 - surrogate.deviation(runs).min() ** 2, 0.0))
         values[name] = surrogate.response.back(surrogate.mean(points)[:, None] + open_part[:, None] * z)
     for limit in problem.limits:
         change = (values[limit.response] - forecasts[limit.response][["value"]].to_numpy()) / limit.scale
         kept &= limit.margin(forecasts[limit.response])[:, None] + (change if limit.is_least else -change) >= -ROUNDING
-    expected = problem.forecasts(known)
+    expected = problem.forecasts(problem.known)
     reached = overall(problem.goals, [np.maximum(goal.way(expected[goal.response]["value"]), 0.0) for goal in problem.goals])
-    best = float(np.where(problem.keeps(expected), reached, 0.0).max())
+    best = float(np.where(problem.keeps(expected), reached, 0.0).max(initial=0.0))
     merit = overall(problem.goals, [np.maximum(goal.way(values[goal.response]), 0.0) for goal in problem.goals])
     return np.asarray((np.maximum(merit - best, 0.0) * kept).mean(axis=1))
 

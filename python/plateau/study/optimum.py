@@ -211,7 +211,8 @@ def optimize(
     model, confidence
         As for `effects`.
     runs : int
-        Make up to so many runs where improvement is expected, one place after the other, each with all seeds. The best place that was run is given.
+        Make up to so many runs where improvement is expected, between levels of numbers, too, one place after the other, each with all seeds.
+        The best place that was run is given.
     confirm : bool
         Make runs at the best settings.
     jobs, workers, progress
@@ -222,6 +223,11 @@ def optimize(
     Optimum
     """
     study = usable(analysed(study))
+    stepped = [one for one in study.factors if runs and one.is_number and len(one.levels) > 2 and not one.whole]
+    if stepped:
+        # Runs are made between levels, too: models are those of points that may be anywhere.
+        factors = [replace(one, levels=one.ends, is_range=True) if one in stepped else one for one in study.factors]
+        study = replace(study, design="csv", factors=factors)
     goals, limits = wanted(study, {"maximize": maximize, "minimize": minimize, "target": target}, limit, limit_on, importance)
 
     def made(points: pandas.DataFrame) -> pandas.DataFrame:
@@ -233,15 +239,15 @@ def optimize(
             raise InputError(f'{study.path or study.title}: response "{name}": {found[name].error}')
     known = {name: one for name, one in found.items() if not one.error}
     is_curved = all(one.fit is not None and one.fit.model == "quadratic" for one in known.values())
-    problem, rounds = Problem(study, known, goals, limits, axes_of(study, hold, is_curved or runs > 0), confidence), pandas.DataFrame()
+    problem, rounds = Problem(study, known, goals, limits, axes_of(study, hold, is_curved), confidence), pandas.DataFrame()
     if runs:
         problem, rounds = improved(problem, runs, made, max(1, (jobs or os.cpu_count() or 1) // study.seeds))
     problem = beyond_runs(problem)
     best = problem.best()
     if runs:
         # The best of the places that were run, so that its own runs confirm it.
-        points = problem.study.runs.drop_duplicates("point").reset_index(drop=True)[list(best.columns)]
-        best = points.iloc[[int(problem.merit(points).argmax())]].reset_index(drop=True)
+        points = problem.known[list(best.columns)]
+        best = points.iloc[[int(problem.merit(points).argmax())]].reset_index(drop=True) if len(points) else best
     if confirm and not runs and is_run(problem, best, 1e-9).any():
         said = "a point of the study is at this place: the fit has used its runs, so that they confirm nothing"
         warnings.warn(said, PlateauWarning, stacklevel=2)

@@ -71,7 +71,7 @@ def add(words: Words) -> None:
     several(made, "--hold", "FACTOR=VALUE", 'Hold a factor at a value, such as load="8 N"')
     several(made, "--importance", "RESPONSE=NUMBER", "How much a goal counts; 1 unless given")
     made.add_argument("--contour", metavar="FACTOR,FACTOR", help="Draw the desirability over two factors")
-    made.add_argument("--runs", type=count, metavar="N", help="Make so many runs on the way to the optimum, where improvement is expected")
+    made.add_argument("--runs", type=count, metavar="N", help="Make so many runs on the way to the optimum, where improvement is expected, between levels of numbers, too")
     made.add_argument("--confirm", action="store_true", help="Make runs at the optimum, with all seeds of the study, and compare")
     shared(made, *CORES, *MODEL, output='Folder for figures and table; "optimum" in the study\'s own unless given')
 
