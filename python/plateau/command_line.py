@@ -33,6 +33,13 @@ class Parser(argparse.ArgumentParser):
     def __init__(self, **options: Any) -> None:
         super().__init__(allow_abbrev=False, **options)
 
+    def parse_known_args(self, *args: Any, **options: Any) -> Any:
+        given, unknown = super().parse_known_args(*args, **options)
+        # Of a word these would be told by the parser of all words, which does not know its options.
+        if unknown:
+            self.error(f"unrecognized arguments: {' '.join(unknown)}")
+        return given, unknown
+
     def error(self, message: str) -> NoReturn:
         raise InputError(f"{message}; {self.prog} --help tells more")
 

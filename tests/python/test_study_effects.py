@@ -272,6 +272,16 @@ class Model(unittest.TestCase):
             held.append(((found["mean_low"] <= true) & (true <= found["mean_high"])).mean())
         self.assertGreater(np.mean(held), 0.9)
 
+    def test_what_is_rounding_is_nothing(self) -> None:
+        # y = A + B + A B at the corners, each three times: all but these three coefficients is 0.
+        points = pandas.DataFrame([(a, b, seed) for a in (-1.0, 1.0) for b in (-1.0, 1.0) for seed in (1, 2, 3)], columns=["A", "B", "replicate"])
+        found = effects(study_of([span("A"), span("B")], points.assign(y=points["A"] + points["B"] + points["A"] * points["B"])))
+        for equation in found["y"].equations.values():
+            self.assertEqual(equation.set_index("variables")["coefficient"].round(12).to_dict(), {"": 0.0, "A": 1.0, "B": 1.0, "A·B": 1.0})
+            self.assertEqual(equation["coefficient"][0], 0.0)
+        self.assertEqual(found["y"].summary["middle"], 0.0)
+        self.assertEqual(repr(found), found.text().rstrip())
+
 
 class Levels(unittest.TestCase):
     def test_tukey_is_that_of_scipy(self) -> None:

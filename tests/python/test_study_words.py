@@ -269,7 +269,7 @@ class Words(unittest.TestCase):
             (["sweep", "effects", "no.toml"], "no.toml"),
             (["sweep", "effects", "no.toml", "--model", "cubic"], "invalid choice: 'cubic'"),
             (["sweep", "effects", "no.toml", "--confidence", "95"], "expected more than 0 and less than 1"),
-            (["sweep", "effects", "no.toml", "--conf", "0.9"], "unrecognized arguments: --conf"),
+            (["sweep", "effects", "no.toml", "--conf", "0.9"], "unrecognized arguments: --conf 0.9; plateau sweep effects --help tells more"),
             (["sweep", "predict", "no.toml", "--grid", "0"], "expected a whole number of at least 1"),
             (["compare", str(QUICK)], "two scenes or more"),
             (["sweep", "tell"], "invalid choice: 'tell'"),

@@ -13,7 +13,7 @@ import pandas
 
 from plateau import html_page
 from plateau.errors import InputError, PlateauWarning, RunFailed, UnknownNameError
-from plateau.study.data import Response, Study
+from plateau.study.data import Answer, Response, Study
 from plateau.study.effects_figures import DRAWINGS
 from plateau.study.effects_text import equations, text_of, told
 from plateau.study.figure_axes import file_names
@@ -28,7 +28,7 @@ MOST_INFLATION, SHARES_DIFFER = 10.0, 0.02
 
 
 @dataclass(frozen=True, repr=False)
-class Effects:
+class Effects(Answer):
     """What the factors of a study do to its responses, of which ``found["NAME"]`` has one."""
 
     study: Study

@@ -149,6 +149,17 @@ class Response:
         return np.asarray(np.clip(TRANSFORMS[self.transform][1](np.asarray(values, float)), self.low, self.high))
 
 
+class Answer:
+    """An answer of a study, which is shown as the text that the command prints."""
+
+    def text(self) -> str:
+        """The answer for people."""
+        raise NotImplementedError
+
+    def __repr__(self) -> str:
+        return self.text().rstrip()
+
+
 @dataclass(frozen=True, repr=False)
 class Study:
     """A study and its results; ``table, data = study`` takes it apart.

@@ -76,15 +76,15 @@ def equations(fit: Fitted) -> dict[str, pandas.DataFrame]:
         sums: dict[Product, list[float]] = {(): [fit.coefficients[0]]}
         for term, columns in zip(fit.terms, fit.columns[2:], strict=True):
             choices: list[list[dict[Product, float]]] = [parts[at] for at in term] if term else [[{((2,),): 1.0}]]
-            values = fit.coefficients[columns]
-            for own, value in zip(itertools.product(*choices), np.where(np.abs(values) <= fit.rounding, 0.0, values), strict=True):
+            for own, value in zip(itertools.product(*choices), fit.coefficients[columns], strict=True):
                 for factors in itertools.product(*(each.items() for each in own)):
                     product = tuple(sorted(itertools.chain.from_iterable(key for key, _ in factors)))
                     sums.setdefault(product, []).append(value * float(np.prod([weight for _, weight in factors])))
             if len(sums) > MOST_TERMS:
                 return {}
         # What is smaller than the rounding of its parts is nothing.
-        kept = {key: sum(parts) for key, parts in sums.items() if not key or abs(sum(parts)) > 0.25 * ROUNDING * sum(map(abs, parts))}
+        kept = {key: sum(parts) for key, parts in sums.items() if abs(sum(parts)) > 0.25 * ROUNDING * sum(map(abs, parts))}
+        kept.setdefault((), 0.0)
         rows = [(_words(fit, key), kept[key]) for key in sorted(kept, key=lambda key: (len(key), key))]
         found[units] = pandas.DataFrame(rows, columns=["variables", "coefficient"])
     return found

@@ -13,7 +13,7 @@ from scipy import stats
 
 from plateau.output_folder import plain
 from plateau.study.calibration import ENDS, Outcome
-from plateau.study.data import Factor, Numbers, Study
+from plateau.study.data import Answer, Factor, Numbers, Study
 from plateau.study.figure_axes import dots, file_names, set_axis
 from plateau.study.likelihood import SETTLED, Likelihood, Target, products, profile, region
 from plateau.study.measured import Measurement
@@ -35,7 +35,7 @@ OF_COMPONENTS = "uncertainties, of a component"
 
 
 @dataclass(frozen=True, repr=False)
-class Fit:
+class Fit(Answer):
     """What a fit tells of keys and responses, in SI units.
 
     Attributes
@@ -92,7 +92,7 @@ class Fit:
 
     @cached_property
     def _terms(self) -> pandas.DataFrame:
-        """What runs give of each term at the most likely place, by its measurement."""
+        """What is forecast of each term at the most likely place, by its measurement."""
         likelihood = self._likelihood
         processes = [term.process for term in likelihood.terms]
         means, own, seeds = (each[0] for each in likelihood.moments(likelihood.best[None]))
@@ -113,7 +113,7 @@ class Fit:
 
     @cached_property
     def series(self) -> pandas.DataFrame:
-        """Measured series beside what runs give at the most likely place, by time."""
+        """Measured series beside what is forecast at the most likely place, by time."""
         parts = [pandas.DataFrame(columns=["response"])]
         for at, components in self._likelihood.components.items():
             one, terms, seen = self.target.measured[at], self._terms.loc[[at]], components.root @ components.basis
@@ -249,7 +249,7 @@ class Fit:
             deviation, scatter = math.hypot(row["surrogate_deviation"], row["seeds_deviation"]), row["seed_to_seed"]
             away = (row["forecast"] - row["measured"]) / math.hypot(row["uncertainty"], deviation, row["discrepancy"])
             cells = {"response": row["response"], "measured": unit.text(row["measured"], row["uncertainty"])}
-            cells |= {"runs give": unit.text(row["forecast"], deviation)}
+            cells |= {"forecast": unit.text(row["forecast"], deviation)}
             cells |= {"seed to seed": f"{scatter * unit.per_si:.2g} {unit.symbol}".strip() if math.isfinite(scatter) else "not known"}
             responses.append(cells | {"apart": f"{away:.1f} deviations".replace("-0.0", "0.0")})
         lines = ["Keys", *listed(keys)]
@@ -306,12 +306,12 @@ class Fit:
         measured = dict(list(self.series.groupby("response", sort=False)))
         for (name, rows), stem in zip(measured.items(), file_names(list(map(str, measured))), strict=True):
             unit, time = unit_for(rows["unit"].iloc[0], float(rows["measured"].abs().max())), unit_for("s", float(rows["time"].max()))
-            caption = f"{name}: measured, and what runs give at the most likely values; bars: one standard deviation"
-            figure, ((axis,),) = new(NARROW, 66, caption, note="Runs: at the most likely values; bars: one standard deviation")
-            # Runs are told at the measured times alone: no line says what is between them.
+            caption = f"{name}: measured, and forecast at the most likely values; bars: one standard deviation"
+            figure, ((axis,),) = new(NARROW, 66, caption, note="Forecast: at the most likely values; bars: one standard deviation")
+            # Forecasts are for the measured times alone: no line says what is between them.
             told: dict[str, tuple[str, str, dict[str, Any]]] = {
                 "measured": ("measured", "uncertainty", {"fmt": "o", "color": "black", "ms": 4.0, "mfc": "white", "elinewidth": 0.6, "capsize": 2}),
-                "runs": ("forecast", "forecast_deviation", {"fmt": "s", "color": LINES[0], "ms": 2.5, "elinewidth": 1.4, "zorder": 3}),
+                "forecast": ("forecast", "forecast_deviation", {"fmt": "s", "color": LINES[0], "ms": 2.5, "elinewidth": 1.4, "zorder": 3}),
             }
             for label, (middle, half, style) in told.items():
                 values = unit.value(rows[middle].to_numpy()), unit.per_si * rows[half].to_numpy()

@@ -12,7 +12,7 @@ from plateau.errors import InputError, RunFailed
 from plateau.output_folder import plain
 from plateau.program import call
 from plateau.study.calibration import calibrated
-from plateau.study.data import Numbers, Study
+from plateau.study.data import Answer, Numbers, Study
 from plateau.study.fit_answer import Fit
 from plateau.study.likelihood import Runs, Target
 from plateau.study.measured import Measurement, measurements
@@ -148,8 +148,8 @@ def _at_times(study: Study, one: Measurement) -> Numbers:
     return found
 
 
-@dataclass(frozen=True)
-class Plan:
+@dataclass(frozen=True, repr=False)
+class Plan(Answer):
     """What a fit will do: ``first_runs`` of the design and ``most`` in all, their wall time, s, and the memory of the largest, bytes."""
 
     study: Study

@@ -8,14 +8,14 @@ from typing import Any
 
 from plateau.errors import InputError, RunFailed
 from plateau.output_folder import put
-from plateau.study.data import Study
+from plateau.study.data import Answer, Study
 from plateau.study.kept_values import KeptValues, file_of
 from plateau.study.results import analysed
 from plateau.study.text_tables import read_text_table
 
 
-@dataclass(frozen=True)
-class Imported:
+@dataclass(frozen=True, repr=False)
+class Imported(Answer):
     """What a table brought.
 
     Attributes

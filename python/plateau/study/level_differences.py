@@ -12,7 +12,7 @@ from scipy import optimize, special, stats
 
 from plateau.errors import InputError
 from plateau.study.analysis import usable
-from plateau.study.data import Numbers, Study
+from plateau.study.data import Answer, Numbers, Study
 from plateau.study.model import Fitted, NothingToFit
 from plateau.study.model_choice import fitted
 from plateau.study.results import analysed
@@ -21,7 +21,7 @@ from plateau.units import unit_for, with_digits
 
 
 @dataclass(frozen=True, repr=False)
-class LevelDifferences:
+class LevelDifferences(Answer):
     """Differences between levels, on the scale of the fit.
 
     Attributes

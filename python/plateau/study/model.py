@@ -182,6 +182,7 @@ class Fitted:
         self.coefficients = np.zeros(self.design.shape[1])
         self.coefficients[self.fit.kept] = self.fit.coefficients(values - self.mean)
         self.coefficients[0] += self.mean
+        self.coefficients[np.abs(self.coefficients) <= self.rounding] = 0.0
         self.residuals = self._unless_rounding(self.fit.residuals(values - self.mean))
         self.residual_freedom = len(values) - len(self.fit.kept)
         self.residual = Squares(self.residual_freedom, float(self.residuals @ self.residuals) if self.residual_freedom else 0.0)

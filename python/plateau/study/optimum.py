@@ -5,7 +5,7 @@ import os
 import re
 import warnings
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -14,7 +14,7 @@ import pandas
 from plateau.errors import InputError, PlateauWarning
 from plateau.output_folder import plain
 from plateau.study.analysis import together, usable
-from plateau.study.data import Factor, Numbers, Study
+from plateau.study.data import Answer, Factor, Numbers, Study
 from plateau.study.figure_axes import STEPS, dots, drawn_map, grid_points, held, positions, set_axis
 from plateau.study.goals import ROUNDING, Goal, Limit, Problem, axes_of, beyond_runs, improved, is_run, overall, wanted
 from plateau.study.prediction import INTERVALS, confirmed_by, confirmed_words, forecast_cells, forecast_table, reported, settings_at
@@ -46,8 +46,8 @@ def canonical(function: Callable[[Numbers], Numbers], count: int) -> dict[str, A
     return {"stationary": stationary, "value": float(value), "eigenvalues": eigenvalues, "directions": directions, "nature": nature}
 
 
-@dataclass(frozen=True)
-class Optimum:
+@dataclass(frozen=True, repr=False)
+class Optimum(Answer):
     """The best settings.
 
     Attributes
@@ -81,7 +81,7 @@ class Optimum:
     canonical: list[dict[str, Any]]
     rounds: pandas.DataFrame
     cautions: list[str]
-    problem: Problem = field(repr=False)
+    problem: Problem
     looked_for: int = 0
 
     def _margin(self, limit: Limit) -> float:

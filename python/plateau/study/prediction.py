@@ -14,7 +14,7 @@ import pandas
 from plateau.errors import InputError, InputTypeError, PlateauWarning
 from plateau.output_folder import plain
 from plateau.study.analysis import together, usable
-from plateau.study.data import Study
+from plateau.study.data import Answer, Study
 from plateau.study.kept_values import factor_value
 from plateau.study.results import analysed
 from plateau.study.runs import made_study
@@ -29,7 +29,7 @@ INTERVALS = ["mean_low", "mean_high", "run_low", "run_high"]
 
 
 @dataclass(frozen=True, repr=False)
-class Prediction:
+class Prediction(Answer):
     """What is expected of the responses of a study at places.
 
     Attributes

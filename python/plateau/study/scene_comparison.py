@@ -23,7 +23,7 @@ from plateau.program import call, file_name
 from plateau.quantities import series_of
 from plateau.run_accessor import TOTALS
 from plateau.scenes import scene_of
-from plateau.study.data import Numbers, Response, Study
+from plateau.study.data import Answer, Numbers, Response, Study
 from plateau.study.runs import finished, write_study
 from plateau.study.text_tables import listed
 from plateau.style import NARROW, QUIET, Figures, in_style, labelled, look, new, wrapped
@@ -46,8 +46,8 @@ NOTE = (
 SURFACES = {"disc.surface": "disc.prepare", "pin.base": "pin.base", "pin.surface": "pin.prepare"}
 
 
-@dataclass(frozen=True)
-class Comparison:
+@dataclass(frozen=True, repr=False)
+class Comparison(Answer):
     """Scenes side by side, numbers in SI units.
 
     Attributes

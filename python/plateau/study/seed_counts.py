@@ -11,7 +11,7 @@ from scipy import stats
 
 from plateau.errors import InputError, PlateauWarning
 from plateau.study.analysis import Effects, effects
-from plateau.study.data import Numbers, Study
+from plateau.study.data import Answer, Numbers, Study
 from plateau.study.text_tables import listed
 from plateau.units import quantity, unit_of, with_digits
 
@@ -35,7 +35,7 @@ def sets_for(scatter: float, half_width: float, confidence: float = 0.95) -> flo
 
 
 @dataclass(frozen=True, repr=False)
-class SeedsNeeded:
+class SeedsNeeded(Answer):
     """Numbers of sets of seeds.
 
     Attributes

@@ -19,7 +19,7 @@ from scipy import stats
 from plateau.errors import PlateauWarning
 from plateau.output_folder import plain
 from plateau.study.analysis import together, usable
-from plateau.study.data import Numbers, Response, Study
+from plateau.study.data import Answer, Numbers, Response, Study
 from plateau.study.figure_axes import file_names
 from plateau.study.process import Process
 from plateau.study.results import analysed
@@ -41,7 +41,7 @@ MISSED = 0.1
 
 
 @dataclass(frozen=True, repr=False)
-class Sensitivity:
+class Sensitivity(Answer):
     """Which part of the variance of each response each factor has.
 
     Attributes
