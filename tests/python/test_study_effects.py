@@ -333,7 +333,7 @@ class Levels(unittest.TestCase):
                     self.assertTrue(1.0 <= row["p"] / (2.0 * stats.t.sf(size, freedom)) <= directions)
 
     def test_what_the_runs_do_not_tell_is_said(self) -> None:
-        # No run has r with w: over all levels of the other factor neither is known with interactions, and both are without.
+        # No run has r with w: over all levels of the other factor these two are not known with interactions, and are without.
         cells = [(pad, disc) for pad in "pqr" for disc in "uvw" if (pad, disc) != ("r", "w")]
         y = {"p": 0.0, "q": 1.0, "r": 2.0, "u": 0.0, "v": 0.5, "w": 1.0}
         runs = pandas.DataFrame([(pad, disc, y[pad] + y[disc] + 0.1 * (at % 3 - 1)) for pad, disc in cells for at in range(3)])
@@ -348,7 +348,7 @@ class Levels(unittest.TestCase):
         self.assertEqual(len(levels(study, control="p", model="main").table), 2)
         both = study_of(study.factors, runs.set_axis(["pad", "disc", "y"], axis=1).query("pad != 'q' or disc != 'v'"))
         for control in (None, "p"):
-            with self.assertRaisesRegex(InputError, r"pad.*: no run has some combinations .* model = \"main\""):
+            with self.assertRaisesRegex(InputError, r"pad.*: some combinations .* have no run, .* model = \"main\""):
                 levels(both, control=control)
         constant = study_of(study.factors, study.runs.assign(y=1.0))
         with self.assertRaisesRegex(InputError, "y: the response is 1.0 in all 24 observations"):

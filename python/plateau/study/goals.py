@@ -108,7 +108,7 @@ class Problem:
 
     @property
     def known(self) -> pandas.DataFrame:
-        """Points that were run where factors are searched and held, one row each."""
+        """Points that were run at values that the search may take, one row each."""
         points = self.study.runs.drop_duplicates("point")
         for factor, axis in zip(self.study.factors, self.axes, strict=True):
             if axis is not None:

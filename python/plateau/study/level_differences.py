@@ -111,7 +111,7 @@ def _of_factor(fit: Fitted, at: int, names: list[str], control: str | None) -> p
     told = fit.fit.tells(means)
     if not (pairs := [pair for pair in pairs if told[list(pair)].all()]):
         advice = "" if fit.model == "main" else ', or give model = "main"'
-        why = "no run has some combinations with levels of other factors, so that no difference between levels can be told"
+        why = "some combinations with levels of other factors have no run, so that no difference between levels can be told"
         raise NothingToFit(f"{why}: make these runs{advice}")
     rows = np.array([means[one] - means[other] for one, other in pairs])
     weights = rows[:, fit.fit.kept] @ fit.fit.root @ fit.fit.basis.T
