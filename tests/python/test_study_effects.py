@@ -90,6 +90,9 @@ def meant(path: str, old: dict, new: dict, study: Study, response: Response) -> 
     if term is not None and last in tests:
         # The error is that over all seeds; and what cannot be estimated has no test.
         return seeds and term["label"] != "replicate" or term["f"] is None and bool(term["aliased_with"])
+    # So is that of what the model lacks.
+    if seeds and path.startswith(("/lack_of_fit/f", "/lack_of_fit/p", "/misfit")):
+        return True
     # One end in rpm and the other in rad/s: the unit of the study is the other one of them.
     if study.title == ONE_SEED and path.startswith("/equations[1]"):
         return True
@@ -141,6 +144,34 @@ class Seeds(unittest.TestCase):
         fibres = found[(found["response"] == "secondary on the pin") & (found["term"] == "fibre fraction") & (found["seeds"] == 3)]
         self.assertLess(fibres["from the residual"].item(), 0.75)
         self.assertGreater(fibres["over all seeds"].item(), 0.80)
+
+    def test_lack_of_fit_has_the_error_between_seeds(self) -> None:
+        random = np.random.default_rng(6)
+        runs = cube(4)
+        sign = runs["A"] * runs["B"] * runs["C"]
+        runs["y"] = random.normal(size=len(runs)) + sign * random.normal(size=4)[runs["replicate"] - 1] + runs["A"]
+        found = effects(study_of([number(name, -1.0, 1.0) for name in "ABC"], runs))
+        expected = stats.ttest_1samp((2.0 * runs["y"] * sign).groupby(runs["replicate"]).mean(), 0.0)
+        row = found.table.set_index("term").loc["lack of fit"]
+        self.assertAlmostEqual(row["f"], expected.statistic**2, places=9)
+        self.assertAlmostEqual(row["p"], expected.pvalue, places=9)
+        self.assertAlmostEqual(row["error_freedom"], 3.0, places=9)
+
+    def test_lack_of_fit_is_corrected_for_unequal_scatter(self) -> None:
+        # What interactions leave of two words with three levels each is the test of their interaction with repeated measures.
+        random = np.random.default_rng(7)
+        runs = pandas.DataFrame([(a, b, seed) for a in "pqr" for b in "stu" for seed in range(1, 7)], columns=["a", "b", "replicate"])
+        runs["y"] = random.normal(size=54) + (runs["a"] == "q") * (runs["b"] == "t") * (2.0 + 3.0 * random.normal(size=6)[runs["replicate"] - 1])
+        row = effects(study_of([word("a", "p", "q", "r"), word("b", "s", "t", "u")], runs), "main").table.set_index("term").loc["lack of fit"]
+        # Greenhouse and Geisser: of the covariance of orthonormal contrasts between the sets.
+        cells = runs.pivot(index="replicate", columns=["a", "b"], values="y").to_numpy()
+        helmert = np.array([[1.0, -1.0, 0.0], [1.0, 1.0, -2.0]]) / np.sqrt([[2.0], [6.0]])
+        each = cells @ np.kron(helmert, helmert).T
+        roots = np.linalg.eigvalsh(np.cov(each.T))
+        epsilon = roots.sum() ** 2 / (4.0 * np.square(roots).sum())
+        f = 6.0 * np.square(each.mean(axis=0)).sum() / roots.sum()
+        self.assertAlmostEqual(row["f"], f, places=9)
+        self.assertAlmostEqual(row["p"], stats.f.sf(f, 4.0 * epsilon, 20.0 * epsilon), places=9)
 
     def test_what_one_set_of_seeds_tells_alone_has_no_test(self) -> None:
         runs = cube(2, 2)

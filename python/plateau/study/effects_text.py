@@ -26,7 +26,9 @@ def told(one: ResponseEffects) -> tuple[list[str], list[list[str]], list[str]]:
     lines = [one.response.name, f"model: {MODELS[fit.model]}" + (f"; {fit.reason}" if fit.reason else "")]
     names = {"R²": "r_squared", "adjusted R²": "adjusted_r_squared", "predicted R²": "predicted_r_squared"}
     quality = [f"{name} {summary[key]:.4f}" for name, key in names.items() if np.isfinite(summary[key])]
-    p, why = fit.lack_of_fit[2], "nothing is left for it" if fit.scatter[0].freedom else "no point has replicates"
+    missed, _, _, p = fit.lack_of_fit
+    why = "nothing tells its error" if missed.freedom > 0 else "nothing is left for it"
+    why = why if fit.scatter[0].freedom else "no point has replicates"
     quality.append(f"lack of fit not tested: {why}" if np.isnan(p) else f"lack of fit p {'< 0.0001' if p < 1e-4 else f'= {p:.2g}'}")
     error = f"error {'' if np.isnan(fit.error) else 'from '}{summary['error_from']}"
     error += f"; residual {with_digits(fit.error**0.5 * scale)}{symbol}" if np.isfinite(fit.error) else ""

@@ -262,13 +262,31 @@ class Fitted:
         return Squares(freedom, float(left @ left) if freedom > 0 else 0.0), left
 
     @cached_property
-    def lack_of_fit(self) -> tuple[Squares, float, float]:
-        """What means of points differ by from the model, with F and p against the pure error; NaN where it cannot be tested."""
+    def lack_of_fit(self) -> tuple[Squares, Squares, float, float]:
+        """What means of points differ by from the model, its error, F and p; NaN where it cannot be tested."""
         pure, left = self.scatter
         # Their difference, not that of the sums: it may be far smaller than either.
         missed, freedom = self._unless_rounding(self.residuals - left), self.residual_freedom - pure.freedom
         squares = Squares(freedom, float(missed @ missed) if freedom > 0 else 0.0)
-        return squares, *f_test(squares, pure)
+        return squares, *self.beyond(squares, pure, pandas.get_dummies(self.runs["point"]).to_numpy(float))
+
+    def beyond(self, squares: Squares, residual: Squares, columns: Numbers) -> tuple[Squares, float, float]:
+        """Error, F and p of what further columns explain; `residual` is what they leave, the error with one set of seeds.
+
+        With several it is what they differ by between sets, as that of an effect. It differs more for some than for others, which takes
+        degrees of freedom (S. W. Greenhouse and S. Geisser, Psychometrika 24, 95-112 (1959)).
+        """
+        f, p = f_test(squares, residual)
+        if self.seeds < 2 or np.isnan(f):
+            return residual, f, p
+        weights = LeastSquares(np.column_stack([self.fit.basis, columns])).basis[:, len(self.fit.kept) :].T
+        parts, freedoms = self._between(weights, self._leaves - weights.T @ weights)
+        if not (whole := float(np.square(parts).sum())) > 0:
+            return Squares(0.0, 0.0), np.nan, np.nan
+        effective = whole**2 / float(np.square(parts.T @ parts).sum())
+        freedom = effective * float(freedoms.mean())
+        f = squares.mean / (mean := whole / len(parts))
+        return Squares(freedom, mean * freedom), f, float(stats.f.sf(f, effective, freedom))
 
     @cached_property
     def _held_out(self) -> Numbers:
@@ -310,13 +328,20 @@ class Fitted:
         if self.seeds < 2 or np.isnan(self.error):
             variances = self.error * np.square(weights).sum(axis=1)
             return variances, np.where(np.isnan(variances), np.nan, float(self.residual_freedom))
-        # Deviations of runs from the mean model of all blocks.
+        parts, freedoms = self._between(weights, self._leaves)
+        return np.square(parts).sum(axis=1), freedoms
+
+    @property
+    def _leaves(self) -> Numbers:
+        """What the mean model of all blocks leaves of the runs, as a matrix."""
         without = self.design.copy()
         without[:, self.columns[1]] = 0.0
-        leaves = np.eye(len(self.values)) - without[:, self.fit.kept] @ self.fit.root @ self.fit.basis.T
-        left = leaves @ (self.values - self.mean)
-        member = np.eye(self.seeds)[self.sets]
-        variances, freedoms = np.full(len(weights), np.nan), np.full(len(weights), np.nan)
+        return np.asarray(np.eye(len(self.values)) - without[:, self.fit.kept] @ self.fit.root @ self.fit.basis.T)
+
+    def _between(self, weights: Numbers, leaves: Numbers) -> tuple[Numbers, Numbers]:
+        """What each set of seeds has in weighted sums of what a model leaves, with squares that sum up to variances, and degrees of freedom."""
+        left, member = leaves @ (self.values - self.mean), np.eye(self.seeds)[self.sets]
+        parts, freedoms = np.full((len(weights), self.seeds), np.nan), np.full(len(weights), np.nan)
         for at, weight in enumerate(weights):
             by_set = (weight[:, None] * member).T
             spread, expected = by_set @ leaves, np.square(by_set).sum(axis=1)
@@ -324,9 +349,9 @@ class Fitted:
             scale = np.sqrt(np.divide(expected, found, out=np.zeros_like(found), where=found > DEPENDENT * expected.sum()))
             covariance = scale[:, None] * (spread @ spread.T) * scale
             if np.trace(covariance) > 0:
-                variances[at] = float(np.square(scale * (by_set @ left)).sum())
+                parts[at] = scale * (by_set @ left)
                 freedoms[at] = np.trace(covariance) ** 2 / np.square(covariance).sum()
-        return variances, freedoms
+        return parts, freedoms
 
     @cached_property
     def _missed(self) -> tuple[float, float]:

@@ -7,7 +7,7 @@ import numpy as np
 
 from plateau.errors import InputError
 from plateau.study.data import Response, Study
-from plateau.study.model import CONTRIBUTES, LEAST_FREEDOM, MODELS, ROUNDING, Fitted, NothingToFit, Squares, f_test
+from plateau.study.model import CONTRIBUTES, LEAST_FREEDOM, MODELS, ROUNDING, Fitted, NothingToFit, Squares
 
 # Most coefficients of a model that is tried beside another one.
 MOST_TRIED = 300
@@ -85,7 +85,7 @@ def misfit(fit: Fitted) -> dict[str, Any] | None:
         return None
     own, level = fit.residual, 1.0 - fit.confidence
     others = [other for model in ("main", "interactions", "quadratic", "full") if model != fit.model and (other := _other(fit, model))]
-    _, f, p = fit.lack_of_fit
+    _, _, f, p = fit.lack_of_fit
     if by_replicates := p < level:
         found = [(f, p, other) for other in others if other.residual.mean < own.mean and other.residual.sum < own.sum]
     else:
@@ -94,7 +94,8 @@ def misfit(fit: Fitted) -> dict[str, Any] | None:
         larger = [other for other in others if (np.linalg.norm(other.fit.residuals(fit.design), axis=0) <= most).all()]
         larger = [other for other in larger if other.residual_freedom < own.freedom]
         added = [Squares(own.freedom - other.residual_freedom, max(own.sum - other.residual.sum, 0.0)) for other in larger]
-        tests = [f_test(new, other.residual) if other.residual.sum > 0 else (np.inf, 0.0) for new, other in zip(added, larger, strict=True)]
+        both = zip(added, larger, strict=True)
+        tests = [fit.beyond(new, other.residual, other.design)[1:] if other.residual.sum > 0 else (np.inf, 0.0) for new, other in both]
         found = [(*test, other) for test, other in zip(tests, larger, strict=True) if test[1] < level / len(larger)]
         if not found:
             return None

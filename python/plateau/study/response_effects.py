@@ -245,9 +245,11 @@ def effect_table(fit: Fitted) -> pandas.DataFrame:
                 row |= {"coefficient": coefficient, "effect": effect, "standard_error": deviation, "t": effect / deviation}
                 row |= {"low": effect - reach, "high": effect + reach}
         rows.append(row)
-    missed, f, p = fit.lack_of_fit
+    missed, error, f, p = fit.lack_of_fit
     rows.append(told("residual", fit.residual))
-    rows += [told("lack of fit", missed, f=f, p=p), told("pure error", fit.scatter[0])] if fit.scatter[0].freedom > 0 else []
+    if fit.scatter[0].freedom > 0:
+        freedom = error.freedom if np.isfinite(f) else np.nan
+        rows += [told("lack of fit", missed, f=f, p=p, error_freedom=freedom), told("pure error", fit.scatter[0])]
     table = pandas.DataFrame([*rows, told("total", fit.total)]).reindex(columns=COLUMNS)
     table["response"], table["unit"] = fit.response.name, fit.response.unit_of_fit
     if np.isnan(fit.error) and (judged := lenth(table, fit.confidence)) is not None:

@@ -3,8 +3,9 @@
     python tests/python/coverage/effects.py [STUDY] [--simulations N]
 
 Simulates 2^3 designs with two to five sets of seeds, in which the effect of one factor differs between sets of seeds by 0, 0.5, 1 and 2
-of the noise: all runs there, and with a tenth of them missing. Of 240 real runs with 30 sets of seeds (data/studies/seeds.toml), it takes
-subsets of two to five and compares with the mean of all sets; subsets of 30 normal numbers are held in 91 to 98 %. The
+of the noise: all runs there, and with a tenth of them missing. Beside it stands how often the test of lack of fit rejects a model that
+lacks nothing, where the product of all three factors differs so, zero in the mean. Of 240 real runs with 30 sets of seeds
+(data/studies/seeds.toml), it takes subsets of two to five and compares with the mean of all sets; subsets of 30 normal numbers are held in 91 to 98 %. The
 intervals from the residual, as they were before, stand beside.
 """
 
@@ -70,6 +71,19 @@ def simulated(seeds: int, ratio: float, count: int, missing: float = 0.0, terms:
         fit = fitted(study, study.responses[0], "interactions")
         found.append(covers(fit, {label: 2.0 if label == "A" else 0.0 for label in terms}))
     return np.mean(found, axis=0)
+
+
+def lacks(seeds: int, ratio: float, count: int, missing: float = 0.0) -> float:
+    """Share of simulations in which the test finds a lack of fit although the mean of the product of three factors is 0."""
+    random, found = np.random.default_rng([seeds, round(10 * ratio), round(100 * missing)]), []
+    for _ in range(count):
+        runs = cube(seeds)
+        product = ratio * random.normal(size=seeds)[runs["replicate"] - 1] * runs["A"] * runs["B"] * runs["C"]
+        runs["y"] = product + runs["A"] + random.normal(size=len(runs))
+        runs.loc[random.permutation(len(runs))[: round(missing * len(runs))], "y"] = np.nan
+        study = study_of([number(name, -1.0, 1.0) for name in "ABC"], runs)
+        found.append(fitted(study, study.responses[0], "interactions").lack_of_fit[-1] < 0.05)
+    return float(np.mean(found))
 
 
 def levels_simulated(seeds: int, ratio: float, count: int, control: str | None = None) -> float:
@@ -141,12 +155,14 @@ def main() -> None:
     asked = parser.parse_args()
     for missing in (0.0, 0.1):
         print(f"Simulated, {100 * missing:.0f} % of the runs missing, {asked.simulations} each: over all seeds (from the residual), %")
-        print("seeds  seed x factor / noise      A (differs)      B (not)          A x B (not)" + "      mixed model, A" * asked.mixed)
+        heads = "seeds  seed x factor / noise      A (differs)      B (not)          A x B (not)    lack of fit (not)"
+        print(heads + "      mixed model, A" * asked.mixed)
         for seeds, ratio in itertools.product(SEEDS, RATIOS):
             shares = 100 * simulated(seeds, ratio, asked.simulations, missing)
             cells = "".join(f"     {own:5.1f} ({old:5.1f})" for own, old in shares)
             more = f"     {100 * mixed(seeds, ratio, asked.simulations // 10, missing):5.1f}" if asked.mixed else ""
-            print(f"{seeds:5d}  {ratio:21.1f} {cells}{more}", flush=True)
+            lack = 100 * lacks(seeds, ratio, asked.simulations, missing)
+            print(f"{seeds:5d}  {ratio:21.1f} {cells}     {lack:12.1f}{more}", flush=True)
     print("Differences of three levels, all together, seed x level 0, 0.5, 1 and 2 of the noise: Tukey (Dunnett), %")
     for seeds in SEEDS:
         shares = [[100 * levels_simulated(seeds, ratio, asked.simulations // 8, control) for control in (None, "a")] for ratio in RATIOS]
