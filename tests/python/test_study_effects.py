@@ -183,6 +183,18 @@ class Seeds(unittest.TestCase):
         self.assertAlmostEqual(table.loc["B", "error_freedom"], 1.0, places=9)
         self.assertGreater(table.loc["B", "p"], 0.0)
 
+    def test_sets_at_other_points_are_said(self) -> None:
+        # The second set stands for all of the upper half of C: neither can be told, and A has one effect for each half of C.
+        runs = cube(2)
+        runs["y"] = np.random.default_rng(5).normal(size=16)
+        runs.loc[(runs["replicate"] == 2) != (runs["C"] > 0), "y"] = np.nan
+        found = effects(study_of([number(name, -1.0, 1.0) for name in "ABC"], runs))
+        rows = found.table.set_index("term")
+        self.assertTrue(rows.loc[["replicate", "C", "A"], ["f", "p"]].isna().all().all())
+        self.assertIn("effects without interval: A, B, A × C, B × C;", found.text())
+        self.assertIn("replicate 2 has no result at 4 of 8 points, such as A = −1, B = −1, C = −1", found.text())
+        self.assertNotIn("intervals are wide", found.text())
+
     def test_forecasts_of_the_mean_are_those_of_one_fit_for_each_set(self) -> None:
         random = np.random.default_rng(3)
         runs = cube(5, 2)

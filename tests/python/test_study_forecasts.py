@@ -24,7 +24,8 @@ from plateau.study.variance_parts import sensitivity
 HERE = Path(__file__).parent
 sys.path.insert(0, str(HERE / "coverage"))
 import forecasts
-from made_studies import stored
+from effects import cube
+from made_studies import number, span, stored, study_of
 
 # Values of scikit-learn's GaussianProcessRegressor and of DiceKriging (R).
 REFERENCES = json.loads((HERE / "expected" / "processes.json").read_text(encoding="utf-8"))
@@ -241,6 +242,40 @@ class SensitivityTest(unittest.TestCase):
         self.assertTrue(seeds["total_low"] < 0.4286 < seeds["total_high"] < seeds["total_low"] + 0.5)
         self.assertIn("seeds (of single runs)", found.text())
         self.assertEqual(found.document()["responses"][0]["seeds"]["value"], seeds["total"])
+
+    def test_a_factor_that_never_varied_has_no_part(self):
+        runs = cube(3, 2)
+        runs["y"] = runs["A"] + 0.05 * np.random.default_rng(8).standard_normal(12)
+        runs.loc[runs["B"] > 0, "y"] = np.nan
+        study = study_of([span("A"), span("B")], runs)
+        found = quietly(sensitivity, study)
+        rows = found.table.set_index("factor")
+        self.assertTrue(rows.loc["B", ["first_order", "total", "total_low"]].isna().all())
+        self.assertAlmostEqual(rows.loc["A", "total"], 1.0, places=6)
+        self.assertEqual(rows["cautions"].tolist(), ["two values, taken for a straight line", "not told by the runs", ""])
+        said = " ".join(found.document()["cautions"])
+        self.assertIn("y: no parts of B: the runs have one value of it", said)
+        self.assertIn("parts of the others are those at B = −1", said)
+        for b, is_told in ((-1.0, True), (0.0, False)):
+            table = quietly(predict, study, {"A": 0.0, "B": b})
+            self.assertEqual(table.table["mean_low"].notna().all(), is_told)
+            self.assertIn("A: the runs have two values of it", table.text())
+        # Nothing else is left where both change together.
+        runs = pandas.DataFrame({"A": [-1.0, 1.0] * 4, "B": [-1.0, 1.0] * 4, "y": np.random.default_rng(9).standard_normal(8)})
+        both = quietly(sensitivity, study_of([span("A"), span("B")], runs))
+        self.assertTrue(both.table["total"].isna().all())
+        self.assertIn("no parts of A, B", both.text())
+
+    def test_two_values_of_a_range_are_said(self):
+        # The part of exp(2 A) beside 2 B is 0.726; that of the line between its ends is sinh(2)²/(sinh(2)² + 4) = 0.767.
+        runs = cube(2)
+        runs["y"] = np.exp(2.0 * runs["A"]) + 2.0 * runs["B"] + 1e-3 * np.random.default_rng(8).standard_normal(16)
+        found = quietly(sensitivity, study_of([span(name) for name in "ABC"], runs))
+        self.assertAlmostEqual(found.table["total"][0], 0.767, places=3)
+        self.assertIn("A, B, C: the runs have two values of each, so that they show no curve", found.text())
+        self.assertIn("so that they show no curve", found.document()["cautions"][0])
+        levels = quietly(sensitivity, study_of([number(name, -1.0, 1.0) for name in "ABC"], runs))
+        self.assertNotIn("show no curve", levels.text())
 
 
 def options(arguments):

@@ -156,7 +156,7 @@ def _surface(one: ResponseEffects, fit: Fitted) -> Any:
     others = {one.factor.name: one.factor.value(0.0).item() if one.is_straight else (one.classes or ())[0] for one in fit.codings}
     grid = [factor.value(np.linspace(-1.0, 1.0, STEPS)) for factor in (x, y)]
     rows = fit.matrix(grid_points(x, y, grid, others))
-    values = np.where(fit.fit.tells(rows), one.response.back(rows @ fit.coefficients), np.nan).reshape(STEPS, STEPS)
+    values = np.where(fit.tells(rows), one.response.back(rows @ fit.coefficients), np.nan).reshape(STEPS, STEPS)
     if not np.isfinite(values).any():
         return None
     at = held(factors, others, (x, y))

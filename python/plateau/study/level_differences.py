@@ -108,7 +108,7 @@ def _of_factor(fit: Fitted, at: int, names: list[str], control: str | None) -> p
     pairs = [(one, other) for other, one in itertools.combinations(range(len(names)), 2)]
     if control is not None:
         pairs = [(one, names.index(control)) for one in range(len(names)) if names[one] != control]
-    told = fit.fit.tells(means)
+    told = fit.tells(means)
     if not (pairs := [pair for pair in pairs if told[list(pair)].all()]):
         advice = "" if fit.model == "main" else ', or give model = "main"'
         why = "some combinations with levels of other factors have no run, so that no difference between levels can be told"

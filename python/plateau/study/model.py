@@ -128,16 +128,6 @@ class LeastSquares:
         left = values - self.basis @ (self.basis.T @ values)
         return np.asarray(left - self.basis @ (self.basis.T @ left))
 
-    def tells(self, rows: Numbers) -> Numbers:
-        """Whether the runs tell the value for rows of the model matrix: whether columns that are combinations are the same ones there."""
-        told = np.ones(len(rows), bool)
-        for column, (parts, weights) in self.relations.items():
-            # What is a multiple of the mean, as the square of a number with two values is, does not count.
-            if parts not in ([], [0]):
-                size = np.maximum(np.abs(rows).max(axis=1), 1.0)
-                told &= np.abs(rows[:, column] - rows[:, self.kept] @ weights) <= CONTRIBUTES * size
-        return told
-
 
 @dataclass(frozen=True)
 class Squares:
@@ -227,6 +217,31 @@ class Fitted:
     def owner(self, column: int) -> int:
         """Which of mean (0), blocks (1) and terms (from 2) a column is of."""
         return next(at for at, columns in enumerate(self.columns) if columns.start <= column < columns.stop)
+
+    def tells(self, rows: Numbers) -> Numbers:
+        """Whether the runs tell the value for rows of the model matrix: whether columns that are combinations are the same ones there."""
+        told = np.ones(len(rows), bool)
+        for column, (parts, weights) in self.fit.relations.items():
+            # What is a multiple of the mean, as the square of a number with two values is, does not count; a factor with one value does.
+            if parts not in ([], [0]) or self._factor_of(column) is not None:
+                size = np.maximum(np.abs(rows).max(axis=1), 1.0)
+                told &= np.abs(rows[:, column] - rows[:, self.fit.kept] @ weights) <= CONTRIBUTES * size
+        return told
+
+    @property
+    def untold(self) -> list[Factor]:
+        """Factors of which nothing is told: they have one value, or change with another factor or the seeds."""
+        found: set[int | None] = {at for at, coding in enumerate(self.codings) if not coding.width}
+        for column, (parts, _) in self.fit.relations.items():
+            alike = {self._factor_of(each) for each in (column, *parts)} - {None}
+            # Of few points many factors are combinations of each other, and a process tells them nevertheless.
+            found |= alike if self._factor_of(column) is not None and len(alike) <= 2 else set()
+        return [factor for at, factor in enumerate(self.study.factors) if at in found]
+
+    def _factor_of(self, column: int) -> int | None:
+        """Index of the factor alone that a column is of; None of the mean, blocks and other terms."""
+        term = ((), (), *self.terms)[self.owner(column)]
+        return term[0] if len(term) == 1 else None
 
     def matrix(self, points: pandas.DataFrame) -> Numbers:
         """Rows of the model matrix, averaged over blocks, at points: a column for each factor, SI units or words."""
@@ -407,7 +422,7 @@ class Fitted:
         parts = [own, (missed * (1.0 + leverage), np.full(len(rows), freedom))]
         mean = _satterthwaite(parts)
         one = mean if np.isnan(run) else _satterthwaite([*parts, (np.full(len(rows), run), np.full(len(rows), run_freedom))])
-        told, names = self.fit.tells(rows), ("mean", "mean_freedom", "run", "run_freedom")
+        told, names = self.tells(rows), ("mean", "mean_freedom", "run", "run_freedom")
         columns = {name: np.where(told, values, np.nan) for name, values in zip(names, (*mean, *one), strict=True)}
         return pandas.DataFrame({"value": rows @ self.coefficients, **columns, "leverage": leverage}, index=points.index)
 

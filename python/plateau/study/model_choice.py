@@ -133,7 +133,24 @@ def cautions(fit: Fitted) -> list[str]:
         said.append(f"{few}, so that the fit hardly shows what the model misses")
     if fit.seeds == 1 and fit.response.series:
         said.append("one set of seeds: intervals hold for these seeds alone; [replicates] with several tell of others")
-    if fit.seeds == 2:
+    if fit.seeds > 1 and np.isfinite(fit.error) and (untested := _untested(fit)):
+        said.append(untested)
+    elif fit.seeds == 2 and np.isfinite(fit.error):
         wide = "two sets of seeds leave one degree of freedom for the error, and intervals are wide"
         said.append(f"{wide}; a third makes them about 3.6 times as narrow")
     return said
+
+
+def _untested(fit: Fitted) -> str:
+    """That effects have no error, for sets of seeds lack points; empty if all have one."""
+    found = fit.combined(np.eye(len(fit.coefficients))[fit.own])
+    without = dict.fromkeys(fit.label(fit.terms[fit.owner(fit.own[at]) - 2]) for at in np.flatnonzero(found["standard_error"].isna()) if at)
+    if not without:
+        return ""
+    missing, places = [], fit.runs.drop_duplicates("point").set_index("point")
+    for replicate, own in fit.runs.groupby("replicate")["point"]:
+        if len(others := places.drop(own.unique())):
+            first = ", ".join(f"{factor.name} = {factor.shown(others[factor.name].iloc[0])}" for factor in fit.study.factors)
+            missing.append(f"replicate {replicate} has no result at {len(others)} of {len(places)} points, such as {first}")
+    why = f"their error is what they differ by between sets of seeds, and too few points have all sets ({'; '.join(missing)})"
+    return f"effects without interval: {', '.join(without)}; {why}; make these runs, or take the set that lacks most out of `seeds`"

@@ -20,7 +20,7 @@ from plateau.study.goals import ROUNDING, Goal, Limit, Problem, axes_of, beyond_
 from plateau.study.prediction import INTERVALS, confirmed_by, confirmed_words, forecast_cells, forecast_table, reported, settings_at
 from plateau.study.results import analysed
 from plateau.study.runs import made_study
-from plateau.study.settings import beyond_of, ends_of, no_curve, region_of
+from plateau.study.settings import beyond_of, ends_of, no_curve, region_of, straight_between
 from plateau.study.surrogate import Surrogate, surrogates
 from plateau.study.text_tables import listed
 from plateau.style import APART, CHOSEN, LINES, NARROW, WIDE, Figures, in_style, labelled, new
@@ -276,7 +276,7 @@ def _told(problem: Problem, best: pandas.DataFrame, confirming: pandas.DataFrame
     study = problem.study
     beyond = beyond_of(study, best)
     tables = {name: forecast_table(one, best, beyond, problem.confidence, confirming) for name, one in problem.surrogates.items()}
-    cautions = [*together(study), *no_curve(study, best)]
+    cautions = [*together(study), *no_curve(straight_between(study, best))]
     cautions += [f"{name}: {said}" for name, table in tables.items() for said in table.attrs["cautions"]]
     table = pandas.DataFrame([(response.name, response.unit) for response in study.responses], columns=["response", "unit"])
     columns = ["response", "value", *INTERVALS, "leverage", "confirmed", "confirmed_error", "confirmed_runs", "is_within"]

@@ -18,7 +18,7 @@ from plateau.study.data import Answer, Study
 from plateau.study.kept_values import factor_value
 from plateau.study.results import analysed
 from plateau.study.runs import made_study
-from plateau.study.settings import SAME, axis_of, beyond_of, factor_named, held_values, joined, no_curve, region_of, value_of
+from plateau.study.settings import SAME, axis_of, beyond_of, factor_named, held_values, joined, no_curve, region_of, straight_between, value_of
 from plateau.study.surrogate import Surrogate, surrogates
 from plateau.study.text_tables import listed, read_text_table
 from plateau.units import Unit, unit_for, unit_of, with_digits, with_minus, with_unit
@@ -203,7 +203,7 @@ def predict(
         which = f"place {first + 1}: " if len(places) > 1 else ""
         raise InputError(f"{which}{beyond[first]}; the model knows nothing there, give --extrapolate to see what it says nevertheless")
     made = made_study(opened, places, jobs=jobs, workers=workers, progress=progress).runs if confirm else None
-    general = [*together(opened), *no_curve(opened, places)]
+    general = [*together(opened), *no_curve(straight_between(opened, places))]
     for said in general:
         warnings.warn(said, PlateauWarning, stacklevel=2)
     tables = [forecast_table(one, places, beyond, confidence, made) for one in known]

@@ -120,7 +120,7 @@ class ResponseEffects:
         numbers = [one.numbers(cells[name]) if name in factors else np.zeros((len(cells), one.width)) for name, one in codings.items()]
         found = fit.combined(rows := fit.products(numbers))
         reach = stats.t.ppf(0.5 + 0.5 * fit.confidence, found["freedom"]) * found["standard_error"]
-        values = found["value"].where(pandas.Series(fit.fit.tells(rows)))
+        values = found["value"].where(pandas.Series(fit.tells(rows)))
         there = [fit.values[np.logical_and.reduce([is_same(fit.runs[name], row[name]) for name in factors])] for _, row in cells.iterrows()]
         means = {"mean": values, "low": values - reach, "high": values + reach, "observed": [own.mean() if len(own) else np.nan for own in there]}
         return cells.assign(**means, runs=list(map(len, there)), unit=self.unit)
@@ -190,8 +190,8 @@ def _aliases(fit: Fitted) -> tuple[set[int], list[list[str]]]:
     labels = ["mean", "replicate", *(fit.label(term) for term in fit.terms)]
     untold, pairs = set(), []
     for column, (parts, _) in fit.fit.relations.items():
-        # Of two columns that are the same but for a factor the first is told, as the sum of both; of a combination of more none is.
-        untold |= {column, *parts} if len(parts) > 1 else {column}
+        # Of two columns that are the same but for a factor the first is told, as the sum of both; not of seeds, nor of a combination of more.
+        untold |= {column, *parts} if len(parts) > 1 or 1 in map(fit.owner, parts) else {column}
         pairs += [(fit.owner(column), fit.owner(part)) for part in parts or [0]]
     for at, term in enumerate(fit.terms):
         if not all(fit.codings[factor].width for factor in term):

@@ -120,16 +120,20 @@ def beyond_of(study: Study, places: pandas.DataFrame) -> list[str]:
     return [joined(one) for one in said]
 
 
-def no_curve(study: Study, places: pandas.DataFrame) -> list[str]:
-    """That the runs show no curve of factors with two values, between which there are places."""
-    numbers = [factor for factor in study.factors if factor.is_number]
-    straight = [factor for factor in numbers if len(np.unique(np.round(factor.coded(study.runs[factor.name]), 9))) == 2]
-    names = [one.name for one in straight if (np.abs(one.coded(places[one.name].to_numpy(float))) < 1.0 - SAME).any()]
+def straight_between(study: Study, places: pandas.DataFrame) -> list[str]:
+    """Names of factors with two values in runs with a result, between which there are places."""
+    runs = study.runs[study.runs[[one.name for one in study.responses]].notna().any(axis=1)]
+    straight = [factor for factor in study.factors if factor.is_number and len(np.unique(np.round(factor.coded(runs[factor.name]), 9))) == 2]
+    return [one.name for one in straight if (np.abs(one.coded(places[one.name].to_numpy(float))) < 1.0 - SAME).any()]
+
+
+def no_curve(names: list[str]) -> list[str]:
+    """That the runs show no curve of factors with two values."""
     if not names:
         return []
     said = f"{', '.join(names)}: the runs have two values of {'it' if len(names) == 1 else 'each'}, so that they show no curve: between these, "
     said += "forecasts follow a straight line, and their intervals do not know by how much the response bends; give a third value in the middle, "
-    return [said + 'such as with design = "central-composite", and look with --confirm how far off a forecast is']
+    return [said + 'such as with design = "central-composite", and look with predict --confirm how far off a forecast is']
 
 
 def joined(parts: Any) -> str:

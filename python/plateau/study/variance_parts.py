@@ -23,6 +23,7 @@ from plateau.study.data import Answer, Numbers, Response, Study
 from plateau.study.figure_axes import file_names
 from plateau.study.process import Process
 from plateau.study.results import analysed
+from plateau.study.settings import no_curve, straight_between
 from plateau.study.surrogate import Surrogate, surrogates
 from plateau.study.text_tables import listed
 from plateau.style import LINES, NARROW, QUIET, Figures, in_style, labelled, new, wrapped
@@ -35,7 +36,7 @@ SEEDS = "seeds"
 EFFECTS = {"mean_size": "mean size μ*", "standard_error": "its error", "mean": "mean", "deviation": "deviation σ"}
 PARTS = {"first_order": "alone (first order)", "total": "with interactions (total)"}
 NUMBERS = ["mean_size", "mean", "deviation", "standard_error", "effects"]
-COLUMNS = ["response", "factor", *(f"{name}{end}" for name in PARTS for end in ("", "_low", "_high")), *NUMBERS, "unit"]
+COLUMNS = ["response", "factor", *(f"{name}{end}" for name in PARTS for end in ("", "_low", "_high")), *NUMBERS, "unit", "cautions"]
 # Part of the variance that a surrogate may miss at points left out before its smoothness is said to matter.
 MISSED = 0.1
 
@@ -49,7 +50,7 @@ class Sensitivity(Answer):
     table : pandas.DataFrame
         A row for each response and factor. Of indices ``first_order`` and ``total`` with ends ``_low`` and ``_high``, parts from 0 to 1, with
         a row `seeds` for the part that seeds have in the variance of single runs. Of Morris designs ``mean_size``, ``mean``, ``deviation``,
-        ``standard_error`` and ``effects`` (their number), per whole range in ``unit``.
+        ``standard_error`` and ``effects`` (their number), per whole range in ``unit``. ``cautions`` of the factor, in short.
     variances : dict of float
         Variance of what is expected of each response over all ranges, SI.
     """
@@ -148,7 +149,9 @@ def sensitivity(study: Study | str | os.PathLike[str], confidence: float = 0.95)
     opened = usable(analysed(study))
     is_morris = opened.design == "morris"
     known = surrogates(opened, confidence=confidence, of_any_design=not is_morris)
-    cautions = together(opened)
+    middle = pandas.DataFrame({one.name: [float(one.value(0.0)) if one.is_range else one.levels[0]] for one in opened.factors})
+    straight = [] if is_morris or all(one.takes_process for one in known) else straight_between(opened, middle)
+    cautions = [*together(opened), *no_curve(straight)]
     two = ", ".join(factor.name for factor in opened.factors if factor.is_number and not factor.is_range and len(factor.levels) == 2)
     ranges = ", ".join(factor.name for factor in opened.factors if factor.is_range)
     if two and ranges and not is_morris:
@@ -159,10 +162,19 @@ def sensitivity(study: Study | str | os.PathLike[str], confidence: float = 0.95)
     tables, variances = [], {}
     for one in known:
         if is_morris:
-            tables.append(elementary_effects(opened, one.response.name).assign(response=one.response.name, unit=one.response.unit))
+            tables.append(elementary_effects(opened, one.response.name).assign(response=one.response.name, unit=one.response.unit, cautions=""))
         elif one.fit is not None:
             table, variances[one.response.name] = _indices(opened, one, confidence)
-            tables.append(table.assign(response=one.response.name, unit="1"))
+            untold = [factor.name for factor in one.fit.untold]
+            marks = {"two values, taken for a straight line": [] if one.takes_process else straight, "not told by the runs": untold}
+            short = ["; ".join(said for said, names in marks.items() if name in names) for name in table["factor"]]
+            tables.append(table.assign(response=one.response.name, unit="1", cautions=short))
+            if untold:
+                at = ", ".join(f"{factor.name} = {factor.shown(one.fit.runs[factor.name].iloc[0])}" for factor in one.fit.untold)
+                each = "it" if len(untold) == 1 else "each"
+                why = f"the runs have one value of {each}, or change {each} with another factor or the seeds"
+                advice = f"runs that change {each} alone would tell; parts of the others are those at {at}"
+                cautions.append(f"{one.response.name}: no parts of {', '.join(untold)}: {why}; {advice}")
             said = f"points that were left out are missed by {100 * min(one.missed, 1.0):.0f} % of the variance: intervals hold for smooth"
             said += " responses; if it has a threshold or a kink, they are too short, those of totals most"
             cautions += [f"{one.response.name}: {caution}" for caution in [*one.cautions, *([said] if one.missed > MISSED else [])]]
@@ -171,10 +183,14 @@ def sensitivity(study: Study | str | os.PathLike[str], confidence: float = 0.95)
 
 
 def _indices(study: Study, one: Surrogate, confidence: float) -> tuple[pandas.DataFrame, float]:
-    """Indices of what may be true of a response, and the variance of what is expected."""
+    """Indices of what may be true of a response, and the variance of what is expected; factors that the runs do not tell are held."""
     count, names = len(study.factors), [factor.name for factor in study.factors]
     halves = np.split(stats.qmc.Sobol(2 * count, rng=np.random.default_rng(0)).random(ROWS), 2, axis=1)
     a, b = (pandas.DataFrame({one.name: _values(one, part[:, at]) for at, one in enumerate(study.factors)}) for part in halves)
+    held = {factor.name: one._fit.runs[factor.name].iloc[0] for factor in one._fit.untold}
+    if len(held) == count:
+        return pandas.DataFrame({"factor": names}), 0.0
+    a, b = a.assign(**held), b.assign(**held)
     places = pandas.concat([a, b, *(a.assign(**{name: b[name]}) for name in names)], ignore_index=True)
     process, random = one.process if one.takes_process else None, np.random.default_rng(1)
     drawn = drawn_models(one, places, random) if process is None else drawn_processes(process, one.rows(places), random)
@@ -190,6 +206,7 @@ def _indices(study: Study, one: Surrogate, confidence: float) -> tuple[pandas.Da
         low, middle, high = np.nanpercentile(parts, [tail, 50.0, 100.0 - tail], axis=0)
         rows |= {name: middle, f"{name}_low": low, f"{name}_high": high}
     table = pandas.DataFrame({"factor": names, **rows})
+    table.loc[table["factor"].isin(held), list(rows)] = np.nan
     if len(drawn) == 1:
         table[[f"{name}_{end}" for name in ("first_order", "total") for end in ("low", "high")]] = np.nan
     run, freedom = one._fit._run_variance
