@@ -14,6 +14,7 @@ import xarray
 from made_studies import number, study_of, word
 from plateau.errors import InputError
 from plateau.study.scene_comparison import _compared, _fixed, _ratio, _seed_keys, _sure, _words, compare, difference, response_of
+from plateau.units import unit_of
 from scipy import stats
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
@@ -55,9 +56,9 @@ class Differences(unittest.TestCase):
         for confidence, is_sure in ((0.9971, True), (0.9972, False)):
             found = difference(TWO, ONE, confidence)
             self.assertEqual((_sure(found["sureness"]), found["high"] < 0.0), ("99.7 %", is_sure))
-            self.assertEqual("no sure difference" in _words("b: y", "1", found, confidence), not is_sure)
+            self.assertEqual("no sure difference" in _words("b: y", unit_of("1", 1.0), found, confidence), not is_sure)
         self.assertEqual([_sure(part) for part in (0.94996, 0.95, 0.9991)], ["94.9 %", "95.0 %", "more than 99.9 %"])
-        self.assertIn("sure at 99.7 %", _words("b: y", "1", difference(TWO, ONE), 0.95))
+        self.assertIn("sure at 99.7 %", _words("b: y", unit_of("1", 1.0), difference(TWO, ONE), 0.95))
         near = {"ratio": 1.0042, "ratio_low": 1.0003, "ratio_high": 1.0081}
         self.assertEqual(_ratio(near), "1.0042 (1.0003 … 1.0081)")
         self.assertEqual(_ratio({"ratio": 1.2, "ratio_low": 0.02, "ratio_high": 72.0}), "1.2 (0.020 … 70)")
@@ -76,6 +77,12 @@ class Differences(unittest.TestCase):
             found = _compared({"a": seeded, "b": alone}, {"a": "", "b": ""}, 0.95, [], pathlib.Path(), False)
             # Of 3 and 2, and of the mean of 3 and 5 and 2.
             self.assertEqual(found.table[["runs", "difference"]].to_numpy().tolist(), [[len(seeds), -float(len(seeds))]])
+
+    def test_words_have_the_unit_of_the_table(self):
+        study = study_of([number("seed", 1.0, 2.0)], {"seed": [1.0, 2.0], "area": [4e-7, 5e-7]}, responses={"area": "m2"})
+        found = _compared({"a": study, "b": study}, {"a": "", "b": ""}, 0.95, [], pathlib.Path(), False)
+        self.assertEqual(found.table["words"].tolist(), ["b: area: no sure difference, 0.0000 ± 0.0000 mm² (95 %)"])
+        self.assertEqual(found.shown()["difference"].tolist(), ["", "0.0000 ± 0.0000 mm²"])
 
     def test_pulses_that_drift_apart_do_not_hide_a_difference(self):
         time, made = np.linspace(0.0, 1000.0, 501), {}

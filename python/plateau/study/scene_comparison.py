@@ -28,7 +28,7 @@ from plateau.study.runs import finished, write_study
 from plateau.study.text_tables import listed
 from plateau.style import NARROW, QUIET, Figures, in_style, labelled, look, new, wrapped
 from plateau.toml_text import toml_of
-from plateau.units import unit_for, unit_of, with_digits, with_minus
+from plateau.units import Unit, unit_for, unit_of, with_digits, with_minus
 
 # What is compared unless asked otherwise: name, dataset with question, table of the scene without which there is no such series.
 USUAL = [("contact area", "contact_area:mean", ""), ("running-in time", "contact_area:reaches 0.9", "")]
@@ -237,6 +237,7 @@ def _compared(made: dict[str, Study], scenes: dict[str, str], confidence: float,
     rows, means = [], []
     for response in asked:
         name, common = response.name, {"response": response.name, "unit": response.unit}
+        unit = unit_of(response.unit, [own[name].mean() for own in runs.values()])
         for scene, own in runs.items():
             values = own[name].dropna()
             means.append({**common, "scene": scene, "runs": len(values), "mean": values.mean(), "deviation": values.std()})
@@ -246,7 +247,7 @@ def _compared(made: dict[str, Study], scenes: dict[str, str], confidence: float,
                 late = "; runs that have not run in lack it, so that it is biased: make them longer" if name == "running-in time" else ""
                 cautions.append(f"{scene}: {name} has a value in {len(pair)} of {len(most)} pairs of runs{late}")
             found = difference(pair[0], pair[1], confidence, len(others))
-            rows.append({**common, "scene": scene, **found, "words": _words(f"{scene}: {name}", response.unit, found, confidence)})
+            rows.append({**common, "scene": scene, **found, "words": _words(f"{scene}: {name}", unit, found, confidence)})
     every = pandas.concat(runs, names=["scene"])[[one.name for one in asked]].reset_index()
     titles = {scene: study.title for scene, study in made.items()}
     titles = titles if len({*titles.values()}) == len(titles) else {scene: scene for scene in made}
@@ -277,10 +278,9 @@ def _mean(values: Numbers, confidence: float, comparisons: int) -> tuple[float, 
     return mean, float(low), float(high), min(1.0, comparisons * float(test.pvalue))
 
 
-def _words(of: str, si: str, found: dict[str, float], confidence: float) -> str:
+def _words(of: str, unit: Unit, found: dict[str, float], confidence: float) -> str:
     """A difference in a sentence."""
     change, half = found["difference"], 0.5 * (found["high"] - found["low"])
-    unit = unit_for(si, max(abs(change), half))
     if not np.isfinite(change):
         return f"{of} has no value in any pair of runs"
     if not np.isfinite(half):

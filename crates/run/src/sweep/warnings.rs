@@ -186,11 +186,11 @@ impl SceneWarnings {
     }
 
     fn lines(&self, what: impl fmt::Display) -> Vec<String> {
-        let of =
-            |runs: usize| if self.looked_at == 1 { String::new() } else { format!("{runs} of {} ", self.looked_at) };
+        let of = |runs: usize| {
+            if self.looked_at == 1 { String::new() } else { format!(" (so in {runs} of {} {what})", self.looked_at) }
+        };
         let shown = self.kinds.iter().take(SHOWN);
-        let mut lines: Vec<String> =
-            shown.map(|kind| format!("{} (so in {}{what})", kind.text(), of(kind.runs))).collect();
+        let mut lines: Vec<String> = shown.map(|kind| format!("{}{}", kind.text(), of(kind.runs))).collect();
         if self.kinds.len() > SHOWN {
             lines.push(format!("{} more kinds of warnings of {what}", self.kinds.len() - SHOWN));
         }

@@ -38,4 +38,6 @@ fn of_many_kinds_some_are_said() {
     warnings.add((b'a'..b'p').map(|letter| found(&String::from(letter as char))).collect());
     let lines = warnings.lines("the run");
     assert_eq!((lines.len(), lines[10].as_str()), (11, "5 more kinds of warnings of the run"));
+    // Of one run nobody asks in how many.
+    assert_eq!(lines[0], "a");
 }
