@@ -90,6 +90,11 @@ class LikelihoodTest(unittest.TestCase):
         target = Target([value(2.0, 0.1), value(2.0, 0.1)], [0.0, 0.0], np.eye(2))
         likelihood = Likelihood(target, Runs(x, np.zeros(8), [x, x]))
         self.assertAlmostEqual(likelihood.misfit(likelihood.best[None], with_processes=False)[0] / 200.0, 1.0, delta=0.1)
+        # One value alone leaves no degree of freedom: it is missed by ten deviations, or by two, of which P(χ² > 4) is 0.0455.
+        for measured, deviations, p in ((2.0, -10.0, 1.5e-23), (1.2, -2.0, 0.0455)):
+            likelihood = Likelihood(Target([value(measured, 0.1)], [0.0], np.eye(1)), Runs(x, np.zeros(8), [x]))
+            self.assertAlmostEqual(likelihood.apart()[0], deviations, delta=0.05)
+            self.assertAlmostEqual(np.log(likelihood.p() / p), 0.0, delta=0.5)
 
 
 class ProductTest(unittest.TestCase):
@@ -123,14 +128,20 @@ class ProductTest(unittest.TestCase):
 
 
 class OutcomeTest(unittest.TestCase):
-    def outcome(self, most, jump):
+    def outcome(self, most, jump, measured=0.3):
         """Of y = x, measured as 0.3, where runs beyond the design jump."""
         x = places(8, 1)
 
         def make(where):
             return Runs(where, np.zeros(len(where)), [where + jump * (np.abs(where - 0.3) < 0.2)])
 
-        return calibrated(Target([value(0.3, 0.02)], [0.0], np.eye(1)), Runs(x, np.zeros(8), [x]), make, 1, most, [True])
+        return calibrated(Target([value(measured, 0.02)], [0.0], np.eye(1)), Runs(x, np.zeros(8), [x]), make, 1, most, [True])
+
+    def told(self, outcome, most):
+        """What a fit tells of it."""
+        key = Factor("load", "operation.normal_force", "N", (1.0, 3.0), True, False, False, "N", 1.0, 0.0)
+        study = SimpleNamespace(title="Rig", factors=[key], seeds=1, runs=pandas.DataFrame({"point": range(8)}))
+        return Fit(study, outcome.likelihood.target, outcome, 0.95, most, study.runs)
 
     def test_the_last_runs_are_at_the_most_likely_place(self):
         outcome = self.outcome(12, 0.0)
@@ -141,17 +152,36 @@ class OutcomeTest(unittest.TestCase):
     def test_runs_that_contradict_leave_no_interval_or_move_the_place(self):
         failed = self.outcome(9, 5.0)
         self.assertTrue(failed.has_failed)
-        key = Factor("load", "operation.normal_force", "N", (1.0, 3.0), True, False, False, "N", 1.0, 0.0)
-        runs = pandas.DataFrame({"point": range(8)})
-        study = SimpleNamespace(title="Rig", factors=[key], seeds=1, runs=runs)
-        found = Fit(study, failed.likelihood.target, failed, 0.95, 9, runs)
+        found = self.told(failed, 9)
         (of_key,) = found.document()["keys"]
         self.assertEqual((of_key["most_likely"], of_key["interval"], found.document()["check"]), (None, [], "failed"))
         self.assertIn("Runs at the most likely place (load = 2.", found.text())
         self.assertIsNone(found.determined)
+        self.assertEqual(found.keys["cautions"].tolist(), ["runs contradict the forecast"])
         moved = self.outcome(40, 5.0)
         best = moved.likelihood.best[0]
         self.assertTrue(moved.has_failed or abs(best - 0.3) > 0.15, best)
+
+    def test_what_no_values_give_has_no_interval(self):
+        # y is the key, at most 1: 2 is missed by 50 deviations, 1.02 by one.
+        for measured, said in ((2.0, "no values within the ranges give what was measured"), (1.02, "")):
+            found = self.told(self.outcome(12, 0.0, measured), 12)
+            (of_key,) = found.document()["keys"]
+            self.assertEqual((of_key["interval"] == [], found.keys["cautions"].tolist()), (bool(said), [said]))
+            self.assertAlmostEqual(of_key["most_likely"], 3.0, delta=0.05)
+        self.assertIn("is 50.0 deviations away", self.told(self.outcome(12, 0.0, 2.0), 12).text())
+
+    def test_without_runs_at_the_most_likely_place_there_is_no_interval(self):
+        found = self.told(self.outcome(8, 0.0), 8)
+        self.assertEqual(found.document()["keys"][0]["interval"], [])
+        self.assertIn("so there is no interval; [fit] runs = 9 allows them", found.text())
+        self.assertTrue(self.told(self.outcome(9, 0.0), 9).document()["keys"][0]["interval"])
+
+    def test_runs_that_were_kept_are_told(self):
+        # Runs that scatter would end like this.
+        told = self.told(replace(self.outcome(12, 0.0), ended="budget"), 12)
+        left = 12 - len(told.outcome.likelihood.runs.x)
+        self.assertIn(f"the other {left} were kept in case the last had contradicted the forecast", told.text())
 
     def test_true_keys_are_inside(self):
         shares = experiments.coverage(8)
@@ -215,6 +245,21 @@ uncertainty = "0.1 mm3"
         self.assertEqual(set(found.figures()), {"profiles", "region-load-speed"})
         self.assertEqual(set(found.tables), {"keys.csv", "responses.csv", "profiles.csv", "runs.csv"})
         self.assertEqual(plan(path).document()["responses"], ["wear"])
+
+    def test_the_last_point_of_the_budget_is_kept_from_the_design(self):
+        # Four points with three seeds: the design has all but one of those that the budget allows, and three at least.
+        base = '\n[replicates]\nkeys = ["disc.surface.synthetic.seed"]\nseeds = [1, 2, 3]\n'
+        scene = f'version = 1\nbase = "{ROOT}/data/scenes/quick.toml"\nset = ["operation.duration = \'1 s\'"]\n'
+        response = 'dataset = "/series/lost_pin"\nat = "end"\nmeasured = "2e-5 mm^3"\nuncertainty = "4e-6 mm3"\n'
+        key = '\nname = "load"\nkey = "operation.normal_force"'
+        study = f'{scene}design = "sobol"\npoints = 4\n{base}[[factor]]{key}\nrange = ["4 N", "12 N"]\n[[response]]\nname = "lost"\n{response}'
+        for most, runs in ((9, 9), (12, 9), (15, 12), (60, 12)):
+            path = self.study(lambda _, most=most: f"{study}[fit]\nruns = {most}\n")
+            self.assertEqual(plan(path).first_runs, runs)
+        path = self.study(lambda _: f"{study}[fit]\nruns = 12\n")
+        found = fit(path, progress=False)
+        self.assertEqual(found.runs.groupby("point").size().tolist(), [3] * 4)
+        self.assertNotEqual(found.outcome.check, "none")
 
     def test_errors_that_go_together_and_discrepancy_are_checked(self):
         study = analysed(self.study())

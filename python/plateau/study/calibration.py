@@ -13,7 +13,7 @@ from plateau.study.likelihood import SETTLED, Likelihood, Runs, Target
 
 # Points before the next fit; points that are kept for the most likely place; rounds without a gain after which none is expected.
 AT_A_TIME, RESERVE, PATIENCE = 4, 2, 3
-# Confidence of the check of a forecast, and by how much -2 ln L may be above the least at a place that runs have checked.
+# Confidence of the check of a forecast and of the misfit, and by how much -2 ln L may be above the least at a place that runs have checked.
 CHECK, SAME = 0.99, 1.0
 ENDS = {
     "settled": "further runs are expected to change little",
@@ -42,6 +42,15 @@ class Outcome:
     def has_failed(self) -> bool:
         """Whether runs contradict the forecast at the most likely place."""
         return self.check == "failed"
+
+    @property
+    def why_no_interval(self) -> str:
+        """Why there is no interval; empty where there is one."""
+        if self.has_failed:
+            return "runs contradict the forecast"
+        if self.likelihood.p(with_processes=True) < 1.0 - CHECK:
+            return "no values within the ranges give what was measured"
+        return "no runs at the most likely place" if self.check == "none" and self.ended != "no runs" else ""
 
 
 def calibrated(target: Target, runs: Runs, make: Callable[[Numbers], Runs], seeds: int, most: int, can_run: Sequence[bool]) -> Outcome:

@@ -67,22 +67,27 @@ class Fit(Answer):
     def _profiles(self) -> list[tuple[Factor, Numbers, Numbers, list[tuple[float, float]]]]:
         return [(one, *profile(self._likelihood, at, self._threshold)) for at, one in enumerate(self.study.factors)]
 
+    @property
+    def _points(self) -> int:
+        return len(np.unique(np.round(self._likelihood.runs.x, 9), axis=0))
+
     @cached_property
     def _intervals(self) -> list[tuple[Factor, float, list[dict[str, Any]]]]:
-        """Each key with its most likely value, NaN where it may be anywhere, and the pieces of its interval, none if runs contradict the forecast."""
-        found, has_failed = [], self.outcome.has_failed
+        """Each key with its most likely value, NaN where it may be anywhere or runs contradict the forecast, and the pieces of its interval."""
+        found, has_failed, has_none = [], self.outcome.has_failed, bool(self.outcome.why_no_interval)
         for (factor, _, _, pieces), best in zip(self._profiles, self._likelihood.best, strict=True):
             likely = math.nan if has_failed or pieces == [(-1.0, 1.0)] else float(factor.value(best))
-            ends = [(float(factor.value(low)), float(factor.value(high)), low == -1.0, high == 1.0) for low, high in pieces if not has_failed]
+            ends = [(float(factor.value(low)), float(factor.value(high)), low == -1.0, high == 1.0) for low, high in pieces if not has_none]
             found.append((factor, likely, [{"low": low, "high": high, "open_below": below, "open_above": above} for low, high, below, above in ends]))
         return found
 
     @cached_property
     def keys(self) -> pandas.DataFrame:
-        """A row for each piece of the interval of each key, with its ends; NaN where it may be anywhere, or runs contradict the forecast."""
+        """A row for each piece of the interval of each key, with its ends; NaN where there is none, and why in ``cautions``."""
         none = {"low": math.nan, "high": math.nan, "open_below": False, "open_above": False}
         rows = [(one.name, one.unit, likely, piece) for one, likely, pieces in self._intervals for piece in pieces or [none]]
-        return pandas.DataFrame([{"key": name, "unit": unit, "most_likely": likely, **piece} for name, unit, likely, piece in rows])
+        table = pandas.DataFrame([{"key": name, "unit": unit, "most_likely": likely, **piece} for name, unit, likely, piece in rows])
+        return table.assign(cautions=self.outcome.why_no_interval)
 
     @property
     def profiles(self) -> pandas.DataFrame:
@@ -99,12 +104,14 @@ class Fit(Answer):
         sets = np.array([one.seeds if one.seeds > 1 else math.nan for one in processes])
         columns = {"forecast": means, "surrogate_deviation": np.sqrt(own), "seeds_deviation": np.sqrt(seeds)}
         columns |= {"seed_to_seed": np.sqrt([one.run_variance for one in processes] + seeds * sets)}
-        columns |= {"leave_one_out_error": [float(np.sqrt(np.square(one.loo[0]).mean())) for one in processes]}
+        columns |= {"apart": likelihood.apart(), "leave_one_out_error": [float(np.sqrt(np.square(one.loo[0]).mean())) for one in processes]}
         return pandas.DataFrame(columns, index=[term.of for term in likelihood.terms])
 
     @cached_property
     def responses(self) -> pandas.DataFrame:
-        """Single values at the most likely place; ``surrogate_deviation`` is for want of runs, ``seeds_deviation`` for want of seeds."""
+        """Single values at the most likely place; ``surrogate_deviation`` is for want of runs, ``seeds_deviation`` for want of seeds, ``apart``
+        the forecast less the measurement over all deviations.
+        """
         singles, columns = self.target.singles, ["response", "unit", "measured", "uncertainty"]
         measured = [self.target.measured[at] for at in singles]
         rows = [(one.response.name, one.response.unit, one.values[0], one.uncertainties[0]) for one in measured]
@@ -143,8 +150,7 @@ class Fit(Answer):
     @property
     def p(self) -> float:
         """Probability of a larger misfit; NaN without degrees of freedom."""
-        freedom = self._likelihood.freedom
-        return float(stats.chi2.sf(self.misfit, freedom)) if freedom else math.nan
+        return self._likelihood.p() if self._likelihood.freedom else math.nan
 
     @property
     def tables(self) -> dict[str, pandas.DataFrame]:
@@ -157,7 +163,7 @@ class Fit(Answer):
         """Products of keys that are determined where the keys are not, or far better than they are; None where there is nothing to say."""
         factors, best = self.study.factors, self._likelihood.best
         ends = np.array([factor.ends for factor in factors])
-        if self.outcome.has_failed or (ends <= 0.0).any():
+        if self.outcome.why_no_interval or (ends <= 0.0).any():
             return None
         halves = 0.5 * np.log(ends[:, 1] / ends[:, 0])
         values = np.array([float(factor.value(at)) for factor, at in zip(factors, best, strict=True)])
@@ -194,8 +200,12 @@ class Fit(Answer):
             what = f"contradict the forecast, most in {measured[worst].response.name}, and no runs were left to find another place"
             said.append(f"Runs at the most likely place ({where}) {what}; more runs in [fit] go on from here.")
         elif not outcome.checks:
-            said.append("No runs were made at the most likely place, so the forecast there is not checked.")
-        if self.p < 0.05:
+            what = "the forecast there is not checked"
+            if outcome.ended != "no runs":
+                what = f"there is no interval; [fit] runs = {(self._points + 1) * self.study.seeds} allows them"
+            said.append(f"No runs were made at the most likely place, so {what}.")
+        # What little is known of responses is no reason.
+        if self.p < 0.05 and self._likelihood.p(with_processes=True) < 0.05:
             test = f"misfit χ² = {self.misfit:.3g} with {_degrees(freedom)}, p = {self.p:.2g}"
             said.append(f"No values within these ranges give all that was measured: {test}. [fit] discrepancy lets the model be off.")
         if self.study.seeds < 2 and outcome.ended != "no runs":
@@ -209,14 +219,13 @@ class Fit(Answer):
                 known = f"The mean of {name} over the seeds is known no better than to half the uncertainty of the measurement"
                 said.append(f"{known}: more seeds in [replicates] make the intervals shorter.")
         for row in self.responses.to_dict("records") if not freedom else ():
-            far = abs(row["forecast"] - row["measured"]) / math.hypot(row["uncertainty"], row["seeds_deviation"], row["discrepancy"])
-            if far > 2.0:
-                away = f"{row['response']} of the runs is {far:.2g} standard deviations away at the most likely ones"
+            if abs(row["apart"]) > 2.0:
+                away = f"{row['response']} of the runs is {abs(row['apart']):.1f} deviations away at the most likely ones"
                 said.append(f"No values within these ranges give what was measured: {away}.")
         for at, components in self._likelihood.components.items():
             said += _alike(measured[at], components.measured - components.mean - components.basis @ self._terms.loc[[at], "forecast"].to_numpy())
         shares = self._likelihood.share_by_term()
-        if shares.max() > SETTLED:
+        if shares.max() > SETTLED and not outcome.why_no_interval:
             part = f"{100.0 * shares.max():.0f} % of" if shares.max() < 2.0 else f"{shares.max():.2g} times"
             name = measured[self._likelihood.terms[int(shares.argmax())].of].response.name
             more = MORE.get(outcome.ended, "more runs in [fit] make the intervals shorter.")
@@ -242,31 +251,32 @@ class Fit(Answer):
         """What ``plateau fit`` prints."""
         keys, responses, level = [], [], f"{100.0 * self.confidence:g} % interval"
         for factor, likely, pieces in self._intervals:
-            ends = " or ".join(_interval(factor, piece) for piece in pieces) or "none: runs contradict the forecast"
+            ends = " or ".join(_interval(factor, piece) for piece in pieces) or f"none: {self.outcome.why_no_interval}"
             keys.append({"key": factor.name, "most likely": factor.shown(likely, 4) if math.isfinite(likely) else "–", level: ends})
         for row in self.responses.to_dict("records"):
             unit = unit_for(row["unit"], max(abs(row["measured"]), abs(row["forecast"])))
             deviation, scatter = math.hypot(row["surrogate_deviation"], row["seeds_deviation"]), row["seed_to_seed"]
-            away = (row["forecast"] - row["measured"]) / math.hypot(row["uncertainty"], deviation, row["discrepancy"])
             cells = {"response": row["response"], "measured": unit.text(row["measured"], row["uncertainty"])}
             cells |= {"forecast": unit.text(row["forecast"], deviation)}
             cells |= {"seed to seed": f"{scatter * unit.per_si:.2g} {unit.symbol}".strip() if math.isfinite(scatter) else "not known"}
-            responses.append(cells | {"apart": f"{away:.1f} deviations".replace("-0.0", "0.0")})
+            responses.append(cells | {"apart": f"{row['apart']:.1f} deviations".replace("-0.0", "0.0")})
         lines = ["Keys", *listed(keys)]
         lines += ["", "Responses at the most likely values", *listed(responses)] if responses else []
         said = [*filter(None, [self.determined]), *self.cautions]
         lines += ["", "To be known", *(f"  {line}" for line in said)] if said else []
         runs, first, freedom = self._likelihood.runs, int(self.study.runs["point"].nunique()), self._likelihood.freedom
-        points = len(np.unique(np.round(runs.x, 9), axis=0))
         each = f", {self.study.seeds} seeds each" if self.study.seeds > 1 else ""
-        made = f"{len(runs.x)} of at most {max(self.most, len(runs.x))}: {first} points of the design and {points - first} more{each}"
+        made = f"{len(runs.x)} of at most {max(self.most, len(runs.x))}: {first} points of the design and {self._points - first} more{each}"
+        left, ended = self.most - len(runs.x), ENDS[self.outcome.ended]
+        if self.outcome.ended == "budget" and left >= self.study.seeds:
+            ended = f"the other {left} were kept in case the last had contradicted the forecast"
         test = f" with {_degrees(freedom)}, p = {self.p:.2g}"
-        test = test if freedom else "; there are no more measurements than keys, so the misfit cannot be tested"
+        test = test if freedom else "; there are no more measurements than keys, so a small misfit says nothing"
         stated = [(one.response.name, size) for one, size in zip(self.target.measured, self.target.discrepancies, strict=True) if size]
         model = f"standard uncertainty of the model: {', '.join(f'{100.0 * size:.3g} % in {name}' for name, size in stated)}"
         model = model if stated else "taken for exact; [fit] discrepancy = 0.05 gives it an uncertainty of 5 %"
         check = "none: no runs are made" if self.outcome.ended == "no runs" else CHECKED[self.outcome.check]
-        summary = [f"  runs     {made}; {ENDS[self.outcome.ended]}", f"  check    {check}", f"  misfit   χ² = {self.misfit:.3g}{test}"]
+        summary = [f"  runs     {made}; {ended}", f"  check    {check}", f"  misfit   χ² = {self.misfit:.3g}{test}"]
         return with_minus("\n".join([*lines, "", self.study.title, *summary, f"  model    {model}"]))
 
     @in_style
@@ -292,7 +302,7 @@ class Fit(Answer):
         figures: Figures = {"profiles": figure}
         for (one, x), (other, y) in itertools.combinations(enumerate(self.study.factors), 2):
             across, along, rises = region(self._likelihood, one, other)
-            shaded = f"{level} region; " if not self.outcome.has_failed else ""
+            shaded = f"{level} region; " if not self.outcome.why_no_interval else ""
             note = f"Shaded: {shaded}dots: runs" if shaded else "Dots: runs"
             figure, ((axis,),) = new(NARROW, 76, f"Where {x.name} and {y.name} may be: {shaded}dots: runs", note=note)
             if shaded:

@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 import pandas
 
 from plateau.errors import InputError, RunFailed
@@ -16,6 +17,7 @@ from plateau.study.data import Answer, Numbers, Study
 from plateau.study.fit_answer import Fit
 from plateau.study.likelihood import Runs, Target
 from plateau.study.measured import Measurement, measurements
+from plateau.study.process import LEAST
 from plateau.study.results import analysed
 from plateau.study.runs import finished, made_study
 from plateau.study.text_tables import listed
@@ -50,8 +52,15 @@ def fit(
     opened = analysed(study)
     target, most, confidence = _task(opened)
     can_run = [bool(opened.path) and "base" in opened.document and not one.response.asked.get("imported") for one in target.measured]
-    if any(can_run) and opened.path is not None:
-        opened = finished(opened.path, progress, retry, opened.directory, jobs=jobs, workers=workers)
+    if any(can_run) and (path := opened.path) is not None:
+        is_first = _is_first(opened, most)
+        if is_first.all():
+            opened = finished(path, progress, retry, opened.directory, jobs=jobs, workers=workers)
+        else:
+            points = opened.runs.loc[is_first, [factor.name for factor in opened.factors]].drop_duplicates()
+            made_study(opened, points, progress=progress, retry=retry, jobs=jobs, workers=workers)
+            opened = analysed(path, opened.directory)
+            opened = replace(opened, runs=opened.runs[is_first], data=opened.data.isel(run=is_first))
         target, most, confidence = _task(opened)
     tables = [_table(opened)]
 
@@ -71,6 +80,12 @@ def fit(
     runs = pandas.concat(tables, ignore_index=True)
     runs.insert(0, "run", np.arange(1, len(runs) + 1))
     return Fit(opened, target, outcome, confidence, most, runs)
+
+
+def _is_first(study: Study, most: int) -> npt.NDArray[np.bool_]:
+    """Which runs of the design are made: of so many points that one of the budget is left for the most likely place, and of the least of a fit."""
+    points = study.runs.groupby([factor.name for factor in study.factors], sort=False).ngroup()
+    return np.asarray(points < max(most // study.seeds - 1, LEAST))
 
 
 def _table(study: Study, before: int = 0) -> pandas.DataFrame:
@@ -188,6 +203,7 @@ def plan(study: Study | str | os.PathLike[str]) -> Plan:
     target, most, _ = _task(opened)
     first, time, memory = len(opened.runs), math.nan, 0
     if opened.path is not None and "base" in opened.document:
+        first = int(_is_first(opened, most).sum())
         estimate = call(["sweep", "plan", opened.path])
         time = float(np.mean(estimate["run_time"])) * max(most, first) / estimate["jobs"]
         memory = estimate["memory"] // estimate["jobs"]

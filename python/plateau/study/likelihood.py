@@ -148,12 +148,19 @@ class Likelihood:
         """Measurements, each point of a series one of them, less keys."""
         return max(sum(len(one.values) for one in self.target.measured) - self.keys, 0)
 
+    def p(self, *, with_processes: bool = False) -> float:
+        """Probability of a larger misfit at the most likely place; with no more measurements than keys, of what the ranges leave."""
+        return float(stats.chi2.sf(self.misfit(self.best[None], with_processes=with_processes)[0], max(self.freedom, 1)))
+
     @property
     def agrees_by_ignorance(self) -> bool:
         """Whether what was measured is likely at the most likely place only because little is known there."""
-        misfits = [self.misfit(self.best[None], with_processes=each)[0] for each in (False, True)]
-        known, all_in_all = stats.chi2.sf(misfits, max(self.freedom, 1))
-        return bool(known < 0.01 and all_in_all > 10.0 * known)
+        return self.p() < 0.01 and self.p(with_processes=True) > 10.0 * self.p()
+
+    def apart(self) -> Numbers:
+        """Forecasts less what was measured at the most likely place, by term, over all deviations."""
+        means, own, seeds = self.moments(self.best[None])
+        return np.asarray((means - self.aims)[0] / np.sqrt(np.diag(self.covariance) + self._added(own, seeds)[0]))
 
     def _added(self, own: Numbers, seeds: Numbers) -> Numbers:
         """Variances of processes and seeds, larger by what few sets of seeds leave open (quantiles of t, Satterthwaite)."""

@@ -15,8 +15,8 @@ from plateau.study.data import Numbers
 
 # Logarithms of lengths (a range is 2 long) and of noise over the variance: median and deviation beforehand, and ends.
 LENGTH, NOISE = np.log([2.0, np.e, 0.05, 40.0]), np.log([1e-3, np.exp(3.0), 1e-8, 1e2])
-# Points that they are found from at most, and sets of them that are kept.
-MOST, KEPT = 300, 48
+# Points of a process at least, those that they are found from at most, and sets of them that are kept.
+LEAST, MOST, KEPT = 3, 300, 48
 
 
 class Equations:
@@ -77,8 +77,8 @@ class Process:
         places, values = table.drop(columns=["y", "seed"]), table["y"].to_numpy(float)
         point = places.round(9).groupby(list(places), sort=False).ngroup().to_numpy()
         self.points, runs = places.to_numpy()[np.unique(point, return_index=True)[1]], np.bincount(point)
-        if len(runs) < 3 or np.ptp(values) <= 16.0 * np.finfo(float).eps * np.abs(values).max():
-            raise ValueError(f"{len(runs)} points have a response: a Gaussian process needs 3 of which not all are equal")
+        if len(runs) < LEAST or np.ptp(values) <= 16.0 * np.finfo(float).eps * np.abs(values).max():
+            raise ValueError(f"{len(runs)} points have a response: a Gaussian process needs {LEAST} of which not all are equal")
         # A run is the mean of its point, what its seeds add everywhere, and noise.
         seeds, of_point = pandas.get_dummies(table["seed"]).to_numpy(float), np.equal.outer(np.arange(len(runs)), point) / runs[:, None]
         self.offset, self.seeds = values.mean(), seeds.shape[1]
