@@ -171,6 +171,7 @@ class Scenes(unittest.TestCase):
             self.assertEqual(list(found.figures()), list(found.curves["series"].unique()))
             self.assertEqual(json.loads(json.dumps(found.document()))["reference"], "quick")
             self.assertTrue(any("running-in time has a value in 0 of 3" in caution for caution in found.cautions))
+            self.assertEqual(found.table["cautions"].str.contains("running-in time has a value in 0 of 3").sum(), 1)
 
 
 if __name__ == "__main__":

@@ -16,6 +16,9 @@ from scipy import stats
 
 from plateau.errors import InputError
 from plateau.study import variance_parts
+from plateau.study.analysis import effects
+from plateau.study.level_differences import levels
+from plateau.study.optimum import optimize
 from plateau.study.prediction import predict
 from plateau.study.process import Equations, Process
 from plateau.study.surrogate import surrogates
@@ -25,7 +28,7 @@ HERE = Path(__file__).parent
 sys.path.insert(0, str(HERE / "coverage"))
 import forecasts
 from effects import cube
-from made_studies import number, span, stored, study_of
+from made_studies import number, span, stored, study_of, word
 
 # Values of scikit-learn's GaussianProcessRegressor and of DiceKriging (R).
 REFERENCES = json.loads((HERE / "expected" / "processes.json").read_text(encoding="utf-8"))
@@ -252,7 +255,8 @@ class SensitivityTest(unittest.TestCase):
         rows = found.table.set_index("factor")
         self.assertTrue(rows.loc["B", ["first_order", "total", "total_low"]].isna().all())
         self.assertAlmostEqual(rows.loc["A", "total"], 1.0, places=6)
-        self.assertEqual(rows["cautions"].tolist(), ["two values, taken for a straight line", "not told by the runs", ""])
+        few = "as many coefficients as points"
+        self.assertEqual(rows["cautions"].tolist(), [f"no curve of A; {few}", f"not told by the runs; {few}", few])
         said = " ".join(found.document()["cautions"])
         self.assertIn("y: no parts of B: the runs have one value of it", said)
         self.assertIn("parts of the others are those at B = −1", said)
@@ -272,10 +276,25 @@ class SensitivityTest(unittest.TestCase):
         runs["y"] = np.exp(2.0 * runs["A"]) + 2.0 * runs["B"] + 1e-3 * np.random.default_rng(8).standard_normal(16)
         found = quietly(sensitivity, study_of([span(name) for name in "ABC"], runs))
         self.assertAlmostEqual(found.table["total"][0], 0.767, places=3)
-        self.assertIn("A, B, C: the runs have two values of each, so that they show no curve", found.text())
-        self.assertIn("so that they show no curve", found.document()["cautions"][0])
-        levels = quietly(sensitivity, study_of([number(name, -1.0, 1.0) for name in "ABC"], runs))
-        self.assertNotIn("show no curve", levels.text())
+        self.assertIn("no curve of A, B, C: the runs have two values of each", found.text())
+        self.assertIn("no curve of A, B, C", found.document()["cautions"][0])
+        numbers = quietly(sensitivity, study_of([number(name, -1.0, 1.0) for name in "ABC"], runs))
+        self.assertNotIn("no curve of", numbers.text())
+
+
+class CautionsOfTables(unittest.TestCase):
+    def test_every_table_has_what_the_text_warns_of(self):
+        runs = cube(2)
+        runs["y"] = runs["A"] - runs["B"] + 0.1 * np.random.default_rng(8).standard_normal(16)
+        study = study_of([span(name) for name in "ABC"], runs)
+        found = [quietly(effects, study), quietly(predict, study, {"A": 0.0, "B": 0.0, "C": 0.0}), quietly(optimize, study, maximize=["y"])]
+        for answer in found:
+            self.assertIn("few points: 8 for 7 coefficients", answer.text())
+            self.assertTrue(answer.table["cautions"].str.contains("few points; two sets of seeds").all(), answer.table["cautions"].tolist())
+        self.assertTrue(found[1].table["cautions"].str.startswith("no curve of A, B, C; ").all())
+        words = runs.assign(pad=np.resize(["p", "q", "r"], 16))[["pad", "replicate", "y"]]
+        table = quietly(levels, study_of([word("pad", "p", "q", "r")], words)).table
+        self.assertTrue(table["cautions"].str.contains("as many coefficients as points").all())
 
 
 def options(arguments):

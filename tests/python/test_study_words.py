@@ -301,7 +301,7 @@ class Words(unittest.TestCase):
         document = self.document("sweep", "effects", "study.toml")
         self.assertEqual([term["label"] for term in document["responses"][0]["terms"]], ["replicate", "load"])
         _, err = self.call("sweep", "predict", "study.toml", "--at", "load=7 N")
-        self.assertRegex(err, "^plateau: warning: load: the runs have two values of it")
+        self.assertRegex(err, "^plateau: warning: no curve of load: the runs have two values of it")
         with unittest.mock.patch.object(progress, "shower", wraps=progress.shower) as shower:
             [place] = self.document("sweep", "predict", "study.toml", "--at", "load=7 N", "--confirm")["places"]
         # Quiet, also in a terminal.

@@ -21,6 +21,7 @@ from plateau.study.model import NothingToFit
 from plateau.study.model_choice import cautions, fitted
 from plateau.study.response_effects import COLUMNS, ResponseEffects, box_cox, effect_table, report_of, transform_advice
 from plateau.study.results import analysed
+from plateau.study.settings import in_short
 from plateau.style import Figures, in_style
 
 # Inflation of variances above which terms are said to be correlated, and shares whose sum differs by more from R² of which it is said.
@@ -43,8 +44,10 @@ class Effects(Answer):
 
     @property
     def table(self) -> pandas.DataFrame:
-        """The analyses of variance of all responses, with effects."""
-        return pandas.concat([response.table for response in self.responses], ignore_index=True)
+        """The analyses of variance of all responses, with effects, and ``cautions`` in short."""
+        general = together(self.study)
+        tables = [one.table.assign(cautions=in_short([*general, *one.cautions])) for one in self.responses]
+        return pandas.concat(tables, ignore_index=True)
 
     @property
     def residuals(self) -> pandas.DataFrame:

@@ -14,8 +14,9 @@ from plateau.errors import InputError
 from plateau.study.analysis import usable
 from plateau.study.data import Answer, Numbers, Study
 from plateau.study.model import Fitted, NothingToFit
-from plateau.study.model_choice import fitted
+from plateau.study.model_choice import cautions, fitted
 from plateau.study.results import analysed
+from plateau.study.settings import in_short
 from plateau.study.text_tables import listed
 from plateau.units import unit_for, with_digits
 
@@ -28,7 +29,8 @@ class LevelDifferences(Answer):
     ----------
     table : pandas.DataFrame
         A row for each pair of levels of each factor that the runs tell apart: ``response``, ``factor``, ``level``, ``other``, ``difference``
-        (level less other, over all levels of the other factors), ``standard_error``, ``freedom``, ``low``, ``high``, ``p`` and ``unit``.
+        (level less other, over all levels of the other factors), ``standard_error``, ``freedom``, ``low``, ``high``, ``p``, ``unit`` and
+        ``cautions``, in short.
         Intervals hold for all pairs of a factor together at the confidence level, and p is for all of them.
     method : str
         ``"Tukey"`` for all pairs, ``"Dunnett"`` against one level.
@@ -134,7 +136,7 @@ def _of_factor(fit: Fitted, at: int, names: list[str], control: str | None) -> p
     whole = [(fit.response.name, coding.factor.name, names[one], names[other]) for one, other in pairs]
     table = pandas.DataFrame(whole, columns=["response", "factor", "level", "other"]).assign(difference=differences, standard_error=errors)
     table = table.assign(freedom=freedom, low=differences - reach * errors, high=differences + reach * errors, p=chances)
-    return table.assign(unit=fit.response.unit_of_fit)
+    return table.assign(unit=fit.response.unit_of_fit, cautions=in_short(cautions(fit)))
 
 
 def _tail(outside: Callable[[Numbers, Numbers], Numbers], size: float, freedom: float) -> float:

@@ -56,7 +56,7 @@ class Optimum(Answer):
         A row for each factor: ``factor``, ``unit``, ``value`` (SI or a word), ``text``.
     table : pandas.DataFrame
         A row for each response: ``unit``, ``value``, ``mean_low``, ``mean_high`` (of the mean), ``run_low``, ``run_high`` (of one more run),
-        ``leverage``, ``desirability``; and of runs at the place ``confirmed_runs``, their mean ``confirmed``, its ``confirmed_error``, and whether
+        ``leverage``, ``cautions`` (in short), ``desirability``; and of runs at the place ``confirmed_runs``, their mean ``confirmed``, its ``confirmed_error``, and whether
         that mean ``is_within`` the interval of runs. SI units.
     desirability : float
         The mean of all goals; 0 if a limit is missed.
@@ -275,12 +275,13 @@ def _limit_words(limit: Limit, unit: Unit) -> str:
 def _told(problem: Problem, best: pandas.DataFrame, confirming: pandas.DataFrame | None, rounds: pandas.DataFrame) -> Optimum:
     study = problem.study
     beyond = beyond_of(study, best)
-    tables = {name: forecast_table(one, best, beyond, problem.confidence, confirming) for name, one in problem.surrogates.items()}
     cautions = [*together(study), *no_curve(straight_between(study, best))]
+    known = problem.surrogates.items()
+    tables = {name: forecast_table(one, best, beyond, problem.confidence, confirming, [*cautions]) for name, one in known}
     cautions += [f"{name}: {said}" for name, table in tables.items() for said in table.attrs["cautions"]]
     table = pandas.DataFrame([(response.name, response.unit) for response in study.responses], columns=["response", "unit"])
-    columns = ["response", "value", *INTERVALS, "leverage", "confirmed", "confirmed_error", "confirmed_runs", "is_within"]
-    table = table.merge(pandas.concat(tables.values())[columns], "left", on="response").fillna({"confirmed_runs": 0})
+    columns = ["response", "value", *INTERVALS, "leverage", "cautions", "confirmed", "confirmed_error", "confirmed_runs", "is_within"]
+    table = table.merge(pandas.concat(tables.values())[columns], "left", on="response").fillna({"cautions": "", "confirmed_runs": 0})
     worth = {goal.response: float(goal.desirability(tables[goal.response]["value"])[0]) for goal in problem.goals}
     table["desirability"] = table["response"].map(worth)
     keeps = all(limit.margin(tables[limit.response])[0] >= -ROUNDING for limit in problem.limits)

@@ -18,7 +18,8 @@ from plateau.study.data import Answer, Study
 from plateau.study.kept_values import factor_value
 from plateau.study.results import analysed
 from plateau.study.runs import made_study
-from plateau.study.settings import SAME, axis_of, beyond_of, factor_named, held_values, joined, no_curve, region_of, straight_between, value_of
+from plateau.study.settings import SAME, axis_of, beyond_of, factor_named, held_values, in_short, joined, no_curve, region_of
+from plateau.study.settings import straight_between, value_of
 from plateau.study.surrogate import Surrogate, surrogates
 from plateau.study.text_tables import listed, read_text_table
 from plateau.units import Unit, unit_for, unit_of, with_digits, with_minus, with_unit
@@ -206,14 +207,16 @@ def predict(
     general = [*together(opened), *no_curve(straight_between(opened, places))]
     for said in general:
         warnings.warn(said, PlateauWarning, stacklevel=2)
-    tables = [forecast_table(one, places, beyond, confidence, made) for one in known]
+    tables = [forecast_table(one, places, beyond, confidence, made, general) for one in known]
     cautions = general + [f"{one.response.name}: {said}" for one, table in zip(known, tables, strict=True) for said in table.attrs["cautions"]]
     table = pandas.concat([table.assign(own=own) for own, table in enumerate(tables)]).sort_values(["place", "own"], ignore_index=True)
     return Prediction(opened, places, given, table.drop(columns="own"), known, confidence, cautions)
 
 
-def forecast_table(one: Surrogate, places: pandas.DataFrame, beyond: list[str], confidence: float, made: pandas.DataFrame | None) -> pandas.DataFrame:
-    """Forecasts of a response, with what is to be known of each."""
+def forecast_table(
+    one: Surrogate, places: pandas.DataFrame, beyond: list[str], confidence: float, made: pandas.DataFrame | None, general: list[str]
+) -> pandas.DataFrame:
+    """Forecasts of a response, with what is to be known of each; `general` is to be known of all responses."""
     names, response, notes = ["value", *INTERVALS, "leverage"], one.response, list(one.cautions)
     found = one.forecast(places, confidence)[names] if one.fit else pandas.DataFrame(np.nan, index=places.index, columns=names)
     said: list[list[str]] = [[] for _ in range(len(places))]
@@ -232,7 +235,7 @@ def forecast_table(one: Surrogate, places: pandas.DataFrame, beyond: list[str], 
             notes.append(long + (f" ({int(marks.sum())} of {len(places)} places)" if len(places) > 1 else ""))
         for at in np.flatnonzero(marks):
             said[at].append(long.split(":")[0])
-    cautions = [joined([*(caution.split(":")[0].split(" (")[0] for caution in one.cautions), *own]) for own in said]
+    cautions = [joined([in_short([*general, *one.cautions]), *own]) for own in said]
     table = places.assign(response=response.name, unit=response.unit, **found, beyond=beyond, cautions=cautions)
     kinds = ["mean", "sem", "count"]
     runs = pandas.DataFrame(columns=kinds) if made is None else made.groupby("point")[response.name].agg(kinds)

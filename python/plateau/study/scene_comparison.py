@@ -55,7 +55,7 @@ class Comparison(Answer):
     table : pandas.DataFrame
         A row for each response and each scene but the first, the reference: ``runs`` (pairs), ``difference`` to the reference, its interval ``low``,
         ``high``, ``p``, ``sureness`` (1 - p, the confidence up to which the interval leaves out 0); ``ratio`` of geometric means, ``ratio_low``,
-        ``ratio_high``; ``words``.
+        ``ratio_high``; ``words``; ``cautions``.
     means : pandas.DataFrame
         A row for each response and scene: ``runs``, ``mean``, ``deviation`` (standard deviation of a run).
     runs : pandas.DataFrame
@@ -234,7 +234,7 @@ def _compared(made: dict[str, Study], scenes: dict[str, str], confidence: float,
     pairs = {scene: own.reindex(most, method="nearest") for scene, own in runs.items()}
     first, *others = made
     asked = [one for one in made[first].responses if not are_usual or any((own[one.name] != 0.0).any() for own in runs.values())]
-    rows, means = [], []
+    rows, means, general = [], [], [*cautions]
     for response in asked:
         name, common = response.name, {"response": response.name, "unit": response.unit}
         unit = unit_of(response.unit, [own[name].mean() for own in runs.values()])
@@ -243,11 +243,14 @@ def _compared(made: dict[str, Study], scenes: dict[str, str], confidence: float,
             means.append({**common, "scene": scene, "runs": len(values), "mean": values.mean(), "deviation": values.std()})
         for scene in others:
             pair = pandas.DataFrame({0: pairs[first][name], 1: pairs[scene][name]}).dropna()
+            to_know = [*general]
             if len(pair) < len(most):
                 late = "; runs that have not run in lack it, so that it is biased: make them longer" if name == "running-in time" else ""
                 cautions.append(f"{scene}: {name} has a value in {len(pair)} of {len(most)} pairs of runs{late}")
+                to_know.append(cautions[-1])
             found = difference(pair[0], pair[1], confidence, len(others))
-            rows.append({**common, "scene": scene, **found, "words": _words(f"{scene}: {name}", unit, found, confidence)})
+            told = {"words": _words(f"{scene}: {name}", unit, found, confidence), "cautions": "; ".join(to_know)}
+            rows.append({**common, "scene": scene, **found, **told})
     every = pandas.concat(runs, names=["scene"])[[one.name for one in asked]].reset_index()
     titles = {scene: study.title for scene, study in made.items()}
     titles = titles if len({*titles.values()}) == len(titles) else {scene: scene for scene in made}

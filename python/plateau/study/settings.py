@@ -1,7 +1,7 @@
 """Values of the factors of a study as people state them, and whether its runs tell of them."""
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -131,9 +131,14 @@ def no_curve(names: list[str]) -> list[str]:
     """That the runs show no curve of factors with two values."""
     if not names:
         return []
-    said = f"{', '.join(names)}: the runs have two values of {'it' if len(names) == 1 else 'each'}, so that they show no curve: between these, "
-    said += "forecasts follow a straight line, and their intervals do not know by how much the response bends; give a third value in the middle, "
+    said = f"no curve of {', '.join(names)}: the runs have two values of {'it' if len(names) == 1 else 'each'}, and between these forecasts "
+    said += "follow a straight line, and their intervals do not know by how much the response bends; give a third value in the middle, "
     return [said + 'such as with design = "central-composite", and look with predict --confirm how far off a forecast is']
+
+
+def in_short(cautions: Iterable[str]) -> str:
+    """Cautions as tables have them: what they begin with."""
+    return joined(caution.split(":")[0].split(" (")[0] for caution in cautions)
 
 
 def joined(parts: Any) -> str:

@@ -23,7 +23,7 @@ from plateau.study.data import Answer, Numbers, Response, Study
 from plateau.study.figure_axes import file_names
 from plateau.study.process import Process
 from plateau.study.results import analysed
-from plateau.study.settings import no_curve, straight_between
+from plateau.study.settings import in_short, no_curve, straight_between
 from plateau.study.surrogate import Surrogate, surrogates
 from plateau.study.text_tables import listed
 from plateau.style import LINES, NARROW, QUIET, Figures, in_style, labelled, new, wrapped
@@ -166,8 +166,9 @@ def sensitivity(study: Study | str | os.PathLike[str], confidence: float = 0.95)
         elif one.fit is not None:
             table, variances[one.response.name] = _indices(opened, one, confidence)
             untold = [factor.name for factor in one.fit.untold]
-            marks = {"two values, taken for a straight line": [] if one.takes_process else straight, "not told by the runs": untold}
-            short = ["; ".join(said for said, names in marks.items() if name in names) for name in table["factor"]]
+            bent, marks = [] if one.takes_process else straight, {"not told by the runs": untold}
+            marks |= {in_short(no_curve([name])): [name] for name in bent} | {in_short([*together(opened), *one.cautions]): [*table["factor"]]}
+            short = ["; ".join(said for said, names in marks.items() if said and name in names) for name in table["factor"]]
             tables.append(table.assign(response=one.response.name, unit="1", cautions=short))
             if untold:
                 at = ", ".join(f"{factor.name} = {factor.shown(one.fit.runs[factor.name].iloc[0])}" for factor in one.fit.untold)
