@@ -1,8 +1,11 @@
 """Forecasts of studies: the Gaussian process, which surrogate is taken, predictions, and parts of the variance."""
 
+import contextlib
+import io
 import itertools
 import json
 import os
+import runpy
 import sys
 import tempfile
 import unittest
@@ -314,6 +317,28 @@ def quietly(function, *arguments, **options):
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         return function(*arguments, **options)
+
+
+class Coverage(unittest.TestCase):
+    def test_the_page_has_the_tables_of_the_command(self):
+        # All but the numbers, which take half an hour.
+        made, both, said = runpy.run_path(str(HERE / "coverage" / "__main__.py")), np.array([0.95, 0.95]), io.StringIO()
+        numbers = {
+            "effects": {"simulated": both[None], "of_runs": pandas.DataFrame({"seeds": [2], "over all seeds": 0.95}), "levels_simulated": 0.95},
+            "forecasts": {"process_coverage": both, "surrogate_coverage": ([both, both], [100, 100]), "sensitivity_coverage": both},
+            "fit": {"coverage": (0.95, 0.95, 0.0), "budgets": (4, 0, [])},
+        }
+        with contextlib.ExitStack() as patched, contextlib.redirect_stdout(said):
+            for module, functions in numbers.items():
+                for name, value in functions.items():
+                    patched.enter_context(unittest.mock.patch.object(made[module], name, return_value=value))
+                made[f"of_{module}"]()
+        page = (HERE.parents[1] / "docs" / "study.md").read_text(encoding="utf-8")
+        page, command = (
+            [line.split(" | ")[0] for line in text.splitlines() if line.startswith("| ")]
+            for text in (page[page.index("## How answers are computed") :], said.getvalue())
+        )
+        self.assertEqual(page, command)
 
 
 if __name__ == "__main__":

@@ -1,6 +1,4 @@
-"""Measures how often the intervals of effects hold the mean over all seeds.
-
-    python tests/python/coverage/effects.py [STUDY] [--simulations N]
+"""How often the intervals of effects hold the mean over all seeds.
 
 Simulates 2^3 designs with two to five sets of seeds, in which the effect of one factor differs between sets of seeds by 0, 0.5, 1 and 2
 of the noise: all runs there, and with a tenth of them missing. Beside it stands how often the test of lack of fit rejects a model that
@@ -9,10 +7,9 @@ lacks nothing, where the product of all three factors differs so, zero in the me
 intervals from the residual, as they were before, stand beside.
 """
 
-import argparse
 import itertools
 import sys
-import warnings
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -30,7 +27,7 @@ from plateau.study.model import Fitted
 from plateau.study.model_choice import fitted
 from plateau.study.results import analysed
 
-RATIOS, SEEDS = (0.0, 0.5, 1.0, 2.0), (2, 3, 4, 5)
+RATIOS = (0.0, 0.5, 1.0, 2.0)
 # Results of data/studies/seeds.toml.
 SEEDS_STUDY = HERE.parents[1] / "data/seeds"
 
@@ -73,14 +70,13 @@ def simulated(seeds: int, ratio: float, count: int, missing: float = 0.0, terms:
     return np.mean(found, axis=0)
 
 
-def lacks(seeds: int, ratio: float, count: int, missing: float = 0.0) -> float:
+def lacks(seeds: int, ratio: float, count: int) -> float:
     """Share of simulations in which the test finds a lack of fit although the mean of the product of three factors is 0."""
-    random, found = np.random.default_rng([seeds, round(10 * ratio), round(100 * missing)]), []
+    random, found = np.random.default_rng([seeds, round(10 * ratio)]), []
     for _ in range(count):
         runs = cube(seeds)
         product = ratio * random.normal(size=seeds)[runs["replicate"] - 1] * runs["A"] * runs["B"] * runs["C"]
         runs["y"] = product + runs["A"] + random.normal(size=len(runs))
-        runs.loc[random.permutation(len(runs))[: round(missing * len(runs))], "y"] = np.nan
         study = study_of([number(name, -1.0, 1.0) for name in "ABC"], runs)
         found.append(fitted(study, study.responses[0], "interactions").lack_of_fit[-1] < 0.05)
     return float(np.mean(found))
@@ -98,33 +94,7 @@ def levels_simulated(seeds: int, ratio: float, count: int, control: str | None =
     return float(np.mean(found))
 
 
-def mixed(seeds: int, ratio: float, count: int, missing: float = 0.0) -> float:
-    """The same of A alone by a mixed model with random slopes (statsmodels, REML, t with a degree of freedom less than sets)."""
-    import statsmodels.formula.api as formulas
-
-    random = np.random.default_rng([seeds, round(10 * ratio), round(100 * missing)])
-    found = []
-    for _ in range(count):
-        runs = cube(seeds)
-        of_set, slope = random.normal(size=seeds), ratio * random.normal(size=seeds)
-        place = runs["replicate"].to_numpy() - 1
-        runs["y"] = of_set[place] + (1.0 + slope[place]) * runs["A"] + random.normal(size=len(runs))
-        runs = runs.drop(random.permutation(len(runs))[: round(missing * len(runs))])
-        slopes = {"A": "0 + A", "B": "0 + B", "C": "0 + C"}
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")
-            model = formulas.mixedlm("y ~ (A + B + C) ** 2", runs, groups="replicate", re_formula="1", vc_formula=slopes)
-            try:
-                fit = model.fit(reml=True)
-            except np.linalg.LinAlgError:
-                found.append(False)
-                continue
-        reach = stats.t.ppf(0.975, seeds - 1) * fit.bse_fe["A"]
-        found.append(abs(fit.params["A"] - 1.0) <= reach)
-    return float(np.mean(found))
-
-
-def of_runs(path: Path, count: int) -> pandas.DataFrame:
+def of_runs(path: Path, sets: Sequence[int], count: int) -> pandas.DataFrame:
     """Shares of subsets of the sets of seeds whose intervals hold the mean of all sets."""
     study, rows = analysed(path), []
     random = np.random.default_rng(1)
@@ -132,7 +102,7 @@ def of_runs(path: Path, count: int) -> pandas.DataFrame:
         whole = fitted(study, response, "interactions")
         places = [columns.start for columns in whole.columns[2:]]
         wanted = {whole.label(term): 2.0 * whole.coefficients[at] for term, at in zip(whole.terms, places, strict=True)}
-        for seeds in SEEDS:
+        for seeds in sets:
             subsets = list(itertools.combinations(range(1, study.seeds + 1), 2))
             if seeds > 2 or len(subsets) > count:
                 subsets = [tuple(random.permutation(study.seeds)[:seeds] + 1) for _ in range(count)]
@@ -145,34 +115,3 @@ def of_runs(path: Path, count: int) -> pandas.DataFrame:
             for label, (own, old) in zip(wanted, shares, strict=True):
                 rows.append({"response": response.name, "term": label, "seeds": seeds, "over all seeds": own, "from the residual": old})
     return pandas.DataFrame(rows)
-
-
-def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("study", nargs="?", type=Path, default=SEEDS_STUDY)
-    parser.add_argument("--simulations", type=int, default=2000)
-    parser.add_argument("--mixed", action="store_true", help="fit mixed models, too (slow)")
-    asked = parser.parse_args()
-    for missing in (0.0, 0.1):
-        print(f"Simulated, {100 * missing:.0f} % of the runs missing, {asked.simulations} each: over all seeds (from the residual), %")
-        heads = "seeds  seed x factor / noise      A (differs)      B (not)          A x B (not)    lack of fit (not)"
-        print(heads + "      mixed model, A" * asked.mixed)
-        for seeds, ratio in itertools.product(SEEDS, RATIOS):
-            shares = 100 * simulated(seeds, ratio, asked.simulations, missing)
-            cells = "".join(f"     {own:5.1f} ({old:5.1f})" for own, old in shares)
-            more = f"     {100 * mixed(seeds, ratio, asked.simulations // 10, missing):5.1f}" if asked.mixed else ""
-            lack = 100 * lacks(seeds, ratio, asked.simulations, missing)
-            print(f"{seeds:5d}  {ratio:21.1f} {cells}     {lack:12.1f}{more}", flush=True)
-    print("Differences of three levels, all together, seed x level 0, 0.5, 1 and 2 of the noise: Tukey (Dunnett), %")
-    for seeds in SEEDS:
-        shares = [[100 * levels_simulated(seeds, ratio, asked.simulations // 8, control) for control in (None, "a")] for ratio in RATIOS]
-        print(f"{seeds:5d}", "".join(f"     {own:5.1f} ({other:5.1f})" for own, other in shares), flush=True)
-    found = of_runs(asked.study, asked.simulations // 4)
-    found[["over all seeds", "from the residual"]] *= 100
-    wide = found.pivot(index=["response", "term"], columns="seeds", values=["over all seeds", "from the residual"])
-    print(wide.round(1).to_string())
-    print(found.groupby("seeds")[["over all seeds", "from the residual"]].mean().round(1))
-
-
-if __name__ == "__main__":
-    main()

@@ -1,8 +1,9 @@
-"""Coverage of the forecasts' 95 % intervals, by simulation: ``python tests/python/coverage/forecasts.py [functions]``.
+"""Coverage of the forecasts' 95 % intervals, by simulation.
 
-Responses are smooth by lot: sums of cosines with random frequencies (A. Rahimi, B. Recht, NIPS 20, 2007), products of powers, sums that
-come to an end. Parts of the variance are tried, too, where neither surrogate can be right: functions with a kink, and with a threshold. Each run has noise besides (a standard deviation of 0.04 of the response's), and its seeds add something everywhere (0.02; nothing
-where there is one set alone, which cannot tell it).
+Responses are smooth by lot: sums of cosines with random frequencies (A. Rahimi, B. Recht, NIPS 20, 2007), products of powers, sums that come to an
+end. Parts of the variance are tried, too, where neither surrogate can be right: functions with a kink, and with a threshold. Each run has noise
+besides (a standard deviation of 0.04 of the response's), and its seeds add something everywhere (0.02; nothing where there is one set alone, which
+cannot tell it).
 """
 
 import math
@@ -23,18 +24,6 @@ from plateau.study.surrogate import surrogates
 from plateau.study.variance_parts import sensitivity
 
 NOISE, OF_SEEDS, PLACES = 0.04, 0.02, 25
-# Kind of response, factors, points, sets of seeds.
-STUDIES = [
-    ("very smooth", 1, 6, 3),
-    ("very smooth", 2, 10, 2),
-    ("very smooth", 4, 20, 2),
-    ("very smooth", 4, 40, 2),
-    ("smooth", 3, 15, 1),
-    ("smooth", 4, 20, 2),
-    ("product of powers", 4, 20, 2),
-    ("comes to an end", 4, 20, 2),
-]
-ROUGH = [("kink", 2, 10, 2), ("kink", 4, 20, 2), ("threshold", 2, 10, 2), ("threshold", 4, 20, 2), ("threshold", 4, 40, 2)]
 
 
 def function(kind, factors, random):
@@ -115,26 +104,3 @@ def sensitivity_coverage(kind, factors, points, seeds, functions, number=2026112
         low, high = ({name: table[f"{name}_{end}"] + sign for name in truth} for end, sign in (("low", -0.005), ("high", 0.005)))
         covered.append([((low[name] <= truth[name]) & (truth[name] <= high[name])).mean() for name in truth])
     return np.mean(covered, axis=0)
-
-
-def main():
-    functions = int(sys.argv[1]) if len(sys.argv) > 1 else 200
-    print("Gaussian process\n\n| response | factors | points | seeds | of means | of runs |\n|---|---|---|---|---|---|", flush=True)
-    for kind, factors, points, seeds in STUDIES:
-        means, runs = 100.0 * process_coverage(kind, factors, points, seeds, functions)
-        print(f"| {kind} | {factors} | {points} | {seeds} | {means:.1f} % | {runs:.1f} % |", flush=True)
-    print("\nWhichever forecasts better\n")
-    print("| response | factors | points | seeds | polynomial | its means | its runs | process | its means | its runs |")
-    print("|---|---|---|---|---|---|---|---|---|---|", flush=True)
-    for kind, factors, points, seeds in STUDIES:
-        shares, counts = surrogate_coverage(kind, factors, points, seeds, functions)
-        cells = [f"{count} | {100 * own[0]:.1f} % | {100 * own[1]:.1f} %" for own, count in zip(shares, counts, strict=True)]
-        print(f"| {kind} | {factors} | {points} | {seeds} | {' | '.join(cells)} |", flush=True)
-    print("\nParts of the variance\n\n| response | factors | points | seeds | first order | total |\n|---|---|---|---|---|---|", flush=True)
-    for kind, factors, points, seeds in [*STUDIES[1:], *ROUGH]:
-        first, total = 100.0 * sensitivity_coverage(kind, factors, points, seeds, max(functions // 5, 1))
-        print(f"| {kind} | {factors} | {points} | {seeds} | {first:.1f} % | {total:.1f} % |", flush=True)
-
-
-if __name__ == "__main__":
-    main()

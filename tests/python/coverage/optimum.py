@@ -1,7 +1,4 @@
-#!/usr/bin/env python3
 """How often intervals of comparisons cover, and how near to the best place runs of expected improvement come.
-
-    optimum.py
 
 The points of 240 real runs with 30 sets of seeds are taken as scenes, too: intervals of a few seeds should cover the difference of all.
 """
@@ -11,7 +8,6 @@ import itertools
 import math
 import pathlib
 import sys
-import warnings
 
 import numpy as np
 from scipy.stats import qmc
@@ -59,7 +55,7 @@ def regrets(number, noise, first=8, more=8, count=2):
     return [PEAK - branin(place["x"], place["y"]) for place in (best, other)]
 
 
-def simulated(seeds, scenes, trials=4000):
+def simulated(seeds, scenes, trials):
     """Part of the trials in which all intervals cover; the difference scatters between seeds as much as runs do."""
     random, covered = np.random.default_rng(seeds * 10 + scenes), 0
     for _ in range(trials):
@@ -69,29 +65,16 @@ def simulated(seeds, scenes, trials=4000):
     return covered / trials
 
 
-def real(path, seeds):
-    """Part of intervals of so many seeds that cover the difference of all, by response."""
-    opened, parts = analysed(path), {}
+def real(path, seeds, subsets):
+    """Parts of intervals of so many seeds that cover the difference of all, by response."""
+    opened, parts = analysed(path), []
     for response in opened.responses:
         table = opened.runs.pivot(index="replicate", columns="point", values=response.name).to_numpy()
         random, inside = np.random.default_rng(seeds), []
-        for _ in range(200):
+        for _ in range(subsets):
             own = table[random.choice(len(table), seeds, replace=False)]
             for a, b in itertools.combinations(range(table.shape[1]), 2):
                 found = difference(own[:, a], own[:, b])
                 inside.append(found["low"] <= (table[:, b] - table[:, a]).mean() <= found["high"])
-        parts[response.name] = f"{100 * np.mean(inside):.1f} %"
+        parts.append(np.mean(inside))
     return parts
-
-
-if __name__ == "__main__":
-    warnings.simplefilter("ignore")
-    print("95 % intervals of differences cover, by seeds and scenes")
-    for seeds in (2, 3, 5):
-        print(f"  {seeds} seeds:", ", ".join(f"{scenes} scenes {100 * simulated(seeds, scenes):.1f} %" for scenes in (2, 3, 4)))
-    for seeds in (2, 3, 5):
-        print(f"  points of data/studies/seeds.toml, {seeds} seeds:", real(pathlib.Path(__file__).parents[1] / "data/seeds", seeds))
-    for noise in (0.5, 2.0):
-        found = np.array([regrets(number, noise) for number in range(12)])
-        said = [f"median {np.median(own):.2f}, mean {own.mean():.2f}" for own in found.T]
-        print(f"Branin's function, 8 points and 8 more, two seeds, noise {noise}: below the peak by {said[0]}; if all are spread, {said[1]}")
