@@ -1,10 +1,14 @@
 //! Points in time as text.
 
-use std::time::{SystemTime, UNIX_EPOCH};
+use std::time::{Duration, SystemTime, UNIX_EPOCH};
 
-/// ISO 8601 in UTC to the millisecond, for instance `2019-12-15T08:30:00.000Z`; times before 1970 count as its start.
+/// The last second of the year 9999, after which a year has five digits.
+const LAST: Duration = Duration::from_secs(253_402_300_799);
+
+/// ISO 8601 in UTC to the millisecond, for instance `2019-12-15T08:30:00.000Z`; times before 1970 count as its start, and after 9999 as its
+/// end.
 pub(crate) fn iso_8601(time: SystemTime) -> String {
-    humantime::format_rfc3339_millis(time.max(UNIX_EPOCH)).to_string()
+    humantime::format_rfc3339_millis(time.clamp(UNIX_EPOCH, UNIX_EPOCH + LAST)).to_string()
 }
 
 /// The time that a text of [`iso_8601`] stands for.

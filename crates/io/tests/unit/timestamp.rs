@@ -1,5 +1,3 @@
-use std::time::Duration;
-
 use super::*;
 
 #[test]
@@ -18,6 +16,9 @@ fn agrees_with_gnu_date() {
         assert_eq!(iso_8601(time), text);
         assert_eq!(from_iso_8601(text), Some(time));
     }
+    // A clock may be wrong by any time.
+    assert_eq!(iso_8601(UNIX_EPOCH - Duration::from_secs(1)), "1970-01-01T00:00:00.000Z");
+    assert_eq!(iso_8601(UNIX_EPOCH + Duration::from_secs(283_824_000_000)), "9999-12-31T23:59:59.000Z");
 }
 
 #[test]
