@@ -17,7 +17,7 @@ import numpy as np
 import optimum
 
 SETS = (2, 3, 4, 5)
-SIMULATIONS, OF_TUKEY, OF_DUNNETT, SUBSETS = 1000, 1600, 320, 400
+SIMULATIONS, OF_LEVELS, SUBSETS = 1000, 800, 400
 FUNCTIONS, OF_SENSITIVITY, FEW = 200, 20, 20
 OF_COMPARISONS, REAL_SUBSETS, SEARCHES = 2000, 100, 12
 EXPERIMENTS, OF_BUDGETS = 80, 15
@@ -80,11 +80,10 @@ def of_effects():
     lacks = [effects.lacks(sets, ratio, SIMULATIONS) for sets, ratio in cases]
     print(f"A lack of fit is found in {span(lacks)} where there is none.", flush=True)
     real = effects.of_runs(effects.SEEDS_STUDY, SETS, SUBSETS).groupby("seeds")["over all seeds"]
-    print(f"Real runs, {SUBSETS} subsets: in the mean {percent(real.mean())}; the lowest {span(real.min())}.", flush=True)
-    for name, count, control in (("Tukey", OF_TUKEY, None), ("Dunnett", OF_DUNNETT, "a")):
-        share = np.mean([effects.levels_simulated(*case, count // len(cases), control) for case in cases])
-        print(f"{name} intervals, {count} simulations: {percent(share)}.", flush=True)
-    print()
+    print(f"Real runs, {SUBSETS} subsets: in the mean {span(real.mean())}; the lowest {span(real.min())}.", flush=True)
+    each = OF_LEVELS // len(cases)
+    levels = [np.mean([effects.levels_simulated(*case, each, control) for case in cases]) for control in (None, "a")]
+    print(f"Tukey and Dunnett intervals, {OF_LEVELS} simulations: {percent(levels)}.\n", flush=True)
 
 
 def of_forecasts():
