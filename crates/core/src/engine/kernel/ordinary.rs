@@ -85,6 +85,7 @@ impl<L: Lanes, const BUILD_UP: u8> Ordinary<'_, L, BUILD_UP> {
     #[inline(always)]
     fn column<const DISC_WEARS: bool>(&mut self, column: usize) -> bool {
         let (z_p, z_d) = (L::load(&self.pin_height[column]), L::load(&self.disc_height[column + 1]));
+        // As `Strip::fetch_next` has it.
         let [to_pin, to_disc] = self.to_next;
         self.pin_height[column].fetch(to_pin);
         self.disc_height[column + 1].fetch(to_disc);

@@ -83,6 +83,7 @@ fn read_strips<L: Lanes, const BUILD_UP: u8>(
         let disc_substrate = disc.substrate.as_ref().map(|field| &field.strip(strip)[span.over..][..span.columns]);
         let mut sums = StripReading::<L, BUILD_UP>::new();
         for column in 0..span.columns {
+            // With a transport length this comes last on a strip: see `Strip::fetch_next`.
             pin.height[column].fetch(to_pin);
             disc_height[column].fetch(to_disc);
             let (z_p, z_d) = (L::load(&pin.height[column]), L::load(&disc_height[column]));
