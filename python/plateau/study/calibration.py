@@ -3,6 +3,7 @@
 import itertools
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -43,7 +44,7 @@ class Outcome:
         """Whether runs contradict the forecast at the most likely place."""
         return self.check == "failed"
 
-    @property
+    @cached_property
     def why_no_interval(self) -> str:
         """Why there is no interval; empty where there is one."""
         if self.has_failed:

@@ -30,8 +30,7 @@ class LevelDifferences(Answer):
     table : pandas.DataFrame
         A row for each pair of levels of each factor that the runs tell apart: ``response``, ``factor``, ``level``, ``other``, ``difference``
         (level less other, over all levels of the other factors), ``standard_error``, ``freedom``, ``low``, ``high``, ``p``, ``unit`` and
-        ``cautions``, in short.
-        Intervals hold for all pairs of a factor together at the confidence level, and p is for all of them.
+        ``cautions``, in short. Intervals hold for all pairs of a factor together at the confidence level, and p is for all of them.
     method : str
         ``"Tukey"`` for all pairs, ``"Dunnett"`` against one level.
     """
@@ -86,11 +85,12 @@ def levels(study: Study | str | os.PathLike[str], control: str | None = None, mo
         except NothingToFit as error:
             reasons.setdefault(str(error), []).append(response.name)
             continue
+        short = in_short(cautions(fit))
         for at, coding in enumerate(fit.codings):
             names = [coding.factor.text(level) for level in coding.classes or ()]
             if len(names) > 2 and (control is None or control in names):
                 try:
-                    tables.append(_of_factor(fit, at, names, control))
+                    tables.append(_of_factor(fit, at, names, control).assign(cautions=short))
                 except NothingToFit as error:
                     reasons.setdefault(str(error), []).append(coding.factor.name)
     if not tables:
@@ -136,7 +136,7 @@ def _of_factor(fit: Fitted, at: int, names: list[str], control: str | None) -> p
     whole = [(fit.response.name, coding.factor.name, names[one], names[other]) for one, other in pairs]
     table = pandas.DataFrame(whole, columns=["response", "factor", "level", "other"]).assign(difference=differences, standard_error=errors)
     table = table.assign(freedom=freedom, low=differences - reach * errors, high=differences + reach * errors, p=chances)
-    return table.assign(unit=fit.response.unit_of_fit, cautions=in_short(cautions(fit)))
+    return table.assign(unit=fit.response.unit_of_fit)
 
 
 def _tail(outside: Callable[[Numbers, Numbers], Numbers], size: float, freedom: float) -> float:

@@ -155,7 +155,7 @@ class Likelihood:
     @property
     def agrees_by_ignorance(self) -> bool:
         """Whether what was measured is likely at the most likely place only because little is known there."""
-        return self.p() < 0.01 and self.p(with_processes=True) > 10.0 * self.p()
+        return (known := self.p()) < 0.01 and self.p(with_processes=True) > 10.0 * known
 
     def apart(self) -> Numbers:
         """Forecasts less what was measured at the most likely place, by term, over all deviations."""

@@ -151,7 +151,8 @@ def sensitivity(study: Study | str | os.PathLike[str], confidence: float = 0.95)
     known = surrogates(opened, confidence=confidence, of_any_design=not is_morris)
     middle = pandas.DataFrame({one.name: [float(one.value(0.0)) if one.is_range else one.levels[0]] for one in opened.factors})
     straight = [] if is_morris or all(one.takes_process for one in known) else straight_between(opened, middle)
-    cautions = [*together(opened), *no_curve(straight)]
+    general = together(opened)
+    cautions = [*general, *no_curve(straight)]
     two = ", ".join(factor.name for factor in opened.factors if factor.is_number and not factor.is_range and len(factor.levels) == 2)
     ranges = ", ".join(factor.name for factor in opened.factors if factor.is_range)
     if two and ranges and not is_morris:
@@ -166,9 +167,9 @@ def sensitivity(study: Study | str | os.PathLike[str], confidence: float = 0.95)
         elif one.fit is not None:
             table, variances[one.response.name] = _indices(opened, one, confidence)
             untold = [factor.name for factor in one.fit.untold]
-            bent, marks = [] if one.takes_process else straight, {"not told by the runs": untold}
-            marks |= {in_short(no_curve([name])): [name] for name in bent} | {in_short([*together(opened), *one.cautions]): [*table["factor"]]}
-            short = ["; ".join(said for said, names in marks.items() if said and name in names) for name in table["factor"]]
+            bent = [] if one.takes_process else straight
+            marks = [["not told by the runs"] * (name in untold) + no_curve([name] if name in bent else []) for name in table["factor"]]
+            short = [in_short([*own, *general, *one.cautions]) for own in marks]
             tables.append(table.assign(response=one.response.name, unit="1", cautions=short))
             if untold:
                 at = ", ".join(f"{factor.name} = {factor.shown(one.fit.runs[factor.name].iloc[0])}" for factor in one.fit.untold)
