@@ -11,9 +11,9 @@ pub(crate) fn iso_8601(time: SystemTime) -> String {
     humantime::format_rfc3339_millis(time.clamp(UNIX_EPOCH, UNIX_EPOCH + LAST)).to_string()
 }
 
-/// The time that a text of [`iso_8601`] stands for.
+/// The time that a text of [`iso_8601`] stands for; none of a text in another form.
 pub(crate) fn from_iso_8601(text: &str) -> Option<SystemTime> {
-    humantime::parse_rfc3339(text).ok()
+    humantime::parse_rfc3339(text).ok().filter(|time| iso_8601(*time) == text)
 }
 
 /// Day, month, year, hour and minute in UTC without anything between them, for instance `151220190830`.

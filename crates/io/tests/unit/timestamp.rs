@@ -23,7 +23,14 @@ fn agrees_with_gnu_date() {
 
 #[test]
 fn what_is_no_time_is_refused() {
-    for text in ["", "2019-12-15", "2019-12-15T08:30:00.000", "2019-13-15T08:30:00.000Z", "1969-12-31T23:59:59.999Z"] {
+    for text in [
+        "",
+        "2019-12-15",
+        "2019-12-15T08:30:00Z",
+        "2019-12-15T08:30:00.000",
+        "2019-13-15T08:30:00.000Z",
+        "1969-12-31T23:59:59.999Z",
+    ] {
         assert_eq!(from_iso_8601(text), None, "{text}");
     }
     let time = UNIX_EPOCH + Duration::from_millis(1_576_398_600_123);
