@@ -47,6 +47,19 @@ impl Chunk {
     }
 }
 
+/// Bytes of the second cache of this processor's cores; more than any field where that is not known.
+pub fn second_cache() -> usize {
+    #[cfg(target_arch = "x86_64")]
+    {
+        // KiB in the upper half, on processors of AMD and Intel.
+        let kibibytes = std::arch::x86_64::__cpuid(0x8000_0006).ecx >> 16;
+        if kibibytes > 0 {
+            return kibibytes as usize * 1024;
+        }
+    }
+    usize::MAX
+}
+
 /// Eight integers of one strip.
 pub type IntegerChunk = [i64; LANES];
 

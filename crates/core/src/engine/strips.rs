@@ -10,7 +10,7 @@
 
 use std::ops::Range;
 
-use crate::engine::lanes::{Chunk, LANES};
+use crate::engine::lanes::{Chunk, LANES, second_cache};
 use crate::engine::parts::Needs;
 use crate::model::mesh::Mesh;
 use crate::model::state::Base;
@@ -68,8 +68,7 @@ impl Strips {
     }
 
     /// Chunks from a column of a strip to that of the one that is passed over next: of the first after the last.
-    #[inline]
-    pub fn to_next(&self, strip: usize) -> isize {
+    fn to_next(&self, strip: usize) -> isize {
         if strip + 1 < self.strips() { self.columns as isize } else { -((strip * self.columns) as isize) }
     }
 
@@ -111,6 +110,38 @@ fn kept(field: &mut Option<Strips>, start: usize, columns: usize) -> &mut [Chunk
     match field {
         Some(field) => &mut field.chunks[start..][..columns],
         None => &mut [],
+    }
+}
+
+/// The strip that is passed over next: a deposit looks at few places of it, too far apart for a processor to foresee.
+#[derive(Debug, Clone, Copy)]
+pub struct NextStrip {
+    /// Chunks to it from the same column of the strip that is passed over, of the pin and of the disc.
+    to_pin: isize,
+    to_disc: isize,
+}
+
+impl NextStrip {
+    /// Columns that are fetched at a time.
+    const COLUMNS: usize = 16;
+
+    /// That of a strip; none where all strips of the pin stay near the processor from step to step.
+    #[inline]
+    pub fn of(strip: usize, pin: &PinStrips, disc: &DiscSector) -> Option<Self> {
+        (!pin.stays).then(|| Self { to_pin: pin.height.to_next(strip), to_disc: disc.height.to_next(strip) })
+    }
+
+    /// Has columns of it from one on, up to an end, brought near the processor, and returns where those end: of these fields of the pin and
+    /// of the disc, which are given for the strip that is passed over, as far as they are kept. All columns where it need not be fetched.
+    #[inline(always)]
+    pub fn fetch(next: Option<Self>, column: usize, end: usize, pin: [&[Chunk]; 2], disc: [&[Chunk]; 2]) -> usize {
+        let Some(Self { to_pin, to_disc }) = next else { return end };
+        let end = end.min(column + Self::COLUMNS);
+        for (distance, fields) in [(to_pin, pin), (to_disc, disc)] {
+            let chunks = fields.into_iter().filter_map(|field| field.get(column..end)).flatten();
+            chunks.for_each(|chunk| chunk.fetch(distance));
+        }
+        end
     }
 }
 
@@ -175,6 +206,8 @@ pub struct PinStrips {
     /// Which cells are there; none where all are. The others are resin out of reach.
     presence: Option<Presence>,
     columns: usize,
+    /// Whether z_p, b_p and z_d below them stay in a core's cache from step to step.
+    stays: bool,
 }
 
 /// Some columns of a strip of the pin, to change.
@@ -214,7 +247,9 @@ impl PinStrips {
         }
         let plateau = resin.iter().map(|resin| !resin).collect();
         let touches = vec![0; resin.len()];
-        Self { substrate: needs.forms.then(|| height.clone()), height, resin, plateau, touches, presence, columns }
+        let substrate = needs.forms.then(|| height.clone());
+        let stays = 3 * size_of_val(&*height.chunks) <= second_cache();
+        Self { height, substrate, resin, plateau, touches, presence, columns, stays }
     }
 
     /// Those of some columns of a strip, counted from their first, outside of which no cell is there.

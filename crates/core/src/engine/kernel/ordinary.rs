@@ -29,7 +29,6 @@ pub(super) fn pass_over_ordinary<L: Lanes, const BUILD_UP: u8, const DISC_WEARS:
     let mut ordinary = Ordinary::<L, BUILD_UP> {
         rules,
         place: [strip.index, strip.first + start],
-        to_next: strip.to_next,
         pin_height: &mut strip.pin.height[start..end],
         pin_substrate: if BUILD_UP == build_up::NONE { &[] } else { &strip.pin.substrate[start..end] },
         resin: &strip.pin.resin[start..end],
@@ -60,8 +59,6 @@ struct Ordinary<'a, L: Lanes, const BUILD_UP: u8> {
     rules: &'a StripRules<'a, L>,
     /// Strip and first column of the pin.
     place: [usize; 2],
-    /// Chunks to the next strip, of pin and disc.
-    to_next: [isize; 2],
     pin_height: &'a mut [Chunk],
     pin_substrate: &'a [Chunk],
     resin: &'a [u8],
@@ -85,16 +82,6 @@ impl<L: Lanes, const BUILD_UP: u8> Ordinary<'_, L, BUILD_UP> {
     #[inline(always)]
     fn column<const DISC_WEARS: bool>(&mut self, column: usize) -> bool {
         let (z_p, z_d) = (L::load(&self.pin_height[column]), L::load(&self.disc_height[column + 1]));
-        // As `Strip::fetch_next` has it.
-        let [to_pin, to_disc] = self.to_next;
-        self.pin_height[column].fetch(to_pin);
-        self.disc_height[column + 1].fetch(to_disc);
-        if BUILD_UP != build_up::NONE {
-            self.pin_substrate[column].fetch(to_pin);
-            if DISC_WEARS {
-                self.disc_substrate[column].fetch(to_disc);
-            }
-        }
 
         // 4.2
         let overlap = (self.rules.displacement - (z_p - z_d)).greater(self.rules.zero);

@@ -105,18 +105,21 @@ fn pass_over_strip<L: Lanes, const BUILD_UP: u8, const DISC_WEARS: bool>(
     let (mut strip_moved, mut next) = (StripMoved::<L>::new(), StripReading::<L, BUILD_UP>::new());
     let some = strip.extent.clone();
     let mut unusual = 0;
-    let mut column = some.start;
+    let (mut column, mut block_end) = (some.start, some.start);
     while column < some.end {
+        if column == block_end {
+            block_end = strip.fetch_next::<BUILD_UP, DISC_WEARS>(column, some.end);
+        }
         if BUILD_UP != build_up::DISTINCT && rules.shortcut && column > some.start && unusual <= MOST_UNUSUAL {
             column = pass_over_ordinary::<L, BUILD_UP, DISC_WEARS>(
                 &strip_rules,
                 &mut strip,
-                column..some.end,
+                column..block_end,
                 &mut next,
                 reading,
             );
-            if column == some.end {
-                break;
+            if column == block_end {
+                continue;
             }
             unusual += 1;
         }
@@ -146,7 +149,6 @@ fn update<L: Lanes, const BUILD_UP: u8, const DISC_WEARS: bool>(
     next: &mut StripReading<L, BUILD_UP>,
     reading: &mut Reading,
 ) {
-    strip.fetch_next::<BUILD_UP, DISC_WEARS>(column);
     let worn = if BUILD_UP == build_up::DISTINCT {
         wear_and_note::<L, BUILD_UP, DISC_WEARS>(rules, strip, column, moved, seldom)
     } else {

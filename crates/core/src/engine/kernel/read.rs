@@ -5,7 +5,7 @@ use super::pairs::Pairs;
 use super::reading::{Bracket, BracketLanes, Reading, StripReading};
 use crate::engine::lanes::{Chunk, Lanes, Mask};
 use crate::engine::parts::{Needs, build_up};
-use crate::engine::strips::{DiscSector, PinStrips};
+use crate::engine::strips::{DiscSector, NextStrip, PinStrips};
 use std::ops::Range;
 
 /// Columns of pairs: the pin's from `first` on lie over the sector's from `over` on.
@@ -77,32 +77,33 @@ fn read_strips<L: Lanes, const BUILD_UP: u8>(
     let bracket = BracketLanes::<L>::new(bracket);
     let nothing = L::Mask::of_byte(0);
     for strip in strips {
-        let (to_pin, to_disc) = (pin.height.to_next(strip), disc.height.to_next(strip));
+        let next = NextStrip::of(strip, pin, disc);
         let pin = pin.strip_mut(strip, span.first, span.columns);
         let disc_height = &disc.height.strip(strip)[span.over..][..span.columns];
         let disc_substrate = disc.substrate.as_ref().map(|field| &field.strip(strip)[span.over..][..span.columns]);
         let mut sums = StripReading::<L, BUILD_UP>::new();
-        for column in 0..span.columns {
-            // With a transport length this comes last on a strip: see `Strip::fetch_next`.
-            pin.height[column].fetch(to_pin);
-            disc_height[column].fetch(to_disc);
-            let (z_p, z_d) = (L::load(&pin.height[column]), L::load(&disc_height[column]));
-            let pairs = Pairs {
-                on_resin: L::Mask::of_byte(pin.resin[column]),
-                pin_secondary: match pin.substrate.get(column) {
-                    Some(substrate) => {
-                        substrate.fetch(to_pin);
-                        z_p.below(L::load(substrate))
-                    }
-                    None => nothing,
-                },
-                disc_secondary: match disc_substrate {
-                    Some(substrate) if BUILD_UP == build_up::DISTINCT => L::load(&substrate[column]).below(z_d),
-                    _ => nothing,
-                },
-            };
-            let place = [strip, span.first + column];
-            pin.touches[column] = sums.add(z_p - z_d, !pin.plateau[column], pairs, &bracket, place, reading);
+        let mut column = 0;
+        while column < span.columns {
+            // With a transport length this comes last on a strip.
+            let fields = ([&*pin.height, &*pin.substrate], [disc_height, &[]]);
+            let end = NextStrip::fetch(next, column, span.columns, fields.0, fields.1);
+            for column in column..end {
+                let (z_p, z_d) = (L::load(&pin.height[column]), L::load(&disc_height[column]));
+                let pairs = Pairs {
+                    on_resin: L::Mask::of_byte(pin.resin[column]),
+                    pin_secondary: match pin.substrate.get(column) {
+                        Some(substrate) => z_p.below(L::load(substrate)),
+                        None => nothing,
+                    },
+                    disc_secondary: match disc_substrate {
+                        Some(substrate) if BUILD_UP == build_up::DISTINCT => L::load(&substrate[column]).below(z_d),
+                        _ => nothing,
+                    },
+                };
+                let place = [strip, span.first + column];
+                pin.touches[column] = sums.add(z_p - z_d, !pin.plateau[column], pairs, &bracket, place, reading);
+            }
+            column = end;
         }
         sums.store(strip, reading);
     }

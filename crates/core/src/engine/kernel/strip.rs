@@ -4,7 +4,7 @@ use super::read::Span;
 use super::worn::Cells;
 use crate::engine::lanes::{Chunk, LANES, Lanes, Mask};
 use crate::engine::parts::build_up;
-use crate::engine::strips::{DiscSector, PinStrip, PinStrips};
+use crate::engine::strips::{DiscSector, NextStrip, PinStrip, PinStrips};
 use std::ops::Range;
 
 /// A strip of a span.
@@ -26,8 +26,8 @@ pub(super) struct Strip<'a> {
     behind_height: Chunk,
     /// Which of its cells are secondary, one bit each.
     behind_secondary: u8,
-    /// Chunks from a column to that of the next strip, of pin and disc.
-    pub to_next: [isize; 2],
+    /// The next strip, where it is to be fetched.
+    next: Option<NextStrip>,
 }
 
 /// The disc cells that the pin cells of a column lie over in the next step.
@@ -56,7 +56,7 @@ impl<'a> Strip<'a> {
             }
         }
         let extent = pin.extent(index, first..first + columns);
-        let to_next = [pin.height.to_next(index), disc.height.to_next(index)];
+        let next = NextStrip::of(index, pin, disc);
         let mut pin = pin.strip_mut(index, first, columns);
         let (disc_height, mut disc_substrate) = disc.strip_mut(index, over, columns);
         if BUILD_UP != build_up::NONE {
@@ -64,7 +64,7 @@ impl<'a> Strip<'a> {
             pin.substrate = &mut std::mem::take(&mut pin.substrate)[..columns];
             disc_substrate = &mut disc_substrate[..columns];
         }
-        Self { index, first, extent, pin, disc_height, disc_substrate, behind_height, behind_secondary, to_next }
+        Self { index, first, extent, pin, disc_height, disc_substrate, behind_height, behind_secondary, next }
     }
 
     /// The pairs of a column, as far as a scene keeps and needs the fields: without substrates b = z.
@@ -84,19 +84,11 @@ impl<'a> Strip<'a> {
         }
     }
 
-    /// Has a column of the next strip brought near the processor, as far as a scene keeps and needs the fields: the places that a
-    /// deposit looks at there are too few and too far apart for a processor to foresee.
+    /// Has the next strip fetched from a column on, as far as a scene needs the fields, and returns up to which column, at most an end.
     #[inline(always)]
-    pub fn fetch_next<const BUILD_UP: u8, const DISC_WEARS: bool>(&self, column: usize) {
-        let [to_pin, to_disc] = self.to_next;
-        self.pin.height[column].fetch(to_pin);
-        self.disc_height[column].fetch(to_disc);
-        if BUILD_UP != build_up::NONE {
-            self.pin.substrate[column].fetch(to_pin);
-            if BUILD_UP == build_up::DISTINCT || DISC_WEARS {
-                self.disc_substrate[column].fetch(to_disc);
-            }
-        }
+    pub fn fetch_next<const BUILD_UP: u8, const DISC_WEARS: bool>(&self, column: usize, end: usize) -> usize {
+        let of_disc = if BUILD_UP == build_up::DISTINCT || DISC_WEARS { &*self.disc_substrate } else { &[] };
+        NextStrip::fetch(self.next, column, end, [self.pin.height, self.pin.substrate], [self.disc_height, of_disc])
     }
 
     /// What lies behind a column.
