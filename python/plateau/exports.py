@@ -3,6 +3,7 @@
 import json
 import os
 from functools import partial
+from io import BytesIO
 from pathlib import Path
 from typing import Any, Literal
 
@@ -106,10 +107,12 @@ def _xlsx(run: xarray.DataTree, place: Path) -> None:
     tables = {name: _table(data) for name, data in _tables(run).items()} | {"about": pandas.DataFrame(about, columns=["what", "text"])}
     if (most := max(map(len, tables.values()))) > MOST_ROWS:
         raise InputError(f"a table of {most} rows: a sheet of Excel has {MOST_ROWS} below its heads; take csv or npz")
-    # Texts stay texts: nothing is a formula or a link.
-    with pandas.ExcelWriter(place, "xlsxwriter", engine_kwargs={"options": {"strings_to_formulas": False, "strings_to_urls": False}}) as book:
+    # Texts stay texts: nothing is a formula or a link. By way of memory, for an archive that cannot be closed complains once more.
+    options = {"strings_to_formulas": False, "strings_to_urls": False, "in_memory": True}
+    with pandas.ExcelWriter(book_bytes := BytesIO(), "xlsxwriter", engine_kwargs={"options": options}) as book:
         for name, table in tables.items():
             table.to_excel(book, sheet_name=name, index=False, freeze_panes=(1, 1))
+    place.write_bytes(book_bytes.getbuffer())
 
 
 def _npz(run: xarray.DataTree, place: Path) -> None:
@@ -124,7 +127,9 @@ def _npz(run: xarray.DataTree, place: Path) -> None:
 
 
 def _netcdf(run: xarray.DataTree, place: Path) -> None:
-    run.assign({body: xarray.DataTree(_of(run, body)) for body in ("disc", "pin")}).to_netcdf(place, engine="h5netcdf")
+    whole = run.assign({body: xarray.DataTree(_of(run, body)) for body in ("disc", "pin")})
+    # By way of memory: a disk that is full while HDF5 writes ends the process.
+    place.write_bytes(whole.to_netcdf(engine="h5netcdf"))
 
 
 def _vtk(run: xarray.DataTree) -> Files:

@@ -223,6 +223,16 @@ class Export(unittest.TestCase):
         plateau.export(self.made, "csv", maps=True, force=True)
         self.assertNotEqual(pathlib.Path("run-pin-0001.csv").read_text(), "kept")
 
+    def test_a_disk_that_is_full_is_told_in_one_line(self):
+        # In a process of its own, which HDF5 ended by a signal where it wrote by itself.
+        limited = ("import resource, sys; resource.setrlimit(resource.RLIMIT_FSIZE, (4096, 4096)); "
+                   "from plateau.command_line import main; sys.exit(main(['export', *sys.argv[1:]]))")
+        for to in exports.FORMATS:
+            with self.subTest(to):
+                done = subprocess.run([sys.executable, "-c", limited, self.made, "--to", to], capture_output=True, text=True, check=False)
+                self.assertRegex(done.stderr, r"\Aplateau: cannot write into (\.|run-vtk): File too large; name another place with -o\n\Z")
+                self.assertEqual((done.returncode, [path for path in pathlib.Path().rglob("*") if path.is_file()]), (1, []))
+
     def test_endings_are_those_of_the_format(self):
         for to, name, told in (("npz", "a.nc", r"ends in \.npz, such as a\.npz"), ("csv", "a.xlsx", r"\.csv or \.tsv or \.txt"), ("netcdf", "a.h5", r"\.nc or")):
             with self.subTest(to), self.assertRaisesRegex(plateau.InputError, told):
