@@ -145,6 +145,7 @@ impl Source {
 /// The state of a case after so much time (s), which is passed with a time acceleration: what a step costs depends on how the
 /// surfaces look, not on the last digit of a height.
 fn worn_in(case: &Case, time: f64) -> Outcome<Checkpoint> {
+    eprintln!("wearing in: {}, {time} s", mesh_size(&case.parameters));
     let execution = Execution { workers: 1, ..Execution::default() };
     let mut simulation = Simulation::with_execution(case.parameters.clone(), case.surfaces.clone(), execution)?;
     simulation.accelerate(WEARING_IN)?;
