@@ -33,7 +33,7 @@ ranks_end() {
 output=$(mktemp) || exit 1
 trap 'rm -f "$output"' EXIT
 
-need_program_with_mpi || exit 1
+build_with_mpi || exit 1
 prepare_toolchain
 cargo clippy --release --locked -p plateau-core -p plateau-run -p plateau --lib --bins --test mpi --target-dir "$target" --features mpi \
     -- -D warnings || exit 1
