@@ -1,6 +1,8 @@
-//! Messages are no longer than anybody reads, however much is wrong and however long the names are.
+//! Messages are no longer than anybody reads, however much is wrong and however long the names are, and come in one piece.
 
 use std::fs;
+use std::os::fd::OwnedFd;
+use std::os::unix::net::UnixDatagram;
 
 use hdf5::types::VarLenUnicode;
 use plateau_tests::program::{Outcome, WorkingDirectory, quick_scene_with, scene};
@@ -85,4 +87,18 @@ fn the_state_of_a_strangers_run_is_cut_where_it_is_shown() {
     let verified = directory.plateau(["verify", "run.h5"]);
     assert!(verified.stdout.contains(said) && verified.stdout.len() < 1000, "{:.2000}", verified.stdout);
     assert!(fs::metadata(directory.path("run.h5")).unwrap().len() > 3_000_000);
+}
+
+#[test]
+fn a_message_is_written_in_one_piece() {
+    // One call writes one datagram: ranks of a job share the place where their messages go.
+    let (ours, theirs) = UnixDatagram::pair().unwrap();
+    let directory = WorkingDirectory::new();
+    let status = directory.command(["run", "none.toml"]).stderr(OwnedFd::from(theirs)).status().unwrap();
+    ours.set_nonblocking(true).unwrap();
+    let mut message = [0; LONGEST];
+    let length = ours.recv(&mut message).unwrap();
+    let message = String::from_utf8_lossy(&message[..length]);
+    assert!(message.starts_with("plateau: none.toml") && message.ends_with('\n'), "{message:?}");
+    assert_eq!(status.code(), Some(2));
 }

@@ -246,8 +246,10 @@ fn only_the_same_run_is_gone_on_with() {
         with(&more).ends(0, &["is finished"]);
     }
     with(&["--extend-to", "1 s"]).ends(2, &["has come to 2.000 s already"]);
-    for name in ["run.h5.checkpoint", "run.h5.checkpoint-before"] {
-        fs::remove_file(directory.path(name)).unwrap();
+    fs::remove_file(directory.path("run.h5.checkpoint")).unwrap();
+    // A fast machine is done before it is time for a second one.
+    if let Err(error) = fs::remove_file(directory.path("run.h5.checkpoint-before")) {
+        assert_eq!(error.kind(), std::io::ErrorKind::NotFound);
     }
     let before = directory.content();
     with(&["--extend-to", "3 s"]).ends(2, &["has no checkpoint"]);

@@ -79,10 +79,11 @@ fn say(who: impl fmt::Display, message: impl fmt::Display) {
     say_in(who, message, str::to_owned);
 }
 
-/// Says it in the look that is given to it last.
+/// Says it in the look that is given to it last, in one piece: other processes may write there, too.
 fn say_in(who: impl fmt::Display, message: impl fmt::Display, look: impl Fn(&str) -> String) {
     let message = message.to_string();
-    let _ = writeln!(io::stderr().lock(), "{who} {}", look(&shown_message(&shown(&message))));
+    let line = format!("{who} {}\n", look(&shown_message(&shown(&message))));
+    let _ = io::stderr().write_all(line.as_bytes());
 }
 
 /// The marks below lines of a file in a style.
