@@ -122,22 +122,29 @@ impl Contact {
             let (step, tiny) = (low - next, rounding(low, next, bracket));
             return Ok(Verdict::Between(next - (0.25 * step).max(tiny), next + (step / 1024.0).max(tiny)));
         }
-        // In an order that does not depend on who read what.
-        near.sort_unstable_by(|a, b| a.gap.total_cmp(&b.gap).then((a.row, a.pair).cmp(&(b.row, b.pair))));
-        let (mut at, mut load, mut slope) = (low, low_load, low_slope);
         let solution = |at: f64, load: f64, slope: f64| at + (normal_force - load) / slope;
-        for pair in &*near {
-            if slope > 0.0 && solution(at, load, slope) <= pair.gap {
-                break;
+        // Where it would be if no more pairs touched: as each carries a part, the solution is not above, but for rounding.
+        let mut bound = if low_slope > 0.0 { solution(low, low_load, low_slope) } else { f64::INFINITY };
+        let (displacement, load) = loop {
+            let (mut at, mut load, mut slope) = (low, low_load, low_slope);
+            for pair in &*sorted_up_to(bound, near) {
+                if slope > 0.0 && solution(at, load, slope) <= pair.gap {
+                    break;
+                }
+                load += slope * (pair.gap - at);
+                slope += weights.stiffness_of(pair);
+                at = pair.gap;
             }
-            load += slope * (pair.gap - at);
-            slope += weights.stiffness_of(pair);
-            at = pair.gap;
-        }
-        if slope == 0.0 {
-            return Ok(Verdict::Apart);
-        }
-        let displacement = solution(at, load, slope);
+            if slope == 0.0 {
+                return Ok(Verdict::Apart);
+            }
+            let displacement = solution(at, load, slope);
+            if displacement > bound {
+                bound = f64::INFINITY;
+            } else {
+                break (displacement, load);
+            }
+        };
         if displacement - low < bracket.width {
             self.settle(weights, sums, near, bracket, displacement, at_low);
             if self.slope == 0.0 {
@@ -160,11 +167,12 @@ impl Contact {
         &mut self,
         weights: &RowWeights,
         sums: &Sums,
-        near: &[NearPair],
+        near: &mut [NearPair],
         bracket: &Bracket,
         carried: &Carried,
     ) {
         let Carried { displacement, loads, residual } = carried;
+        let near = sorted_up_to(*displacement, near);
         self.settle(weights, sums, near, bracket, *displacement, load_at_low(weights, sums, bracket));
         (self.load, self.residual) = (loads.iter().sum(), *residual);
         if let Some(statuses) = &mut self.statuses {
@@ -319,6 +327,20 @@ impl Contact {
     pub fn residual(&self) -> f64 {
         self.residual
     }
+}
+
+/// Brings pairs with gaps up to a bound, m, to the front, and sorts these alone, in an order that does not depend on who read what.
+fn sorted_up_to(bound: f64, near: &mut [NearPair]) -> &mut [NearPair] {
+    let mut count = 0;
+    for place in 0..near.len() {
+        if near[place].gap <= bound {
+            near.swap(count, place);
+            count += 1;
+        }
+    }
+    let sorted = &mut near[..count];
+    sorted.sort_unstable_by(|a, b| a.gap.total_cmp(&b.gap).then_with(|| (a.row, a.pair).cmp(&(b.row, b.pair))));
+    sorted
 }
 
 /// Σ k A (low − g)₊, its slope, and what the rounding of the overlaps may hide of it: four standard deviations of what so

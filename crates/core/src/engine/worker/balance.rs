@@ -104,7 +104,7 @@ impl<C: Communicator> Worker<C> {
         }
         if let Some(carried) = best {
             let Self { contact, weights, sums, reading, .. } = self;
-            contact.refine(weights, sums, &reading.near, bracket, &carried);
+            contact.refine(weights, sums, &mut reading.near, bracket, &carried);
         }
         Ok(())
     }
