@@ -75,7 +75,7 @@ def saved(figures: Mapping[str, Any], formats: Sequence[str] | None = None, dpi:
             # The places of all that is drawn are the same in each format. Found by savefig, they would take a drawing of their own.
             if engine := figure.get_layout_engine():
                 engine.execute(figure)
-                figure.set_layout_engine("none")
+                figure.set_layout_engine(None)
             for form in formats or FORMATS:
                 with io.BytesIO() as file:
                     figure.savefig(file, format=form, dpi=figure.dpi, **FORMATS[form])
