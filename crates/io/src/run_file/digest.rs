@@ -92,8 +92,8 @@ pub(super) fn of_floats(values: &[f64]) -> String {
 /// Takes floating-point values as they lie in memory, the least byte first.
 fn update(hasher: &mut Sha256, values: &[f64]) {
     for values in values.chunks(512) {
-        let bytes: Vec<u8> = values.iter().flat_map(|value| value.to_le_bytes()).collect();
-        hasher.update(bytes);
+        let bytes: Vec<_> = values.iter().map(|value| value.to_le_bytes()).collect();
+        hasher.update(bytes.as_flattened());
     }
 }
 
