@@ -26,12 +26,14 @@ provide_mpi() {
 }
 
 # Builds the program with feature mpi as $target/plateau-mpi. The one in the usual place, which others may run meanwhile, is there again
-# afterwards. To be called with PLATEAU_FEATURES=mpi and after paths.sh.
+# afterwards. Called with PLATEAU_FEATURES=mpi and after paths.sh.
 build_with_mpi() {
     for file in "$program" "$stamp"; do
         [ ! -f "$file" ] || ln -f "$file" "$file.before" || return 1
     done
     sh scripts/build.sh || return 1
+    # cargo may have put there the very file that this one is.
+    rm -f "$target/plateau-mpi"
     mv -f "$program" "$target/plateau-mpi" && mv -f "$stamp" "$target/plateau-mpi.stamp" || return 1
     for file in "$program" "$stamp"; do
         [ ! -f "$file.before" ] || mv -f "$file.before" "$file" || return 1

@@ -33,7 +33,7 @@ ranks_end() {
 output=$(mktemp) || exit 1
 trap 'rm -f "$output"' EXIT
 
-build_with_mpi || exit 1
+need_program_with_mpi || exit 1
 prepare_toolchain
 cargo clippy --release --locked -p plateau-core -p plateau-run -p plateau --lib --bins --test mpi --target-dir "$target" --features mpi \
     -- -D warnings || exit 1
@@ -47,6 +47,6 @@ ranks_end 3 fail-alike
 [ "$(grep -c 'all ranks failed on purpose' "$output")" -eq 1 ] ||
     { cat "$output" && echo 'what failed all ranks was not said once' && exit 1; }
 
-# One test at a time: every one of them starts several processes that wait for each other. Should they wait for ever, it fails.
+# Two tests at a time, for most of their time is that in which ranks start. Should they wait for each other for ever, it fails.
 PLATEAU_PROGRAM=$target/plateau-mpi PLATEAU_MPIRUN=$mpirun timeout 1800 cargo test --release --locked --workspace --test end_to_end \
-    --target-dir "$target" -- --ignored --test-threads 1 ranks::
+    --target-dir "$target" -- --ignored --test-threads 2 ranks::
