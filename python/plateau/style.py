@@ -69,7 +69,8 @@ def saved(figures: Mapping[str, Any], formats: Sequence[str] | None = None, dpi:
     import matplotlib
 
     files = {}
-    with matplotlib.rc_context(_look()):
+    # Without a layout of the user's, which would take the place of the one that is found here.
+    with matplotlib.rc_context(_look() | {"figure.autolayout": False, "figure.constrained_layout.use": False}):
         for name, figure in figures.items():
             figure.dpi = dpi or matplotlib.rcParams["savefig.dpi"]
             # The places of all that is drawn are the same in each format. Found by savefig, they would take a drawing of their own.

@@ -6,6 +6,7 @@ import unittest.mock
 import warnings
 
 import h5py
+import matplotlib
 import numpy as np
 import xarray
 from package_scenes import SHORT, InFolder
@@ -319,6 +320,15 @@ class Curves(InFolder):
                 inside = np.mean(np.abs(heights - middle[index]) < width / 2)
                 self.assertAlmostEqual(percent[index] * width / 100, inside, delta=0.002)
         self.assertEqual((pin.get_ylabel(), pin.get_xlabel()), ("pin: height toward the disc, µm", "cells, % per µm"))
+
+    def test_a_layout_that_is_set_moves_nothing(self):
+        def files():
+            return saved({"friction": plateau.plot("drive.h5", "friction")})
+
+        expected = files()
+        for setting in ("figure.autolayout", "figure.constrained_layout.use"):
+            with matplotlib.rc_context({setting: True}):
+                self.assertTrue(files() == expected, setting)
 
     def test_calls(self):
         run = plateau.open_run("drive.h5")

@@ -97,7 +97,8 @@ impl Contact {
         self.statuses.is_some()
     }
 
-    /// Solves Σ k A (δ − g)₊ = F_N where δ lies within the bracket that the sums and the list of near pairs are of.
+    /// Solves Σ k A (δ − g)₊ = F_N where δ lies within the bracket that the sums and the list of near pairs are of. The near pairs that
+    /// touch then come first.
     ///
     /// # Errors
     /// [`ContactError`] when the numbers leave the range of the engine or rounding leaves no overlap.
@@ -127,7 +128,7 @@ impl Contact {
         let mut bound = if low_slope > 0.0 { solution(low, low_load, low_slope) } else { f64::INFINITY };
         let (displacement, load) = loop {
             let (mut at, mut load, mut slope) = (low, low_load, low_slope);
-            for pair in &*sorted_up_to(bound, near) {
+            for pair in sorted_up_to(bound, near) {
                 if slope > 0.0 && solution(at, load, slope) <= pair.gap {
                     break;
                 }
@@ -330,7 +331,7 @@ impl Contact {
 }
 
 /// Brings pairs with gaps up to a bound, m, to the front, and sorts these alone, in an order that does not depend on who read what.
-fn sorted_up_to(bound: f64, near: &mut [NearPair]) -> &mut [NearPair] {
+fn sorted_up_to(bound: f64, near: &mut [NearPair]) -> &[NearPair] {
     let mut count = 0;
     for place in 0..near.len() {
         if near[place].gap <= bound {
