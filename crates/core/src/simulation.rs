@@ -7,13 +7,9 @@ mod workers;
 
 use std::sync::Arc;
 
-#[cfg(feature = "mpi")]
-use crate::engine::comm::Communicator as _;
+use crate::engine::comm::Communicator;
 pub use crate::engine::comm::Exchange;
-#[cfg(feature = "mpi")]
-use crate::engine::comm::mpi::Mpi;
 pub use crate::engine::execution::{Decomposition, Engine, Execution};
-#[cfg(feature = "mpi")]
 use crate::engine::parts::Needs;
 use crate::model::accounts::{AccountsReport, Resting};
 use crate::model::clock::{Clock, Operation};
@@ -103,20 +99,19 @@ impl Simulation {
         Ok(Self::of(parameters, pin_base, execution, workers, reference_height))
     }
 
-    /// The same as [`Simulation::new`] on the ranks of an MPI job, of which this process is one (feature `mpi`),
-    /// carried out in a certain way: `workers` are the ranks.
+    /// The same as [`Simulation::new`] on the ranks of a job, of which this process is one, carried out in a certain way:
+    /// `workers` are the ranks.
     ///
     /// All ranks must make the same calls in the same order, and get the same answers. Where there are more ranks than
     /// sectors, the last ones have no cells and only keep pace.
     ///
     /// # Errors
     /// [`SimulationError`] as [`Simulation::new`]; [`SimulationError::PlainOnRanks`] where debris is pooled.
-    #[cfg(feature = "mpi")]
     pub fn on_ranks(
         parameters: Parameters,
         surfaces: InitialSurfaces,
         execution: Execution,
-        communicator: Mpi,
+        communicator: Box<dyn Communicator>,
     ) -> Result<Self, SimulationError> {
         check(&parameters.mesh, &surfaces)?;
         if Needs::of(&parameters).pools {
@@ -124,7 +119,7 @@ impl Simulation {
         }
         let parameters = Arc::new(parameters);
         let execution = Execution { engine: Engine::Fast, workers: communicator.size(), ..execution };
-        let workers = Workers::on_ranks(&parameters, &surfaces, execution, communicator);
+        let workers = Workers::one(&parameters, &surfaces, execution, 0, communicator);
         let reference_height = surfaces.reference_height();
         Ok(Self::of(parameters, surfaces.pin_base, execution, workers, reference_height))
     }

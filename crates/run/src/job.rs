@@ -3,6 +3,8 @@
 //! a process.
 
 #[cfg(feature = "mpi")]
+pub mod mpi;
+#[cfg(feature = "mpi")]
 mod ranks;
 
 use std::collections::VecDeque;

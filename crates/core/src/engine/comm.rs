@@ -1,9 +1,8 @@
 //! What the workers of one simulation tell each other.
 
-#[cfg(feature = "mpi")]
-pub mod mpi;
 pub(crate) mod threads;
 
+use std::fmt::Debug;
 use std::time::Duration;
 
 use thiserror::Error;
@@ -16,10 +15,9 @@ use crate::model::error::SimulationError;
 pub enum CommError {
     #[error("worker {worker} failed: {message}")]
     Worker { worker: usize, message: String },
-    /// MPI.
-    #[cfg(feature = "mpi")]
-    #[error(transparent)]
-    Mpi(#[from] mpi::MpiError),
+    /// What the workers talk through.
+    #[error("{message}")]
+    Means { message: String },
 }
 
 impl From<CommError> for SimulationError {
@@ -41,7 +39,7 @@ pub struct Exchange {
 ///
 /// All workers take the same steps and call [`Communicator::all_gather`] equally often; so nobody is more than one
 /// call ahead.
-pub trait Communicator {
+pub trait Communicator: Debug + Send {
     /// Which of the workers this one is.
     fn rank(&self) -> usize;
 

@@ -54,7 +54,7 @@ pub enum Decomposition {
 pub struct Execution {
     /// What takes the steps.
     pub engine: Engine,
-    /// Workers that share the ring, at least 1: threads or, with feature `mpi`, ranks.
+    /// Workers that share the ring, at least 1: threads or ranks of a job.
     pub workers: usize,
     /// Instruction set of the kernels.
     pub instructions: InstructionSet,

@@ -44,8 +44,8 @@ pub(crate) struct EngineMemory {
 }
 
 #[derive(Debug)]
-pub(crate) struct Worker<C> {
-    communicator: C,
+pub(crate) struct Worker<C: ?Sized> {
+    communicator: Box<C>,
     parameters: Arc<Parameters>,
     partition: Arc<Partition>,
     instructions: InstructionSet,
@@ -102,7 +102,7 @@ pub(crate) struct Worker<C> {
     rows: Range<usize>,
 }
 
-impl<C: Communicator> Worker<C> {
+impl<C: Communicator + ?Sized> Worker<C> {
     /// One worker of those that `communicator` connects, at t = 0, over a disc turned by `turned` columns.
     pub fn new(
         parameters: Arc<Parameters>,
@@ -110,7 +110,7 @@ impl<C: Communicator> Worker<C> {
         partition: Arc<Partition>,
         execution: Execution,
         turned: u64,
-        communicator: C,
+        communicator: Box<C>,
     ) -> Self {
         let mesh = &parameters.mesh;
         let needs = Needs::of(&parameters);

@@ -60,10 +60,7 @@ impl WorkerThreads {
     ///
     /// # Errors
     /// What the system says when it gives no more threads.
-    pub fn start<C: Communicator + Send + 'static>(
-        workers: Vec<(Worker<C>, Alarm)>,
-        pin: bool,
-    ) -> std::io::Result<Self> {
+    pub fn start<C: Communicator + 'static>(workers: Vec<(Worker<C>, Alarm)>, pin: bool) -> std::io::Result<Self> {
         let cores = if pin { core_affinity::get_core_ids().unwrap_or_default() } else { Vec::new() };
         let (answer, answers) = unbounded();
         let (orders, threads) = (Vec::new(), Vec::new());

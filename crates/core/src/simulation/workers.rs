@@ -4,10 +4,8 @@ use std::sync::Arc;
 
 use super::checkpoint::Checkpoint;
 use super::plain::Plain;
-#[cfg(feature = "mpi")]
-use crate::engine::comm::mpi::Mpi;
 use crate::engine::comm::threads::Threads;
-use crate::engine::comm::{Exchange, Single};
+use crate::engine::comm::{Communicator, Exchange, Single};
 use crate::engine::execution::{Engine, Execution};
 use crate::engine::parts::Needs;
 use crate::engine::sector::Partition;
@@ -24,13 +22,10 @@ use crate::observe::{Map, Sample, Snapshot};
 /// Who takes the steps.
 #[derive(Debug)]
 pub(super) enum Workers {
-    /// This thread.
-    One(Box<Worker<Single>>),
+    /// This thread, alone or, each for itself, with the other processes of a job.
+    One(Box<Worker<dyn Communicator>>),
     /// Threads of their own.
     Threads(Box<WorkerThreads>),
-    /// This thread and, each for itself, the other ranks of an MPI job.
-    #[cfg(feature = "mpi")]
-    Rank(Box<Worker<Mpi>>),
     /// This thread, with the plain model.
     Plain(Box<Plain>),
 }
@@ -41,8 +36,6 @@ macro_rules! call {
         match $workers {
             Self::One($worker) => $call,
             Self::Threads($worker) => $call,
-            #[cfg(feature = "mpi")]
-            Self::Rank($worker) => $call,
             Self::Plain($worker) => $call,
         }
     };
@@ -65,15 +58,14 @@ impl Workers {
         if execution.engine == Engine::Plain {
             return Ok(Self::Plain(Box::new(Plain::new(parameters.clone(), surfaces, turned))));
         }
-        let partition = partition(parameters, execution);
         if execution.workers == 1 {
-            let worker = Worker::new(parameters.clone(), &surfaces, partition, execution, turned, Single);
-            return Ok(Self::One(Box::new(worker)));
+            return Ok(Self::one(parameters, &surfaces, execution, turned, Box::new(Single)));
         }
+        let partition = partition(parameters, execution);
         let halo_words = halo_words(parameters.mesh.rows(), Needs::of(parameters));
         let worker = |end: Threads| {
             let alarm = end.alarm();
-            (Worker::new(parameters.clone(), &surfaces, partition.clone(), execution, turned, end), alarm)
+            (Worker::new(parameters.clone(), &surfaces, partition.clone(), execution, turned, Box::new(end)), alarm)
         };
         let workers =
             Threads::connect(execution.workers, partition.messages(), halo_words).into_iter().map(worker).collect();
@@ -83,16 +75,16 @@ impl Workers {
         Ok(Self::Threads(Box::new(threads)))
     }
 
-    /// This rank of an MPI job.
-    #[cfg(feature = "mpi")]
-    pub fn on_ranks(
+    /// This thread as one of the workers that `communicator` connects.
+    pub fn one(
         parameters: &Arc<Parameters>,
         surfaces: &InitialSurfaces,
         execution: Execution,
-        communicator: Mpi,
+        turned: u64,
+        communicator: Box<dyn Communicator>,
     ) -> Self {
         let partition = partition(parameters, execution);
-        Self::Rank(Box::new(Worker::new(parameters.clone(), surfaces, partition, execution, 0, communicator)))
+        Self::One(Box::new(Worker::new(parameters.clone(), surfaces, partition, execution, turned, communicator)))
     }
 
     /// Takes steps until `step` of them are done; the last may be watched, for a sample or maps of pressure to follow.
@@ -115,8 +107,6 @@ impl Workers {
         let (memory, engine) = match self {
             Self::One(worker) => worker.memory(),
             Self::Threads(threads) => threads.memory()?,
-            #[cfg(feature = "mpi")]
-            Self::Rank(worker) => worker.memory(),
             Self::Plain(plain) => return Ok((plain.memory(), None)),
         };
         Ok((memory, Some(engine)))
@@ -137,8 +127,6 @@ impl Workers {
         match (self, engine) {
             (Self::One(worker), Some(engine)) => worker.restore(heights, memory, engine),
             (Self::Threads(threads), Some(engine)) => threads.restore(heights, memory, engine),
-            #[cfg(feature = "mpi")]
-            (Self::Rank(worker), Some(engine)) => worker.restore(heights, memory, engine),
             (Self::Plain(plain), None) => {
                 plain.restore(heights, memory);
                 Ok(())

@@ -3,13 +3,13 @@
 use std::thread;
 use std::time::Duration;
 
-use plateau_core::engine::comm::mpi::{Mpi, Session};
 use plateau_core::engine::comm::{CommError, Communicator as _};
 use plateau_core::model::parameters::Parameters;
 use plateau_core::model::state::InitialSurfaces;
 use plateau_core::simulation::{Execution, Simulation, SimulationError};
 
 use crate::error::{InputError, RunError, RunFailure};
+use crate::job::mpi::{Mpi, Session};
 use crate::job::{Agreement, PieceEnd, WorkQueue};
 
 /// Between two looks for ranks that want work.
@@ -51,7 +51,7 @@ impl Job {
         if self.ranks() == 1 {
             return Simulation::with_execution(parameters, surfaces, execution);
         }
-        Simulation::on_ranks(parameters, surfaces, execution, self.session.communicator())
+        Simulation::on_ranks(parameters, surfaces, execution, Box::new(self.session.communicator()))
     }
 
     /// Agrees with all ranks: they stop and save if any was asked to, and take as many steps as the first, for clocks

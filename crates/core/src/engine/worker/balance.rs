@@ -23,7 +23,7 @@ const FINER: f64 = 16.0;
 /// Bits of the load below which what cells carry is cut off where it is added up.
 const LOAD_BITS: i32 = 64;
 
-impl<C: Communicator> Worker<C> {
+impl<C: Communicator + ?Sized> Worker<C> {
     /// Finds the displacement that carries the load: nearly always the last pass has read all that this needs. Returns a
     /// bound of the overlaps at it, m.
     pub(super) fn balance(&mut self) -> Result<f64, SimulationError> {

@@ -23,7 +23,7 @@ pub(crate) fn waiting_columns(transport: Option<usize>) -> usize {
     2 * transport.unwrap_or(1) - 1
 }
 
-impl<C: Communicator> Worker<C> {
+impl<C: Communicator + ?Sized> Worker<C> {
     /// Wear and formation in every own column (model 4.2 and 4L), and the pairs of the next step against where its
     /// displacement is expected: the bracket that is returned.
     pub(super) fn pass_over_columns(&mut self) -> Result<Bracket, SimulationError> {

@@ -14,7 +14,7 @@ use crate::model::material::Status;
 use crate::model::state::{reported_disc_status, reported_pin_status};
 use crate::observe::{Map, MapValues, Sample, Snapshot};
 
-impl<C: Communicator> Worker<C> {
+impl<C: Communicator + ?Sized> Worker<C> {
     /// The reported quantities after the last step.
     pub fn sample(&mut self) -> Result<Sample, SimulationError> {
         self.check_watched()?;

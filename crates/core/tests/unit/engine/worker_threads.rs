@@ -88,7 +88,7 @@ fn start(rank: usize, fault: Option<Fault>) -> (WorkerThreads, Arc<()>) {
         let fault = fault.filter(|_| threads.rank() == rank);
         let faulty = Faulty { threads, fault, calls: 0, _alive: alive.clone() };
         let execution = Execution { instructions: InstructionSet::PORTABLE, ..Execution::default() };
-        (Worker::new(parameters.clone(), &surfaces, partition.clone(), execution, 0, faulty), alarm)
+        (Worker::new(parameters.clone(), &surfaces, partition.clone(), execution, 0, Box::new(faulty)), alarm)
     };
     let threads = Threads::connect(WORKERS, partition.messages(), PinStrips::crossing_words(mesh.rows()));
     let workers = threads.into_iter().map(worker).collect();

@@ -15,7 +15,8 @@ use ::mpi::topology::SimpleCommunicator;
 use ::mpi::traits::{Communicator as _, CommunicatorCollectives, Destination, Equivalence, Source};
 use ::mpi::{Count, Rank, Tag};
 
-use crate::engine::comm::{CommError, Communicator};
+use plateau_core::engine::comm::{CommError, Communicator};
+use send_wrapper::SendWrapper;
 
 /// Words beyond which a message of `all_gather` goes in a second round every time: rare long messages must not make
 /// the many short ones slow.
@@ -55,7 +56,7 @@ impl Session {
             slot: 0,
             outgoing: Vec::new(),
             incoming: Vec::new(),
-            job: Rc::clone(&self.job),
+            job: SendWrapper::new(Rc::clone(&self.job)),
         }
     }
 
@@ -93,7 +94,8 @@ pub struct Mpi {
     outgoing: Vec<u64>,
     /// What a round brought, in order of rank.
     incoming: Vec<u64>,
-    job: Rc<Job>,
+    /// Only for the thread that started MPI, which is all that MPI was promised.
+    job: SendWrapper<Rc<Job>>,
 }
 
 impl Communicator for Mpi {
@@ -213,6 +215,12 @@ pub enum MpiError {
     Length { words: usize },
     #[error("rank {from} sent {found} words across boundary {boundary}, expected {expected}")]
     Halo { from: usize, boundary: usize, found: usize, expected: usize },
+}
+
+impl From<MpiError> for CommError {
+    fn from(error: MpiError) -> Self {
+        Self::Means { message: error.to_string() }
+    }
 }
 
 /// What ends with MPI; a job that is dropped before this rank is done ends all ranks.

@@ -5,7 +5,7 @@
 //! wait for it, and `fail-alike` ends all of them with the same message.
 
 use plateau_core::engine::comm::Communicator;
-use plateau_core::engine::comm::mpi::{Mpi, Session};
+use plateau_run::job::mpi::{Mpi, Session};
 
 const ROUNDS: u64 = 3000;
 /// 100 kB: far more than an MPI library sends before the receiver is ready.
