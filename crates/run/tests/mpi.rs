@@ -26,8 +26,8 @@ fn main() {
         None => {}
         Some("panic") if last => panic!("rank {} panics on purpose", ranks.rank()),
         Some("drop") if last => return,
-        Some("fail") if last => session.fail(3, || eprintln!("this rank alone failed on purpose")),
-        Some("fail-alike") => session.fail(3, || eprintln!("all ranks failed on purpose")),
+        Some("fail") if last => return session.fail(3, || eprintln!("this rank alone failed on purpose")),
+        Some("fail-alike") => return session.fail(3, || eprintln!("all ranks failed on purpose")),
         // The others wait for a message that never comes.
         Some(_) => ranks.receive_halo(0, ranks.size() - 1, &mut [0]).expect("a message"),
     }

@@ -72,13 +72,18 @@ impl Session {
     }
 
     /// Ends all ranks with this exit status after `report` said why. Rank 0 reports at once; another rank does so only
-    /// if the job still runs after some seconds: rank 0 has then not failed in the same way.
-    pub fn fail(self, status: u8, report: impl FnOnce()) -> ! {
-        if self.job.world().rank() != 0 {
+    /// if the job still runs after some seconds: rank 0 has then not failed in the same way. A single rank leaves MPI in
+    /// good order, and ends itself as it likes.
+    pub fn fail(self, status: u8, report: impl FnOnce()) {
+        let world = self.job.world();
+        if world.size() == 1 {
+            return self.finish();
+        }
+        if world.rank() != 0 {
             thread::sleep(HEAD_START);
         }
         report();
-        self.job.world().abort(status.into())
+        world.abort(status.into())
     }
 }
 

@@ -157,7 +157,7 @@ impl Job {
         self.session.finish();
     }
 
-    /// Ends all ranks with this exit status after `report` said why.
+    /// Ends all ranks with this exit status after `report` said why; a single one ends itself as it likes.
     pub fn fail(self, status: u8, report: impl FnOnce()) {
         self.session.fail(status, report)
     }
