@@ -136,7 +136,8 @@ class RunAccessor:
         Returns
         -------
         Mean
-            Value and error in the unit of the series.
+            Value and error in the unit of the series. Where the contact area pulses, and what follows it, the error is too small if the
+            part has fewer than three pulses; ``plateau check`` tells their time.
 
         Raises
         ------

@@ -109,7 +109,13 @@ class Told:
         except PlateauError as error:
             self.without = f"Running in and time acceleration are left out, the program did not tell: {str(error).splitlines()[0]}."
         self.window = run.plateau.mean("contact_area") if len(self.series) and "contact_area" in self.series else NOTHING
-        self.area = Measure("Contact area, mean ± standard error", MM2, self.window.value, self.window.error)
+        # The program knows how long a pulse takes.
+        self.has_pulses = (self.summary.get("contact_area_last_tenth") or {}).get("standard_error", math.nan) is not None
+        self.area = Measure("Contact area, mean ± standard error", MM2, self.window.value, self.known(self.window))
+
+    def known(self, mean: Mean) -> float:
+        """The standard error of a mean, NaN where the contact area has too few pulses in its last tenth."""
+        return mean.error if self.has_pulses else math.nan
 
     def of(self, name: str) -> "pandas.Series[float]":
         """A series, without values if there is none."""
@@ -164,7 +170,7 @@ class Told:
             most, values = self.setting("friction", "maximum"), self.of("friction_coefficient")
             at = float(np.isclose(values[values > 0], float(most)).mean()) if re.fullmatch(QUANTITY, most) else 0.0
             bound = f"; in {100 * at:.0f} % of the samples it is the maximum of the scene, {most}" if at > 0.005 else ""
-            yield f"The coefficient of friction is {NUMBER.text(mean.value, mean.error)}, mean {over}{bound}"
+            yield f"The coefficient of friction is {NUMBER.text(mean.value, self.known(mean))}, mean {over}{bound}"
         for name in ("disc_temperature", "contact_temperature"):
             if math.isfinite(value := self.largest(name)):
                 yield f"The largest {SERIES[name].title} is {_short(CELSIUS, value)}"
@@ -198,7 +204,7 @@ class Told:
         if self.state != "finished":
             yield f"The run is not finished: {self.told_state}. It has {counted(len(self.series), 'sample')}."
         if self.time and not math.isfinite(self.area.error):
-            yield "The contact area has no standard error: too few samples or revolutions."
+            yield "The contact area has no standard error: too few samples, revolutions or pulses."
         elif self.window.revolutions < LEAST_REVOLUTIONS * (1 - 1e-9):
             yield "The contact area is the mean of fewer than ten simulated revolutions."
         tolerance, residual = self.setting("contact", "load_tolerance"), self.largest("load_residual")
@@ -233,7 +239,7 @@ class Told:
         found += [measure(name, self.last(name)) for name in BRAKE]
         found.append(self.area)
         means = {name: self.run.plateau.mean(name) for name in MEANS if self.time and name in self.series}
-        found += [measure(name, mean.value, "", ", mean", mean.error) for name, mean in means.items()]
+        found += [measure(name, mean.value, "", ", mean", self.known(mean)) for name, mean in means.items()]
         found += [measure(name, self.last(name)) for name in ("sliding_distance", "road_distance")]
         total = sum(self.last(name) for name in ("worn_pin", "worn_resin", "worn_disc"))
         found += [Measure("Worn volume of the simulated pin and the disc", MM3, total)]

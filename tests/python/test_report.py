@@ -21,6 +21,8 @@ from plateau import command_line, figures, run_report
 from plateau.quantities import CELSIUS, MM2, NUMBER, PERCENT
 from plateau.run_report import Measure, report_page
 
+# A fifth of a second for a pulse in place of 25 s.
+PULSES = SHORT | {"materials.pin_resin.wear_height": "0.04 um"}
 HOSTILE = '<script>alert(1)</script> "$x & \u202eback'
 
 
@@ -37,8 +39,8 @@ class Report(unittest.TestCase):
         folder = tempfile.TemporaryDirectory()
         cls.addClassCleanup(folder.cleanup)
         cls.made = pathlib.Path(folder.name)
-        plateau.run(QUICK, cls.made / "quick.h5", set=SHORT)
-        plateau.run(QUICK, cls.made / "heavy.h5", set={**SHORT, "operation.normal_force": "10 N"}).close()
+        plateau.run(QUICK, cls.made / "quick.h5", set=PULSES)
+        plateau.run(QUICK, cls.made / "heavy.h5", set={**PULSES, "operation.normal_force": "10 N"}).close()
         with h5py.File(cls.made / "heavy.h5", "r+") as file:
             file.attrs["title"] = HOSTILE
         plateau.run(QUICK.with_name("stops.toml"), cls.made / "stops.h5")
@@ -90,6 +92,13 @@ class Report(unittest.TestCase):
             self.assertEqual(rows(page)[1], five)
             self.assertIn(html.escape(file.attrs["scene"]), page)
             self.assertIn(html.escape(file.attrs["inputs"].split('"sha256":"')[1][:64]), page)
+
+    def test_a_mean_over_less_than_three_pulses_has_no_error(self):
+        plateau.run(QUICK, self.made / "slow.h5", set=SHORT).close()
+        page = self.page("slow")
+        told = {row[0]: row[1] for row in rows(page, "<h2>Numbers") if len(row) == 2}
+        self.assertRegex(told["Contact area, mean ± standard error"], r"^[\d.]+ mm²$")
+        self.assertIn("The contact area has no standard error: too few samples, revolutions or pulses.", page)
 
     def test_events_are_in_tables_that_fit(self):
         page = self.page("stops")

@@ -4,8 +4,8 @@
 use std::path::Path;
 
 use plateau_core::acceleration::Chosen;
-use plateau_core::observe::running_in::{Drift, LEAST_PULSES, NotDefined, RUN_IN, Trend};
-use plateau_core::observe::window_mean::WindowMean;
+use plateau_core::observe::running_in::{Drift, NotDefined, RUN_IN, Trend};
+use plateau_core::observe::window_mean::{LEAST_PULSES, WindowMean};
 use plateau_io::number;
 use plateau_io::run_file::{NoDrift, RunFile, State};
 use plateau_run::RunSummary;
@@ -273,7 +273,11 @@ fn contact_area(window: &WindowMean) -> String {
         _ => format!("mean of the last {width} s"),
     };
     let contact = in_contact(window);
-    let error = if window.standard_error.is_some() { ", ± standard error" } else { ", too few samples for an error" };
+    let error = if window.standard_error.is_some() {
+        ", ± standard error"
+    } else {
+        ", too few samples or pulses for an error"
+    };
     format!("{mean} mm² ({over}{contact}{error})")
 }
 

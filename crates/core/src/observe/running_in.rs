@@ -7,7 +7,7 @@ use thiserror::Error;
 
 use crate::model::parameters::Parameters;
 use crate::model::state::Base;
-use crate::observe::window_mean::{Cumulative, LEAST_PARTS, ROUNDING, WindowMean, error_of_mean};
+use crate::observe::window_mean::{Cumulative, LEAST_PARTS, LEAST_PULSES, ROUNDING, WindowMean, error_of_mean};
 use crate::surface::fibre_fraction;
 
 /// Windows of a run, at most: each is a sixtieth of it, 50 s of the 3000 s of the paper.
@@ -135,9 +135,6 @@ const OF_INTEREST: f64 = 0.5;
 /// What is missing where nothing else is asked: at the fraction of the running-in time of a summary. So 1 % is negligible and 5 % is of
 /// interest.
 const MISSING: f64 = 1.0 - RUN_IN;
-/// Pulses in a quarter of a run from which on two quarters can be compared: with one or less the change is that of a pulse, and no
-/// standard error tells that.
-pub const LEAST_PULSES: f64 = 3.0;
 
 /// The last quarter of a run beside the one before it.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]

@@ -13,6 +13,9 @@ pub const LEAST_REVOLUTIONS: f64 = 10.0;
 /// Parts of a window from which a standard error is told, at least: that of n independent values is itself off by a part of
 /// 1/√(2(n−1)), a third here.
 pub const LEAST_PARTS: usize = 5;
+/// Pulses of the contact area in a window from which on its mean has a standard error, and can be compared with another: what varies
+/// within a pulse does not tell how means over fewer would.
+pub const LEAST_PULSES: f64 = 3.0;
 /// Rounding of counts of revolutions.
 pub(super) const ROUNDING: f64 = 1e-9;
 
@@ -41,11 +44,19 @@ pub struct WindowMean {
     pub contact_time: Option<f64>,
     /// The mean, exactly: difference of the integral over the time.
     pub mean: f64,
-    /// Standard error of the mean: see [`standard_error`]. None with fewer than five parts: see [`Cumulative::mean`].
+    /// Standard error of the mean: see [`standard_error`]. None with fewer than five parts, see [`Cumulative::mean`],
+    /// or three pulses, see [`WindowMean::of_pulses`].
     pub standard_error: Option<f64>,
 }
 
 impl WindowMean {
+    /// The same where the contact area pulses in this time, s, or longer, if that is known: without a standard error if it has too few
+    /// pulses.
+    pub fn of_pulses(self, pulse_time: Option<f64>) -> Self {
+        let has_enough = pulse_time.is_none_or(|time| self.to - self.from >= LEAST_PULSES * time * (1.0 - ROUNDING));
+        Self { standard_error: self.standard_error.filter(|_| has_enough), ..self }
+    }
+
     /// Whether there are as many revolutions in it as a mean needs; so if they are not known.
     pub fn is_long(&self) -> bool {
         self.revolutions.is_none_or(|revolutions| revolutions > LEAST_REVOLUTIONS * (1.0 - ROUNDING))

@@ -1,6 +1,6 @@
 //! Means over the end of a run and their standard errors.
 
-use plateau_core::observe::window_mean::{Cumulative, last_tenth, standard_error};
+use plateau_core::observe::window_mean::{Cumulative, WindowMean, last_tenth, standard_error};
 
 use crate::scenes::Stream;
 
@@ -96,6 +96,16 @@ fn a_mean_in_contact_leaves_out_the_time_in_which_the_pin_is_lifted() {
     assert_eq!(mean(2.0, 8.0).map(|mean| (mean.mean, mean.contact_time)), Some((3.0, None)));
     assert_eq!(mean(12.0, 28.0), None);
     assert_eq!(run.mean_in_contact(&[], 0.0, 50.0), None);
+}
+
+#[test]
+fn a_mean_over_less_than_three_pulses_has_no_error() {
+    let time: Vec<f64> = (1..=30).map(f64::from).collect();
+    let integral: Vec<f64> = time.iter().map(|time| time + time.sin()).collect();
+    let mean = Cumulative { time: &time, integral: &integral, revolutions: &[] }.mean(0.0, 30.0).unwrap();
+    assert!(mean.standard_error.is_some());
+    assert_eq!([None, Some(10.0)].map(|pulse_time| mean.of_pulses(pulse_time)), [mean; 2]);
+    assert_eq!(mean.of_pulses(Some(10.1)), WindowMean { standard_error: None, ..mean });
 }
 
 #[test]

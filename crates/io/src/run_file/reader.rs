@@ -508,7 +508,7 @@ impl RunFile {
             None => {
                 let pulse_time = self.pulse_time();
                 ContactArea {
-                    last_tenth: window.and_then(|(from, to)| samples.mean(from, to)),
+                    last_tenth: window.and_then(|(from, to)| Some(samples.mean(from, to)?.of_pulses(pulse_time))),
                     drift: Drift::of(&samples, pulse_time).ok_or(NoDrift::TooShort),
                     running_in: time_to(RUN_IN, &samples, pulse_time),
                 }

@@ -167,7 +167,7 @@ impl Response {
         let samples = Cumulative { time: run.time(), integral: self.integral(run)?, revolutions: revolutions(run) };
         match run.values(CONTACT_TIME) {
             Some(contact_time) => samples.mean_in_contact(contact_time, from, to),
-            None => samples.mean(from, to),
+            None => Some(samples.mean(from, to)?.of_pulses(run.pulse_time())),
         }
     }
 
