@@ -173,6 +173,15 @@ class Scenes(unittest.TestCase):
             self.assertTrue(any("running-in time has a value in 0 of 3" in caution for caution in found.cautions))
             self.assertEqual(found.table["cautions"].str.contains("running-in time has a value in 0 of 3").sum(), 1)
 
+    def test_scenes_of_other_cells_and_accelerations_are_not_alike(self):
+        with tempfile.TemporaryDirectory() as name, warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            coarse = pathlib.Path(name) / "coarse.toml"
+            coarse.write_text(f'version = 1\nextends = {json.dumps(str(QUICK))}\n[mesh]\nrows = 10\n[numerics]\ntime_acceleration = 10\n')
+            found = compare([QUICK, coarse], 2, set={"operation.duration": "1 s"}, output=pathlib.Path(name) / "out")
+            for said in ("rows of different height (quick 50 µm, coarse 100 µm)", "different time accelerations (20.0, 10.0)"):
+                self.assertTrue(any(said in caution for caution in found.cautions), found.cautions)
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -121,14 +121,19 @@ class Seeds(unittest.TestCase):
     def test_three_levels_are_tested_as_repeated_measures(self) -> None:
         from statsmodels.stats import anova
 
-        random = np.random.default_rng(2)
-        runs = pandas.DataFrame([(level, seed) for level in ("a", "b", "c") for seed in range(1, 6)], columns=["pad", "replicate"])
-        runs["y"] = random.normal(size=15) + (runs["pad"] == "b") * 2.0
-        row = effects(study_of([word("pad", "a", "b", "c")], runs)).table.set_index("term").loc["pad"]
-        expected = anova.AnovaRM(runs, "y", "replicate", within=["pad"]).fit().anova_table.iloc[0]
-        self.assertAlmostEqual(row["f"], expected["F Value"], places=9)
-        self.assertAlmostEqual(row["error_freedom"], expected["Den DF"], places=9)
-        self.assertAlmostEqual(row["p"], expected["Pr > F"], places=9)
+        # In the second the levels differ unlike: degrees of freedom are those of Greenhouse and Geisser, by the covariance of the levels.
+        for begin, is_alike in ((1, True), (2, False)):
+            random = np.random.default_rng(begin)
+            runs = pandas.DataFrame([(level, seed) for level in ("a", "b", "c") for seed in range(1, 6)], columns=["pad", "replicate"])
+            runs["y"] = random.normal(size=15) + (runs["pad"] == "b") * 2.0
+            row = effects(study_of([word("pad", "a", "b", "c")], runs)).table.set_index("term").loc["pad"]
+            expected = anova.AnovaRM(runs, "y", "replicate", within=["pad"]).fit().anova_table.iloc[0]
+            middle = np.eye(3) - 1.0 / 3.0
+            covariance = middle @ np.cov(runs["y"].to_numpy().reshape(3, 5)) @ middle
+            part = 1.0 if is_alike else np.trace(covariance) ** 2 / (2.0 * np.square(covariance).sum())
+            self.assertAlmostEqual(row["f"], expected["F Value"], places=9)
+            self.assertAlmostEqual(row["error_freedom"], part * expected["Den DF"], places=9)
+            self.assertAlmostEqual(row["p"], stats.f.sf(row["f"], 2.0 * part, 8.0 * part), places=9)
 
     def test_intervals_hold_the_mean_over_all_seeds(self) -> None:
         for missing in (0.0, 0.1):
@@ -295,11 +300,16 @@ class Model(unittest.TestCase):
         runs["y"] = np.exp(runs["A"]) + runs["B"] + random.normal(size=24)
         factors = [span("A"), span("B")]
         fit = fitted(study := study_of(factors, runs, "latin-hypercube"), study.responses[0], "quadratic")
+        missed = 0.0
         for point in range(12):
             own = (fit.runs["point"] == point).to_numpy()
             x = fit.matrix(fit.runs)
             without = np.linalg.lstsq(x[~own], fit.values[~own], rcond=None)[0]
             self.assertAlmostEqual(fit.loo[point], fit.values[own].mean() - (x[own] @ without).mean(), places=9)
+            missed += np.square(fit.values[own] - x[own] @ without).sum()
+        self.assertAlmostEqual(fit.press, missed, places=9)
+        # What cancels out of the mean of a point is missed all the same.
+        self.assertGreater(fit.press, 2 * np.square(fit.loo).sum())
 
     def test_forecasts_hold_what_the_model_misses(self) -> None:
         # A smooth function without noise: what is missed is all there is, and the residual alone knows little of it.
@@ -327,6 +337,19 @@ class Model(unittest.TestCase):
 
 
 class Levels(unittest.TestCase):
+    def test_levels_that_scatter_unlike_have_errors_of_their_own(self) -> None:
+        # Of Games and Howell: each pair has the error and the degrees of freedom of its differences between sets of seeds.
+        random = np.random.default_rng(3)
+        y = random.normal(size=(3, 6)) * [[0.1], [0.1], [3.0]]
+        runs = pandas.DataFrame([(pad, seed) for pad in "abc" for seed in range(1, 7)], columns=["pad", "replicate"]).assign(y=y.ravel())
+        for row in levels(study_of([word("pad", *"abc")], runs)).table.to_dict("records"):
+            apart = y["abc".index(row["level"])] - y["abc".index(row["other"])]
+            error = apart.std(ddof=1) / 6**0.5
+            self.assertAlmostEqual(row["standard_error"], error, places=12)
+            self.assertAlmostEqual(row["freedom"], 5.0, places=9)
+            self.assertAlmostEqual(row["p"], stats.studentized_range.sf(2**0.5 * abs(apart.mean()) / error, 3, 5), places=5)
+            self.assertAlmostEqual(row["high"] - row["difference"], error * stats.studentized_range.isf(0.05, 3, 5) / 2**0.5, places=4)
+
     def test_tukey_is_that_of_scipy(self) -> None:
         # The example of scipy.stats.tukey_hsd, from the documentation of SAS: minutes until headaches end.
         groups = [[24.5, 23.5, 26.4, 27.1, 29.9], [28.4, 34.2, 29.5, 32.2, 30.1], [26.1, 28.3, 24.3, 26.2, 27.8]]

@@ -239,6 +239,18 @@ class SensitivityTest(unittest.TestCase):
         smooth = sensitivity(forecasts.study_of(x, x[:, 0] + 0.5 * x[:, 1]))
         self.assertNotIn("threshold", smooth.text())
 
+    def test_what_an_effect_differs_by_between_seeds_is_in_the_interval(self):
+        # Without noise: slopes of 0.7, 1 and 1.3 have the mean 1 +- 4.303 * 0.3 / sqrt(3); the index of a slope b beside one of 1 is b^2 / (b^2 + 1).
+        x = np.repeat([[-1.0, -1.0], [1.0, -1.0], [-1.0, 1.0], [1.0, 1.0], [0.0, 0.0]], 3, axis=0)
+        group = np.tile([0, 1, 2], 5)
+        study = forecasts.study_of(x, np.array([0.7, 1.0, 1.3])[group] * x[:, 0] + x[:, 1], group, "csv")
+        row = sensitivity(study, 0.95).table.iloc[0]
+        ends = 1.0 + np.array([-1.0, 1.0]) * stats.t.ppf(0.975, 2) * 0.3 / 3**0.5
+        expected = ends**2 / (ends**2 + 1.0)
+        # The ends are quantiles of a hundred functions.
+        self.assertLess(abs(row["first_order_low"] - expected[0]), 0.1)
+        self.assertLess(abs(row["first_order_high"] - expected[1]), 0.1)
+
     def test_seeds_have_a_part(self):
         # The function has a variance of 1/3, chance 0.25: seeds have 0.43 of the variance of a run.
         random = np.random.default_rng(6)

@@ -168,8 +168,8 @@ def _correlation(axis: Any, surface: Surface, scale: Scale) -> None:
 
 
 def _reliefs(page: list[tuple[Surface, Scale]]) -> Any:
-    rows = -(-len(page) // 2)
-    figure, axes = new(WIDE, 62 * rows, "Surfaces in perspective.", rows, 2, subplot_kw={"projection": "3d"})
+    columns, rows = min(len(page), 2), -(-len(page) // 2)
+    figure, axes = new(0.5 * WIDE * columns, 62 * rows, "Surfaces in perspective.", rows, columns, subplot_kw={"projection": "3d"})
     for axis in axes.flat[len(page) :]:
         axis.remove()
     for axis, (surface, scale) in zip(axes.flat, page, strict=False):

@@ -155,7 +155,8 @@ def usable(study: Study) -> Study:
 
 def together(study: Study) -> list[str]:
     """Pairs of factors that change together in all runs: a sentence each."""
-    places = {one.name: study.runs[one.name] if one.is_number else pandas.factorize(study.runs[one.name])[0] for one in study.factors}
+    varied = [(one, values) for one in study.factors if (values := study.runs[one.name]).nunique() > 1]
+    places = {one.name: one.coded(values.to_numpy()) if one.is_number else pandas.factorize(values)[0] for one, values in varied}
     alike = pandas.DataFrame(places).corr().abs() > 0.999
     said = "{} and {} change together in all runs: what one of them does cannot be told from what the other does"
     return [said.format(*pair) for pair in itertools.combinations(places, 2) if alike.loc[pair]]
@@ -172,7 +173,8 @@ def _effects(study: Study, response: Response, model: str | None, confidence: fl
     def listed(rows: pandas.DataFrame, column: str) -> str:
         return ", ".join(f"{row['term']} {row[column]:.2g}" for row in rows.to_dict("records"))
 
-    if len(varied := table[(table["seed_ratio"] > 1.0) & (table["seed_p"] < 1.0 - confidence)]):
+    # Of many terms one has such a ratio by chance (Bonferroni).
+    if len(varied := table[(table["seed_ratio"] > 1.0) & (table["seed_p"] < (1.0 - confidence) / max(table["seed_p"].count(), 1))]):
         said = f"seeds x factor exceeds the residual (ratio of mean squares): {listed(varied, 'seed_ratio')}; these effects differ between "
         said_of_fit.append(said + "sets of seeds, and intervals tell of the mean over all seeds")
         warnings.warn(f"{response.name}: {said_of_fit[-1]}", PlateauWarning, stacklevel=4)

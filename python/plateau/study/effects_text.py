@@ -25,6 +25,7 @@ def told(one: ResponseEffects) -> tuple[list[str], list[list[str]], list[str]]:
     scale, symbol = unit.per_si, f" {unit.symbol}".rstrip()
     lines = [one.response.name, f"model: {MODELS[fit.model]}" + (f"; {fit.reason}" if fit.reason else "")]
     names = {"R²": "r_squared", "adjusted R²": "adjusted_r_squared", "predicted R²": "predicted_r_squared"}
+    names["of points left out"] = "predicted_r_squared_of_points"
     quality = [f"{name} {summary[key]:.4f}" for name, key in names.items() if np.isfinite(summary[key])]
     missed, _, _, p = fit.lack_of_fit
     why = "nothing tells its error" if missed.freedom > 0 else "nothing is left for it"

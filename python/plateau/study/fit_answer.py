@@ -210,6 +210,8 @@ class Fit(Answer):
             said.append(f"No values within these ranges give all that was measured: {test}. [fit] discrepancy lets the model be off.")
         if self.study.seeds < 2 and outcome.ended != "no runs":
             said.append("With one set of surfaces intervals may be too short; [replicates] with several tells what differs between them.")
+        elif self.study.seeds == 2 and outcome.ended != "no runs":
+            said.append("Two sets of seeds hardly tell what differs between sets, so intervals may be too short: take three or more.")
         for at, one in enumerate(measured):
             name, terms, uncertainty = one.response.name, self._terms.loc[[at]], 1.0 if one.is_series else one.uncertainties[0]
             if terms["seed_to_seed"].max() > uncertainty:

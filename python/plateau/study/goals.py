@@ -15,7 +15,7 @@ import pandas
 from scipy import optimize, stats
 
 from plateau.errors import InputError
-from plateau.study.data import Factor, Numbers, Study
+from plateau.study.data import Factor, Numbers, Response, Study
 from plateau.study.model import is_same
 from plateau.study.settings import axis_of, beyond_of, ends_of, held_values, reach_of
 from plateau.study.surrogate import Surrogate, surrogates
@@ -339,7 +339,21 @@ def named(names: Sequence[str], text: str, signs: Sequence[str]) -> tuple[str, s
         sign = next((sign for sign in signs if rest.startswith(sign)), "")
         if text.strip().startswith(name) and (sign or not rest):
             return name, sign, rest.removeprefix(sign).strip()
-    raise InputError(f'"{text}": expected {" or ".join(sign + "VALUE" for sign in signs)} behind one of {", ".join(map(repr, names))}')
+    known = ", ".join(map(repr, names))
+    if not text.strip().startswith(tuple(names)):
+        raise InputError(f'"{text}": there is none of this name, expected one of {known}')
+    raise InputError(f'"{text}": expected {" or ".join(sign + "VALUE" for sign in signs)} behind one of {known}')
+
+
+def _value(option: str, text: str, said: str, response: Response) -> float:
+    """A value of a response, SI, that an option names in its text."""
+    try:
+        value = quantity(said, response.unit, needs_unit=response.unit != "1")
+    except InputError as error:
+        raise InputError(f'{option} "{text}": {error}') from None
+    if not np.isfinite(value):
+        raise InputError(f'{option} "{text}": found {said}, expected a finite number')
+    return value
 
 
 def wanted(
@@ -357,7 +371,7 @@ def wanted(
 
     for aim, text in ((aim, text) for aim, texts in given.items() for text in texts):
         name, _, said = named(list(responses), text, ["="])
-        values = [quantity(value, responses[name].unit, needs_unit=False) for value in said.split("..")] if said else []
+        values = [_value(f"--{aim}", text, value, responses[name]) for value in said.split("..")] if said else []
         low, high = observed(name)
         if name in goals:
             raise InputError(f'"{name}" has two goals, expected one; a --limit may stand beside it')
@@ -386,7 +400,7 @@ def wanted(
     for text in limits:
         name, sign, said = named(list(responses), text, ["<=", ">="])
         low, high = observed(name)
-        found.append(Limit(name, sign == ">=", quantity(said, responses[name].unit, needs_unit=False), limit_on, high - low if high > low else 1.0))
+        found.append(Limit(name, sign == ">=", _value("--limit", text, said, responses[name]), limit_on, high - low if high > low else 1.0))
     return list(goals.values()), found
 
 

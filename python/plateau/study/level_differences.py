@@ -117,25 +117,31 @@ def _of_factor(fit: Fitted, at: int, names: list[str], control: str | None) -> p
         raise NothingToFit(f"{why}: make these runs{advice}")
     rows = np.array([means[one] - means[other] for one, other in pairs])
     weights = rows[:, fit.fit.kept] @ fit.fit.root @ fit.fit.basis.T
-    # The error of the factor as a whole: levels are taken to differ alike between sets of seeds.
     _, sizes, directions = np.linalg.svd(weights, full_matrices=False)
-    variances, freedoms = fit.errors(directions[sizes > 1e-9 * sizes[0]])
-    freedom = float(freedoms.sum() if fit.seeds > 1 else freedoms[0])
-    if np.isnan(freedom):
+    directions, lengths = directions[sizes > 1e-9 * sizes[0]], np.linalg.norm(weights, axis=1)
+    if fit.differs_alike(directions):
+        # The error of the factor as a whole.
+        variances, own = fit.errors(directions)
+        variances, freedoms = (np.full(len(pairs), value) for value in (variances.mean(), own.sum() if fit.seeds > 1 else own[0]))
+    else:
+        # That of each difference, as P. A. Games and J. F. Howell, Journal of Educational Statistics 1, 113-125 (1976).
+        variances, freedoms = fit.errors(weights / lengths[:, None])
+    if np.isnan(freedoms).any():
         raise NothingToFit("nothing tells the error of differences between levels; give [replicates] of seeds")
-    lengths = np.linalg.norm(weights, axis=1)
-    differences, errors = rows @ fit.coefficients, np.sqrt(variances.mean()) * lengths
+    differences, errors = rows @ fit.coefficients, np.sqrt(variances) * lengths
     outside = partial(_range_beyond, len({level for pair in pairs for level in pair}))
     if control is not None:
         outside = partial(_any_beyond, _shared(weights @ weights.T / np.outer(lengths, lengths)))
     # Wider than that of one difference alone, and narrower than C. E. Bonferroni's of more differences than there are.
-    tail = (1.0 - fit.confidence) / 2.0
-    ends = 0.98 * stats.t.isf(tail, freedom), stats.t.isf(tail / len(names) ** 2, freedom)
-    reach = float(optimize.brentq(lambda size: _tail(outside, size, freedom) - 2.0 * tail, *ends, xtol=1e-6))
-    chances = [_tail(outside, size, freedom) for size in np.abs(differences / errors)]
+    tail, reaches = (1.0 - fit.confidence) / 2.0, {}
+    for freedom in set(freedoms):
+        ends = 0.98 * stats.t.isf(tail, freedom), stats.t.isf(tail / len(names) ** 2, freedom)
+        reaches[freedom] = float(optimize.brentq(lambda size, of: _tail(outside, size, of) - 2.0 * tail, *ends, args=(freedom,), xtol=1e-6))
+    reach = np.array([reaches[freedom] for freedom in freedoms])
+    chances = [_tail(outside, size, freedom) for size, freedom in zip(np.abs(differences / errors), freedoms, strict=True)]
     whole = [(fit.response.name, coding.factor.name, names[one], names[other]) for one, other in pairs]
     table = pandas.DataFrame(whole, columns=["response", "factor", "level", "other"]).assign(difference=differences, standard_error=errors)
-    table = table.assign(freedom=freedom, low=differences - reach * errors, high=differences + reach * errors, p=chances)
+    table = table.assign(freedom=freedoms, low=differences - reach * errors, high=differences + reach * errors, p=chances)
     return table.assign(unit=fit.response.unit_of_fit)
 
 

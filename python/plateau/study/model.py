@@ -36,6 +36,8 @@ SAME = 1e-6
 MOST_COLUMNS = 2000
 # Degrees of freedom that squares should leave for the error; with fewer, intervals are too wide to tell anything.
 LEAST_FREEDOM = 3
+# Chance from which on what scatters unlike between sets of seeds is not taken to be alike.
+ALIKE = 0.1
 
 
 class NothingToFit(InputError):
@@ -288,38 +290,37 @@ class Fitted:
     def beyond(self, squares: Squares, residual: Squares, columns: Numbers) -> tuple[Squares, float, float]:
         """Error, F and p of what further columns explain; `residual` is what they leave, the error with one set of seeds.
 
-        With several it is what they differ by between sets, as that of an effect. It differs more for some than for others, which takes
-        degrees of freedom (S. W. Greenhouse and S. Geisser, Psychometrika 24, 95-112 (1959)).
+        With several it is what they differ by between sets, as that of an effect; more for some than for others.
         """
         f, p = f_test(squares, residual)
         if self.seeds < 2 or np.isnan(f):
             return residual, f, p
         weights = LeastSquares(np.column_stack([self.fit.basis, columns])).basis[:, len(self.fit.kept) :].T
         parts, freedoms = self._between(weights, self._leaves - weights.T @ weights)
-        if not (whole := float(np.square(parts).sum())) > 0:
-            return Squares(0.0, 0.0), np.nan, np.nan
-        effective = whole**2 / float(np.square(parts.T @ parts).sum())
-        freedom = effective * float(freedoms.mean())
-        f = squares.mean / (mean := whole / len(parts))
-        return Squares(freedom, mean * freedom), f, float(stats.f.sf(f, effective, freedom))
+        return _corrected(squares, parts, freedoms)
 
     @cached_property
     def _held_out(self) -> Numbers:
-        """By point, the mean residual of the fit and of the fit without the point."""
-        held_out = np.full((self.point_count, 2), np.nan)
+        """By point, the mean residual of the fit and of the fit without the point, and the squares of the latter, added up over its runs."""
+        held_out = np.full((self.point_count, 3), np.nan)
         for point in range(self.point_count):
             own = np.flatnonzero(self.runs["point"] == point)
             rows = self.fit.basis[own]
             values, vectors = np.linalg.eigh(np.eye(len(own)) - rows @ rows.T)
             if values.min() >= SOLE:
                 missed = vectors @ (vectors.T @ self.residuals[own] / values)
-                held_out[point] = self.residuals[own].mean(), missed.mean()
+                held_out[point] = self.residuals[own].mean(), missed.mean(), missed @ missed
         return held_out
 
     @property
     def loo(self) -> Numbers:
         """Leave-one-point-out errors, observed less forecast, on the scale of the fit; NaN of a point that has a coefficient of its own."""
         return self._held_out[:, 1]
+
+    @property
+    def press(self) -> float:
+        """Sum of the squares by which runs differ from the fit without their point; NaN if a point has a coefficient of its own."""
+        return float(self._held_out[:, 2].sum())
 
     @property
     def loo_error(self) -> float:
@@ -352,6 +353,28 @@ class Fitted:
         without = self.design.copy()
         without[:, self.columns[1]] = 0.0
         return np.asarray(np.eye(len(self.values)) - without[:, self.fit.kept] @ self.fit.root @ self.fit.basis.T)
+
+    def differs_alike(self, directions: Numbers) -> bool:
+        """Whether sums with these orthonormal weights scatter alike between sets of seeds, as far as these tell.
+
+        By the statistic of S. John, Biometrika 58, 123-127 (1971), tr C²/(tr C)² of their covariance C, against that of normal variables.
+        """
+        if self.seeds < 2 or len(directions) < 2:
+            return True
+        parts, freedoms = self._between(directions, self._leaves)
+        if np.isnan(freedoms).any() or not (parts**2).sum() > 0:
+            return True
+
+        def statistic(parts: Numbers) -> Numbers:
+            covariance = parts @ parts.swapaxes(-1, -2)
+            return np.asarray(np.square(covariance).sum((-2, -1)) / np.trace(covariance, axis1=-2, axis2=-1) ** 2)
+
+        normal = np.random.default_rng(0).standard_normal((999, len(directions), max(round(float(freedoms.mean())), 1)))
+        return bool((statistic(normal) >= statistic(parts)).mean() > ALIKE)
+
+    def unlike(self, squares: Squares, directions: Numbers) -> tuple[Squares, float, float]:
+        """Error, F and p of what a term of these orthonormal weights explains, where its sums scatter unlike between sets of seeds."""
+        return _corrected(squares, *self._between(directions, self._leaves))
 
     def _between(self, weights: Numbers, leaves: Numbers) -> tuple[Numbers, Numbers]:
         """What each set of seeds has in weighted sums of what a model leaves, with squares that sum up to variances, and degrees of freedom."""
@@ -448,6 +471,19 @@ def _satterthwaite(parts: Sequence[tuple[Numbers, Numbers]]) -> tuple[Numbers, N
     total = np.sum([part for part, _ in parts], axis=0)
     spread = np.sum([part**2 / freedom for part, freedom in parts], axis=0)
     return total, np.divide(total**2, spread, out=np.full_like(total, np.nan), where=spread > 0)
+
+
+def _corrected(squares: Squares, parts: Numbers, freedoms: Numbers) -> tuple[Squares, float, float]:
+    """Error, F and p of squares of sums of which each set of seeds has these parts, with these degrees of freedom.
+
+    That some differ more between sets than others takes degrees of freedom (S. W. Greenhouse and S. Geisser, Psychometrika 24, 95-112 (1959)).
+    """
+    if not (whole := float(np.square(parts).sum())) > 0:
+        return Squares(0.0, 0.0), np.nan, np.nan
+    effective = whole**2 / float(np.square(parts.T @ parts).sum())
+    freedom = effective * float(freedoms.mean())
+    f = squares.mean / (mean := whole / len(parts))
+    return Squares(freedom, mean * freedom), f, float(stats.f.sf(f, effective, freedom))
 
 
 def f_test(squares: Squares, error: Squares) -> tuple[float, float]:

@@ -36,9 +36,9 @@ def fitted(study: Study, response: Response, model: str | None = None, confidenc
     missing, values = int((own & ~has).sum()), values[has]
     if not len(values):
         raise NothingToFit(f"fewer than two runs have a value of it ({missing} have none)")
-    if (largest := float(np.abs(values).max())) > 1e150:
-        raise NothingToFit(f"the response {largest:e} is beyond ±1e150")
-    if np.ptp(values) <= max(ROUNDING * largest, 1e-150):
+    if (largest := float(np.abs(values).max())) > 1e60:
+        raise NothingToFit(f"the response {largest:e} is beyond ±1e60")
+    if np.ptp(values) <= max(ROUNDING * largest, 1e-60):
         raise NothingToFit(f"the response is {float(values[0])!r} in all {len(values)} observations: no factor has an effect on it")
     return Fitted(study, response, model, runs[has], values, reason, confidence, centre, missing)
 
@@ -124,6 +124,8 @@ def cautions(fit: Fitted) -> list[str]:
         if missed["model_to_try"]:
             share = f"R² {missed['r_squared']:.4f} instead of {1.0 - fit.residual.sum / fit.total.sum:.4f}"
             better = f"try --model {missed['model_to_try']}, which explains more, {share}"
+            if (of := _other(fit, missed["model_to_try"])) and of.point_count <= len(of.own):
+                better = f"--model {missed['model_to_try']} explains more, {share}, but all points: make runs at others, such as centre points"
         how = ": points differ from the model by more than replicates from each other" if missed["by_replicates"] else ""
         said.append(f"lack of fit{how} ({p}); {better}")
     if (freedom := fit.point_count - len(fit.own)) <= 0:

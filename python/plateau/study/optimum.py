@@ -23,7 +23,7 @@ from plateau.study.runs import made_study
 from plateau.study.settings import beyond_of, ends_of, no_curve, region_of, straight_between
 from plateau.study.surrogate import Surrogate, surrogates
 from plateau.study.text_tables import listed
-from plateau.style import APART, CHOSEN, LINES, NARROW, WIDE, Figures, in_style, labelled, new
+from plateau.style import APART, CHOSEN, LINES, NARROW, QUIET, WIDE, Figures, in_style, labelled, new
 from plateau.units import Unit, unit_of, with_minus
 
 # In differences that count: on a limit; in halves of a range: at its end, and so far from its middle that a model knows nothing.
@@ -279,6 +279,10 @@ def _told(problem: Problem, best: pandas.DataFrame, confirming: pandas.DataFrame
     known = problem.surrogates.items()
     tables = {name: forecast_table(one, best, beyond, problem.confidence, confirming, [*cautions]) for name, one in known}
     cautions += [f"{name}: {said}" for name, table in tables.items() for said in table.attrs["cautions"]]
+    for goal in problem.goals:
+        if problem.surrogates[goal.response].is_chance:
+            why = "the runs do not show that any factor has an effect, so where it is best may be chance, of which its interval does not know"
+            cautions.append(f"{goal.response}: {why}")
     table = pandas.DataFrame([(response.name, response.unit) for response in study.responses], columns=["response", "unit"])
     columns = ["response", "value", *INTERVALS, "leverage", "cautions", "confirmed", "confirmed_error", "confirmed_runs", "is_within"]
     table = table.merge(pandas.concat(tables.values())[columns], "left", on="response").fillna({"cautions": "", "confirmed_runs": 0})
@@ -327,11 +331,13 @@ def _profiler(problem: Problem, best: dict[str, Any], factors: Mapping[Factor, A
     """Responses and their desirability along each factor, and how much the desirability changes along it."""
     shown, level, spans = problem.wanted, f"{100 * problem.confidence:g} %", {}
     caption = "Responses and their desirability along each factor, the others at the best settings"
-    note = f"Bands: {level} interval of means; vertical lines: best settings" + ("; dotted: limits" if problem.limits else "")
+    note = f"Bands: {level} interval of means; vertical lines: best settings" + ("; dotted: limits; grey: a limit is missed" if problem.limits else "")
     size = (WIDE if len(factors) > 2 else NARROW), 14 + 34 * (len(shown) + 1)
     figure, axes = new(*size, caption, len(shown) + 1, len(factors), note, sharex="col", sharey="row")
     for column, (factor, levels) in enumerate(factors.items()):
-        values = _range(factor, best[factor.name], STEPS) if levels is None else np.array(levels)
+        # The best settings, too: where limits hold them from both sides, no other place of the line keeps all of them.
+        own = [*_range(factor, best[factor.name], STEPS), best[factor.name]] if levels is None else []
+        values = np.array(levels) if levels is not None else np.unique(own)
         points = pandas.DataFrame([best] * len(values)).assign(**{factor.name: values})
         forecasts, places = problem.forecasts(points, with_intervals=True), positions(factor, values)
         style = {"color": LINES[0], "linestyle": "-" if levels is None else "none", "marker": "" if levels is None else "o"}
@@ -346,9 +352,12 @@ def _profiler(problem: Problem, best: dict[str, Any], factors: Mapping[Factor, A
             for limit in (limit for limit in problem.limits if limit.response == name):
                 axis.axhline(unit.value(limit.value), color=LINES[1], linestyle=":")
             axes[row, 0].set_ylabel(labelled(name, unit.symbol))
-        desirability = np.nan_to_num(problem.worth(points))
-        spans[factor.name] = float(np.ptp(desirability))
-        axes[-1, column].plot(places, desirability, **style)
+        desirability, kept = replace(problem, limits=[]).worth(points), problem.worth(points)
+        spans[factor.name] = float(np.ptp(np.nan_to_num(kept)))
+        axes[-1, column].plot(places, desirability, **(style | {"color": QUIET}))
+        axes[-1, column].plot(places, kept, **style)
+        is_best = np.asarray(values == best[factor.name])
+        axes[-1, column].plot(np.asarray(places)[is_best], kept[is_best], "*", color=CHOSEN)
         set_axis(axes[-1, column], factor)
         for axis in axes[:, column]:
             axis.axvline(positions(factor, [best[factor.name]])[0], color=CHOSEN, linewidth=0.8)

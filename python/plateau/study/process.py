@@ -87,7 +87,7 @@ class Process:
         means = of_point @ (values - seeds @ added) - self.offset
         rest, freedom = values - self.offset - means[point] - seeds @ added, max(len(values) + 1 - len(runs) - self.seeds, 0)
         # What each set of seeds adds at each point; where it has no run, what it adds everywhere.
-        self._added = added + of_point @ (seeds * rest[:, None]) / np.maximum(of_point @ seeds, 1e-300)
+        self.added = added + of_point @ (seeds * rest[:, None]) / np.maximum(of_point @ seeds, 1e-300)
         self.means, self.runs, of_column = means + self.offset, runs, np.asarray(range(places.shape[1]) if axes is None else axes, int)
         replicates, some = (float(rest @ rest) if freedom else 0.0, freedom), np.sort(np.random.default_rng(0).permutation(len(runs))[:MOST])
         self.solved = partial(Equations, self.points, means, 1.0 / runs, replicates, axes=of_column)
@@ -137,7 +137,7 @@ class Process:
             each, shares = self.sets.forecast(part)
             means, weights = each @ (self.means - self.offset), np.tensordot(self.probabilities, each, 1)
             own = self.probabilities @ (self.sets.square[:, None] / self.freedom * shares + (means - self.probabilities @ means) ** 2)
-            seeds = ((weights @ self._added) ** 2).sum(-1) / max(self.seeds - 1, 1) - self.run_variance * (weights**2).sum(-1)
+            seeds = ((weights @ self.added) ** 2).sum(-1) / max(self.seeds - 1, 1) - self.run_variance * (weights**2).sum(-1)
             found.append([self.offset + self.probabilities @ means, self.calibration * own, np.maximum(seeds, 0.0)])
         return np.concatenate(found, axis=1)
 

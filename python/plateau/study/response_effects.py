@@ -24,7 +24,8 @@ COLUMNS += ["aliased_with", "error_freedom", "seed_ratio", "seed_p", "unit"]
 # Values of a range up to which means are given at each.
 MOST_VALUES = 10
 # Members of the document of a response, null where nothing could be fitted; those of its summary.
-SUMMARY = ["runs", "missing", "mean", "middle", "r_squared", "adjusted_r_squared", "predicted_r_squared", "residual_standard_deviation", "error_from"]
+SUMMARY = ["runs", "missing", "mean", "middle", "r_squared", "adjusted_r_squared", "predicted_r_squared", "predicted_r_squared_of_points"]
+SUMMARY += ["residual_standard_deviation", "error_from"]
 TESTS = ["residual", "lack_of_fit", "pure_error", "misfit", "curvature", "box_cox"]
 NONE = dict.fromkeys(["model", "model_reason", *SUMMARY, *TESTS]) | {"runs": 0, "missing": 0, "error_from": ""}
 NONE |= {"equations": [], "lenth": None, "terms": [], "cautions": []}
@@ -87,7 +88,9 @@ class ResponseEffects:
         residual, total = fit.residual, fit.total
         is_free = residual.freedom > 0 and (fit.leverages <= 1.0 - SOLE).all()
         press = float(np.square(fit.residuals / (1.0 - fit.leverages)).sum()) if is_free else np.nan
-        shares = 1.0 - residual.sum / total.sum, 1.0 - residual.mean / total.mean, 1.0 - press / total.sum
+        # With other seeds of its point in the fit, a run seems better foretold than a place without runs is.
+        of_points = 1.0 - fit.press / total.sum if fit.seeds > 1 else np.nan
+        shares = 1.0 - residual.sum / total.sum, 1.0 - residual.mean / total.mean, 1.0 - press / total.sum, of_points
         values = [len(fit.values), fit.missing, fit.mean, float(fit.coefficients[0]), *shares, fit.error**0.5, error_from(fit)]
         return dict(zip(SUMMARY, values, strict=True))
 
@@ -233,6 +236,8 @@ def effect_table(fit: Fitted) -> pandas.DataFrame:
                     row["seed_ratio"], row["seed_p"] = f_test(error, rest)
             if error.sum > 0:
                 row["f"], row["p"] = f_test(own, error)
+                if not is_blocks and not fit.differs_alike(directions):
+                    error, row["f"], row["p"] = fit.unlike(own, directions)
                 row["error_freedom"] = float(error.freedom)
         if width == 1 and places:
             column, variance = least.kept[places[0]], float(weights[0] @ weights[0])

@@ -99,6 +99,8 @@ def _opened(folder: Path, study: Path | None, directory: Path) -> Study:
         runs = pandas.DataFrame(columns | {name: values.values for name, values in named.items()}, index=index)
         asked = {str(table.get("name", table.get("dataset", "").rsplit("/")[-1])): table for table in document.get("response", [])}
         responses, (title, design) = [_response(values, asked, name) for name, values in named.items()], map(data.attrs.get, ("title", "design"))
+        if len(table) != len(runs):
+            raise InputError(f"{csv} has {len(table)} rows and {hdf5.name} {len(runs)} runs, expected as many; plateau sweep collect makes them anew")
         study_of = Study(str(title), str(design), factors, responses, runs, table, data, document, study, directory)
     except InputError:
         raise

@@ -28,7 +28,7 @@ from plateau.study.runs import finished, write_study
 from plateau.study.text_tables import listed
 from plateau.style import NARROW, QUIET, Figures, in_style, labelled, look, new, wrapped
 from plateau.toml_text import toml_of
-from plateau.units import Unit, unit_for, unit_of, with_digits, with_minus
+from plateau.units import Unit, quantity, unit_for, unit_of, with_digits, with_minus
 
 # What is compared unless asked otherwise: name, dataset with question, table of the scene without which there is no such series.
 USUAL = [("contact area", "contact_area:mean", ""), ("running-in time", "contact_area:reaches 0.9", "")]
@@ -42,6 +42,8 @@ NOTE = (
     "Differences are means over pairs of runs with the same seed, with t intervals ({level}); with more than two scenes, intervals and "
     "sureness hold for all differences of a response together (Bonferroni). Sure at: 1 − p, the confidence up to which the interval leaves out 0."
 )
+# Part by which cells of meshes for one purpose differ at most.
+SAME_CELLS = 0.05
 # Surfaces, and where it is said how they are extended.
 SURFACES = {"disc.surface": "disc.prepare", "pin.base": "pin.base", "pin.surface": "pin.prepare"}
 
@@ -223,6 +225,12 @@ def compare(
             warnings.warn(f"{name}: {one.message}", one.category, stacklevel=2)
     if len({scene["operation"].get("duration") for scene in resolved}) > 1:
         cautions.append("the scenes have different durations, so values at the end are at different times")
+    cells = [(quantity(mesh["outer_radius"], "m") - quantity(mesh["inner_radius"], "m")) / mesh["rows"] for scene in resolved for mesh in [scene["mesh"]]]
+    if np.ptp(cells) > SAME_CELLS * min(cells):
+        sizes = ", ".join(f"{name} {1e6 * cell:.3g} µm" for name, cell in zip(names, cells, strict=True))
+        cautions.append(f"the scenes have rows of different height ({sizes}), and results depend on the size of cells: give all the same")
+    if len({*(accelerations := [str(scene["numerics"]["time_acceleration"]) for scene in resolved])}) > 1:
+        cautions.append(f"the scenes have different time accelerations ({', '.join(accelerations)}), which shift pulses: give all the same")
     return _compared(made, dict(zip(names, map(str, files), strict=True)), confidence, cautions, directory, not responses)
 
 

@@ -51,7 +51,7 @@ class SeedsNeeded(Answer):
 
     def text(self) -> str:
         """The table for people."""
-        lines, cells = [f"{self.study.title}: sets of seeds needed, from the scatter between the {self.study.seeds} of the pilot"], []
+        lines, cells = [f"{self.study.title}: sets of seeds needed, from the scatter between those of the pilot"], []
         for row in self.table.to_dict("records"):
             unit = unit_of(row["unit"], self.table.loc[self.table["response"] == row["response"], "effect"])
             names = {"effect": row["effect"], "scatter": row["scatter"], "half width": row["half_width"]}
@@ -85,11 +85,11 @@ def seeds_needed(
         If the pilot has one set of seeds.
     """
     found = study if isinstance(study, Effects) else effects(study, confidence=confidence)
-    if (pilot := found.study.seeds) < 2:
+    if found.study.seeds < 2:
         raise InputError(f"{found.study.title}: one set of seeds shows no scatter; give [replicates] two at least, better five")
     table = found.table
     table = table[table["standard_error"].notna()]
-    rows, bare = [], dict[str, str]()
+    fits, rows, bare = {one.response.name: one.fit for one in found.responses}, [], dict[str, str]()
     for row in table.to_dict("records"):
         asked = half_width.get(row["response"]) if isinstance(half_width, dict) else half_width
         if isinstance(asked, int | float) and row["unit"] != "1":
@@ -98,7 +98,8 @@ def seeds_needed(
             wanted = abs(row["effect"]) if asked is None else quantity(asked, row["unit"], needs_unit=row["unit"] != "1")
         except InputError as error:
             raise InputError(f'{row["response"]}: {error}; give each response its own, such as {{"contact area": "0.02 mm2"}}') from None
-        scatter = row["standard_error"] * np.sqrt(pilot)
+        # Sets that have no result yet tell nothing.
+        scatter = row["standard_error"] * np.sqrt(fit.seeds if (fit := fits[row["response"]]) else np.nan)
         largest = scatter * np.sqrt(row["error_freedom"] / stats.chi2.ppf(1.0 - SAFE, row["error_freedom"]))
         sets = {"sets": sets_for(scatter, wanted, confidence), "sets_safe": sets_for(float(largest), wanted, confidence)}
         own = {name: row[name] for name in ("response", "term", "effect")}

@@ -9,7 +9,7 @@ import pandas
 
 from plateau.errors import InputError
 from plateau.study.data import Factor, Numbers, Response, Study
-from plateau.study.model import Fitted, NothingToFit
+from plateau.study.model import Fitted, NothingToFit, Squares, f_test
 from plateau.study.model_choice import cautions, fitted
 from plateau.study.process import Process
 from plateau.units import unit_of, with_digits
@@ -83,14 +83,28 @@ class Surrogate:
             said += "; it foretells a point no better than the mean of the runs does: these runs do not tell the response"
         return said
 
+    @property
+    def is_chance(self) -> bool:
+        """Whether what is forecast may be scatter: the model is not significant, or the process foretells points no better than their mean."""
+        if self._taken is not None:
+            return not self.missed < 1.0
+        residual, total = self._fit.residual, self._fit.total
+        explained = Squares(total.freedom - residual.freedom, total.sum - residual.sum)
+        return bool(f_test(explained, residual)[1] > 1.0 - self._fit.confidence)
+
     @cached_property
     def cautions(self) -> list[str]:
         """What is to be known before it is believed: a sentence each."""
         if self._taken is None:
-            return cautions(self.fit) if self.fit else []
-        points, factors = len(self._taken.points), len(self.study.factors)
-        few = f"few points: {points} for {factors} factors; take {POINTS_FOR_EACH} for each factor or more"
-        return [few] if points < POINTS_FOR_EACH * factors else []
+            said = cautions(self.fit) if self.fit else []
+        else:
+            points, factors = len(self._taken.points), len(self.study.factors)
+            few = f"few points: {points} for {factors} factors; take {POINTS_FOR_EACH} for each factor or more"
+            said = [few] if points < POINTS_FOR_EACH * factors else []
+        if self.response.transform != "none" and self.fit and np.isfinite(self.fit._run_variance[0]):
+            what = "a forecast, and its interval of means, is the median of runs with other seeds, not their arithmetic mean"
+            said = [*said, f"transformed ({self.response.transform}): {what}"]
+        return said
 
     def rows(self, points: pandas.DataFrame) -> Numbers:
         """Places for the process: coded numbers, and indicators of words."""

@@ -229,10 +229,13 @@ def _values(factor: Any, even: Numbers) -> Any:
 
 def drawn_processes(process: Process, places: Numbers, random: np.random.Generator) -> Numbers:
     """Functions of a process that may be true (function, place): one without data, and what the data say of its differences from them."""
-    result, share, sets = [], 1.0 / process.runs, random.choice(len(process.logs), FUNCTIONS, p=process.probabilities)
+    result, share, seeds = [], 1.0 / process.runs, process.seeds
+    sets = random.choice(len(process.logs), FUNCTIONS, p=process.probabilities)
     for chosen, times in zip(*np.unique(sets, return_counts=True), strict=True):
         own = process.solved(logs=process.logs[chosen])
         weights = own.forecast(places)[0][0]
+        # By what the sets of seeds add at each place their mean is wrong.
+        of_sets = weights @ process.added / (seeds * max(seeds - 1, 1)) ** 0.5
         for _ in range(times):
             # The spectrum of the correlation along an axis is Student's t of five degrees of freedom.
             frequency = random.standard_t(5, (COSINES, places.shape[1])) / own.lengths[0]
@@ -240,6 +243,8 @@ def drawn_processes(process: Process, places: Numbers, random: np.random.Generat
             noise = np.sqrt(own.noise[0] * share) * random.standard_normal(len(share))
             scale = np.sqrt(process.calibration * own.square[0] / random.chisquare(process.freedom))
             result.append(scale * at_places + weights @ (process.means - process.offset - scale * (at_points + noise)) + process.offset)
+            if seeds > 1:
+                result[-1] += of_sets @ _student(seeds - 1, seeds, random)
     return np.array(result)
 
 
@@ -250,19 +255,29 @@ def _cosines(places: tuple[Numbers, ...], frequency: Numbers, random: np.random.
 
 
 def drawn_models(one: Surrogate, places: pandas.DataFrame, random: np.random.Generator) -> Numbers:
-    """Models with other coefficients, and smooth functions of as much as the model misses."""
+    """Models with other coefficients, by what these differ by between sets of seeds, and smooth functions of as much as the model misses."""
     fit, where, result = one._fit, one.rows(places), []
     rows, freedom, missed = fit.matrix(places), fit.residual_freedom, fit._missed[0]
     if np.isnan(fit.error):
         # Nothing tells the error.
         return np.array([rows @ fit.coefficients])
+    parts, of_parts = fit.fit.root * fit.error**0.5, float(freedom)
+    if fit.seeds > 1:
+        parts, each = fit._between(fit.fit.root @ fit.fit.basis.T, fit._leaves)
+        if np.isnan(each).any():
+            return np.array([rows @ fit.coefficients])
+        of_parts = float(each.mean())
     for _ in range(FUNCTIONS):
-        scale = np.sqrt(freedom / random.chisquare(freedom))
-        change = fit.fit.root @ random.standard_normal(len(fit.fit.kept)) * np.sqrt(fit.error) * scale
+        change, scale = parts @ _student(of_parts, parts.shape[1], random), np.sqrt(freedom / random.chisquare(freedom))
         frequency = random.standard_t(5, (COSINES, where.shape[1])) / np.exp(np.log(2.0) + random.standard_normal(where.shape[1]))
         beyond = np.sqrt(missed) * scale * _cosines((where,), frequency, random)[0]
         result.append(rows @ fit.coefficients + rows[:, fit.fit.kept] @ change + beyond)
     return np.array(result)
+
+
+def _student(freedom: float, count: int, random: np.random.Generator) -> Numbers:
+    """So many values of Student's t with a common scale."""
+    return np.asarray(random.standard_normal(count) * np.sqrt(freedom / random.chisquare(freedom)))
 
 
 def elementary_effects(study: Study, response: str) -> pandas.DataFrame:

@@ -17,8 +17,8 @@ import numpy as np
 import optimum
 
 SETS = (2, 3, 4, 5)
-SIMULATIONS, OF_LEVELS, SUBSETS = 1000, 800, 400
-FUNCTIONS, OF_SENSITIVITY, FEW = 200, 20, 20
+SIMULATIONS, OF_LEVELS, OF_UNLIKE, SUBSETS = 1000, 800, 400, 400
+FUNCTIONS, OF_SENSITIVITY, OF_SLOPES, FEW = 200, 20, 40, 20
 OF_COMPARISONS, REAL_SUBSETS, SEARCHES = 2000, 100, 12
 EXPERIMENTS, OF_BUDGETS = 80, 15
 # Kind of response, factors, points, sets of seeds.
@@ -83,7 +83,9 @@ def of_effects():
     print(f"Real runs, {SUBSETS} subsets: in the mean {span(real.mean())}; the lowest {span(real.min())}.", flush=True)
     each = OF_LEVELS // len(cases)
     levels = [np.mean([effects.levels_simulated(*case, each, control) for case in cases]) for control in (None, "a")]
-    print(f"Tukey and Dunnett intervals, {OF_LEVELS} simulations: {percent(levels)}.\n", flush=True)
+    print(f"Tukey and Dunnett intervals, {OF_LEVELS} simulations: {percent(levels)}.", flush=True)
+    unlike = [effects.levels_simulated(sets, 20.0, OF_UNLIKE, control, 0.05) for sets in (3, 5) for control in (None, "c")]
+    print(f"Where the last of three levels scatters 20 times as much, with 3 and 5 sets: {percent(unlike)}.\n", flush=True)
 
 
 def of_forecasts():
@@ -108,6 +110,8 @@ def of_forecasts():
         return [f"a {kind}", *told]
 
     table(["response", *(f"{factors} factors, {points} points" for factors, points, _ in sizes)], map(shares, ROUGH))
+    unlike = [forecasts.seeds_coverage(kind, sets, 0.3, OF_SLOPES) for kind in (False, True) for sets in (3, 5)]
+    print(f"Where an effect differs by 0.3 of it between 3 and 5 sets, polynomial and spread points: {percent(unlike)}.\n", flush=True)
 
 
 def of_optimum():

@@ -82,12 +82,15 @@ def lacks(seeds: int, ratio: float, count: int) -> float:
     return float(np.mean(found))
 
 
-def levels_simulated(seeds: int, ratio: float, count: int, control: str | None = None) -> float:
-    """Share of simulations in which the intervals of all differences of three levels hold together (Tukey, or Dunnett)."""
+def levels_simulated(seeds: int, ratio: float, count: int, control: str | None = None, others: float = 1.0) -> float:
+    """Share of simulations in which the intervals of all differences of three levels hold together (Tukey, or Dunnett).
+
+    Between sets of seeds the last level differs by `ratio` times the noise, and the `others` by this many times as much.
+    """
     random, factors, found = np.random.default_rng([seeds, round(10 * ratio)]), [word("pad", "a", "b", "c"), number("B", -1.0, 1.0)], []
     for _ in range(count):
         runs = pandas.DataFrame(list(itertools.product("abc", (-1.0, 1.0), range(1, seeds + 1))), columns=["pad", "B", "replicate"])
-        of_level = ratio * random.normal(size=(seeds, 3))
+        of_level = ratio * random.normal(size=(seeds, 3)) * [others, others, 1.0]
         runs["y"] = of_level[runs["replicate"] - 1, runs["pad"].map({"a": 0, "b": 1, "c": 2})] + random.normal(size=len(runs))
         table = levels(study_of(factors, runs), control).table
         found.append(((table["low"] <= 0.0) & (table["high"] >= 0.0)).all())

@@ -6,6 +6,7 @@ besides (a standard deviation of 0.04 of the response's), and its seeds add some
 cannot tell it).
 """
 
+import itertools
 import math
 import sys
 from pathlib import Path
@@ -24,6 +25,8 @@ from plateau.study.surrogate import surrogates
 from plateau.study.variance_parts import sensitivity
 
 NOISE, OF_SEEDS, PLACES = 0.04, 0.02, 25
+# A face-centred central composite design of two factors.
+GRID = np.array(list(itertools.product((-1.0, 0.0, 1.0), repeat=2)))
 
 
 def function(kind, factors, random):
@@ -85,6 +88,18 @@ def surrogate_coverage(kind, factors, points, seeds, functions, number=20261124)
         is_mean, is_run = told["mean_low"].le(truth) & told["mean_high"].ge(truth), told["run_low"].le(run) & told["run_high"].ge(run)
         covered[found.takes_process].append([is_mean.mean(), is_run.mean()])
     return [np.mean(own, axis=0) if own else np.full(2, np.nan) for own in covered], [len(own) for own in covered]
+
+
+def seeds_coverage(is_hypercube, seeds, ratio, functions, number=20261124):
+    """Share of intervals of the first order that have the true index in them, where the effect of one of two factors differs between seeds."""
+    random, covered = np.random.default_rng(number), []
+    for _ in range(functions):
+        points = 2.0 * qmc.LatinHypercube(2, seed=random).random(16) - 1.0 if is_hypercube else GRID
+        x, group = np.repeat(points, seeds, axis=0), np.tile(np.arange(seeds), len(points))
+        y = (1.0 + ratio * random.standard_normal(seeds)[group]) * x[:, 0] + x[:, 1] + NOISE * random.standard_normal(len(x))
+        table = sensitivity(study_of(x, y, group, "latin-hypercube" if is_hypercube else "central-composite")).table.iloc[:2]
+        covered.append(((table["first_order_low"] <= 0.503) & (0.497 <= table["first_order_high"])).mean())
+    return np.mean(covered)
 
 
 def sensitivity_coverage(kind, factors, points, seeds, functions, number=20261124):
