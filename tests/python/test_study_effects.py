@@ -1,6 +1,7 @@
 """Effects of studies: against the program that did this before, closed forms, statsmodels and textbooks."""
 
 import gzip
+import itertools
 import json
 import math
 import sys
@@ -19,7 +20,7 @@ sys.path.insert(0, str(HERE / "coverage"))
 from effects import SEEDS_STUDY, cube, of_runs, simulated
 from made_studies import number, span, stored, study_of, word
 from plateau.errors import InputError, PlateauWarning
-from plateau.study.analysis import effects
+from plateau.study.analysis import effects, together
 from plateau.study.data import Response, Study
 from plateau.study.level_differences import levels
 from plateau.study.model_choice import fitted
@@ -337,6 +338,31 @@ class Model(unittest.TestCase):
 
 
 class Levels(unittest.TestCase):
+    def test_chance_between_seeds_is_no_warning(self) -> None:
+        # Of 28 terms one in twenty has a ratio beyond chance of its own.
+        said = 0
+        for seed in range(12):
+            runs = pandas.DataFrame(list(itertools.product((-1.0, 1.0), repeat=5)), columns=list("ABCDE"))
+            runs = runs.loc[runs.index.repeat(3)].assign(replicate=[1, 2, 3] * 32, y=np.random.default_rng(seed).normal(size=96))
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore", PlateauWarning)
+                said += any("seeds x factor" in one for one in effects(study_of([number(name, -1.0, 1.0) for name in "ABCDE"], runs)).cautions)
+        self.assertLess(said, 3)
+
+    def test_factors_change_together_on_their_own_scale(self) -> None:
+        # By their values 0.9999 alike, by logarithms 0.6.
+        runs = pandas.DataFrame({"A": [1.0, 10.0, 1e2, 1e6], "B": [1e2, 1.0, 10.0, 1e6], "y": [1.0, 2.0, 4.0, 3.0]})
+        factors = [replace(span(name, 1.0, 1e6), logarithmic=True) for name in "AB"]
+        self.assertEqual(together(study_of(factors, runs, "csv")), [])
+        self.assertEqual(len(together(study_of([span("A", 1.0, 1e6), span("B", 1.0, 1e6)], runs, "csv"))), 1)
+
+    def test_sets_without_results_tell_nothing_of_the_scatter(self) -> None:
+        runs = pandas.DataFrame([(a, seed) for a in (-1.0, 1.0) for seed in (1, 2, 3, 4, 5)], columns=["A", "replicate"])
+        runs["y"] = [1.0, 2.0, 3.0, np.nan, np.nan, 2.5, 3.1, 5.2, np.nan, np.nan]
+        slopes = np.array([1.5, 1.1, 2.2])
+        table = seeds_needed(study_of([number("A", -1.0, 1.0)], runs), 0.5).table
+        self.assertAlmostEqual(table["scatter"][0], slopes.std(ddof=1), places=12)
+
     def test_levels_that_scatter_unlike_have_errors_of_their_own(self) -> None:
         # Of Games and Howell: each pair has the error and the degrees of freedom of its differences between sets of seeds.
         random = np.random.default_rng(3)

@@ -230,16 +230,36 @@ class Improvement(unittest.TestCase):
 
 
 class Wishes(unittest.TestCase):
+    def test_what_may_be_chance_is_said(self):
+        random = np.random.default_rng(4)
+        runs = pandas.DataFrame(np.repeat(list(itertools.product((-1.0, 0.0, 1.0), repeat=2)), 2, axis=0), columns=["A", "B"])
+        study = study_of([span("A"), span("B")], runs.assign(y=random.normal(size=18)), "csv")
+        self.assertTrue(any("may be chance" in said for said in optimize(study, maximize=["y"]).cautions))
+        sure = study_of([span("A"), span("B")], runs.assign(y=5.0 * runs["A"] + random.normal(size=18)), "csv")
+        self.assertFalse(any("may be chance" in said for said in optimize(sure, maximize=["y"]).cautions))
+
+    def test_where_limits_leave_one_place_the_profiler_shows_it(self):
+        # y <= 0.31 and z >= 0.31, which both are A: nothing else on the line keeps both, and no place of an even grid does.
+        runs = pandas.DataFrame({"A": np.linspace(-1.0, 1.0, 9)}).assign(y=lambda runs: runs["A"], z=lambda runs: runs["A"])
+        found = optimize(study_of([span("A")], runs, "csv", responses={"y": "1", "z": "1"}), maximize=["y=-1..1"], limit=["y<=0.31", "z>=0.31"])
+        self.assertTrue(found.keeps_limits)
+        whole, kept, best = found.figures()["profiler"].axes[-1].lines[:3]
+        self.assertEqual(np.isfinite(kept.get_ydata()).sum(), 1)
+        self.assertEqual((best.get_xdata()[0], best.get_ydata()[0]), (found.settings["value"][0], np.nanmax(kept.get_ydata())))
+        np.testing.assert_allclose(whole.get_ydata(), (1.0 + np.asarray(whole.get_xdata())) / 2.0, atol=1e-9)
+
     def test_what_cannot_be_wanted(self):
         given = study_of([span("A"), span("B", unit="N", study_unit="N")], LIMITS_MEET, "central-composite", responses=RESPONSES)
         for options, message in [
             ({}, "no goal"),
             ({"maximize": ["gain"], "minimize": ["gain"]}, "two goals"),
-            ({"maximize": ["pain"]}, "'gain'"),
+            ({"maximize": ["pain"]}, "there is none of this name, expected one of 'gain'"),
             ({"maximize": ["gain=2 mm3..1 mm3"]}, "ascend"),
             ({"target": ["cost"]}, "NAME=VALUE"),
             ({"target": ["cost=9"]}, "LOW..VALUE..HIGH"),
             ({"maximize": ["gain"], "limit": ["cost=2"]}, "<="),
+            ({"maximize": ["gain"], "limit": ["gain<=5"]}, 'limit "gain<=5": "5", expected text with a unit, such as "1 m3"'),
+            ({"maximize": ["cost=inf..3"]}, 'maximize "cost=inf..3": "inf", expected a number'),
             ({"maximize": ["gain"], "importance": ["gain=0"]}, "between 0.01 and 100"),
             ({"maximize": ["gain"], "importance": ["cost=1"]}, "'gain'"),
             ({"maximize": ["gain"], "hold": ["A=2"]}, "beyond"),

@@ -347,13 +347,11 @@ def named(names: Sequence[str], text: str, signs: Sequence[str]) -> tuple[str, s
 
 def _value(option: str, text: str, said: str, response: Response) -> float:
     """A value of a response, SI, that an option names in its text."""
+    bare = response.unit == "1"
     try:
-        value = quantity(said, response.unit, needs_unit=response.unit != "1")
+        return quantity(said, response.unit, needs_unit=not bare, example=None if bare else f"1 {response.unit}")
     except InputError as error:
         raise InputError(f'{option} "{text}": {error}') from None
-    if not np.isfinite(value):
-        raise InputError(f'{option} "{text}": found {said}, expected a finite number')
-    return value
 
 
 def wanted(
