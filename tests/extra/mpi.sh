@@ -35,7 +35,7 @@ trap 'rm -f "$output"' EXIT
 
 need_program_with_mpi || exit 1
 prepare_toolchain
-cargo clippy --release --locked -p plateau-run -p plateau --lib --bins --test mpi --target-dir "$target" --features mpi \
+cargo clippy --release --locked -p plateau-run -p plateau -p plateau-tests --lib --bins --test mpi --target-dir "$target" --features mpi \
     -- -D warnings || exit 1
 for number in 1 2 3 5; do
     ranks $number || exit 1

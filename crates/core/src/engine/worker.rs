@@ -44,8 +44,8 @@ pub(crate) struct EngineMemory {
 }
 
 #[derive(Debug)]
-pub(crate) struct Worker<C: ?Sized> {
-    communicator: Box<C>,
+pub(crate) struct Worker {
+    communicator: Box<dyn Communicator>,
     parameters: Arc<Parameters>,
     partition: Arc<Partition>,
     instructions: InstructionSet,
@@ -102,7 +102,7 @@ pub(crate) struct Worker<C: ?Sized> {
     rows: Range<usize>,
 }
 
-impl<C: Communicator + ?Sized> Worker<C> {
+impl Worker {
     /// One worker of those that `communicator` connects, at t = 0, over a disc turned by `turned` columns.
     pub fn new(
         parameters: Arc<Parameters>,
@@ -110,7 +110,7 @@ impl<C: Communicator + ?Sized> Worker<C> {
         partition: Arc<Partition>,
         execution: Execution,
         turned: u64,
-        communicator: Box<C>,
+        communicator: Box<dyn Communicator>,
     ) -> Self {
         let mesh = &parameters.mesh;
         let needs = Needs::of(&parameters);

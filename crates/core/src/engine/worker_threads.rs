@@ -8,7 +8,7 @@ use std::thread::JoinHandle;
 use crossbeam::channel::{Receiver, Sender, unbounded};
 
 use crate::engine::comm::threads::Alarm;
-use crate::engine::comm::{CommError, Communicator, Exchange};
+use crate::engine::comm::{CommError, Exchange};
 use crate::engine::worker::{EngineMemory, Worker};
 use crate::model::clock::Operation;
 use crate::model::error::SimulationError;
@@ -60,7 +60,7 @@ impl WorkerThreads {
     ///
     /// # Errors
     /// What the system says when it gives no more threads.
-    pub fn start<C: Communicator + 'static>(workers: Vec<(Worker<C>, Alarm)>, pin: bool) -> std::io::Result<Self> {
+    pub fn start(workers: Vec<(Worker, Alarm)>, pin: bool) -> std::io::Result<Self> {
         let cores = if pin { core_affinity::get_core_ids().unwrap_or_default() } else { Vec::new() };
         let (answer, answers) = unbounded();
         let (orders, threads) = (Vec::new(), Vec::new());
@@ -177,9 +177,9 @@ impl Drop for WorkerThreads {
 }
 
 /// A thread's life: follows orders until there are no more, or one cannot be followed.
-fn work<C: Communicator>(
+fn work(
     rank: usize,
-    mut worker: Worker<C>,
+    mut worker: Worker,
     alarm: &Alarm,
     orders: &Receiver<Order>,
     answers: Option<&Sender<Result<Answer, SimulationError>>>,
@@ -201,7 +201,7 @@ fn work<C: Communicator>(
     }
 }
 
-fn follow<C: Communicator>(worker: &mut Worker<C>, order: &Order) -> Result<Answer, SimulationError> {
+fn follow(worker: &mut Worker, order: &Order) -> Result<Answer, SimulationError> {
     match order {
         Order::AdvanceTo(step, watched) => worker.advance_to(*step, *watched).map(|()| Answer::Course(worker.course())),
         Order::Accelerate(acceleration) => worker.accelerate(*acceleration).map(|()| Answer::Course(worker.course())),

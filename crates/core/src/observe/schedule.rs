@@ -240,7 +240,12 @@ impl Schedule {
         let samples = match self.sample_every {
             SampleEvery::Steps(every) => self.last as f64 / every as f64,
             SampleEvery::Time(every) if self.cycle.is_some() => self.samples_of_cycle(every),
-            SampleEvery::Time(every) => self.last as f64 / (every / self.clock.step_time()).max(1.0),
+            SampleEvery::Time(every) if every <= self.clock.step_time() => self.last as f64,
+            SampleEvery::Time(every) => {
+                let multiples = (self.end_time() / every).floor();
+                // The last step is mostly the one that is sampled for the last of them.
+                if self.due(multiples * every).0 < self.last { multiples + 1.0 } else { multiples }
+            }
         };
         (samples - 1e-9).ceil() as u64
     }

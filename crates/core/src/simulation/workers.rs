@@ -23,7 +23,7 @@ use crate::observe::{Map, Sample, Snapshot};
 #[derive(Debug)]
 pub(super) enum Workers {
     /// This thread, alone or, each for itself, with the other processes of a job.
-    One(Box<Worker<dyn Communicator>>),
+    One(Box<Worker>),
     /// Threads of their own.
     Threads(Box<WorkerThreads>),
     /// This thread, with the plain model.

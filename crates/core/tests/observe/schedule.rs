@@ -32,6 +32,20 @@ fn moments(schedule: &Schedule) -> Vec<(u64, f64, bool, bool)> {
 }
 
 #[test]
+fn the_number_of_samples_is_that_of_the_moments() {
+    // Steps of 35 ms or so: the last one is that of the last multiple, or comes after it, or there is none.
+    let parameters = Parameters { time_acceleration: 1370.0, ..Parameters::paper() };
+    for (end, every) in [(100.0, 0.5), (100.0, 0.7), (20.0, 3.0), (1.0, 2.0), (2.0, 0.01), (3.0, 0.0353)] {
+        let schedule = Schedule::new(&parameters, End::Time(end), SampleEvery::Time(every), &[]);
+        let (mut count, mut now) = (0, (0, 0.0));
+        while let Some(moment) = schedule.next(now.0, now.1) {
+            (count, now) = (count + u64::from(moment.sample), (moment.step, moment.time));
+        }
+        assert_eq!(schedule.samples(), count, "{end} s, every {every} s");
+    }
+}
+
+#[test]
 fn samples_in_a_pause_have_their_own_time() {
     let every = SampleEvery::Time(0.75);
     let times = |end| moments(&schedule(end, every, &[])).iter().map(|moment| (moment.0, moment.1)).collect::<Vec<_>>();

@@ -2,7 +2,6 @@
 
 use super::Worker;
 use crate::engine::coefficients::StatusPair;
-use crate::engine::comm::Communicator;
 use crate::engine::contact::{Carried, Verdict};
 use crate::engine::exact::{ExactSum, Quantum, Unit, of_words, words};
 use crate::engine::kernel::{Bracket, NearPair, Span, gaps_below};
@@ -23,7 +22,7 @@ const FINER: f64 = 16.0;
 /// Bits of the load below which what cells carry is cut off where it is added up.
 const LOAD_BITS: i32 = 64;
 
-impl<C: Communicator + ?Sized> Worker<C> {
+impl Worker {
     /// Finds the displacement that carries the load: nearly always the last pass has read all that this needs. Returns a
     /// bound of the overlaps at it, m.
     pub(super) fn balance(&mut self) -> Result<f64, SimulationError> {

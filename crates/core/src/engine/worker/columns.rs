@@ -1,7 +1,6 @@
 //! Passing over the worker's columns, and handing on those that cross a boundary between sectors.
 
 use super::Worker;
-use crate::engine::comm::Communicator;
 use crate::engine::contact::Contact;
 use crate::engine::debris::Debris;
 use crate::engine::kernel::{Bracket, Conditions, Edge, Span};
@@ -23,7 +22,7 @@ pub(crate) fn waiting_columns(transport: Option<usize>) -> usize {
     2 * transport.unwrap_or(1) - 1
 }
 
-impl<C: Communicator + ?Sized> Worker<C> {
+impl Worker {
     /// Wear and formation in every own column (model 4.2 and 4L), and the pairs of the next step against where its
     /// displacement is expected: the bracket that is returned.
     pub(super) fn pass_over_columns(&mut self) -> Result<Bracket, SimulationError> {

@@ -3,7 +3,6 @@
 use std::ops::Range;
 
 use super::Worker;
-use crate::engine::comm::Communicator;
 use crate::engine::exact::{self, ExactSum};
 use crate::engine::filling::RingSums;
 use crate::engine::lanes::LANES;
@@ -14,7 +13,7 @@ use crate::model::material::Status;
 use crate::model::state::{reported_disc_status, reported_pin_status};
 use crate::observe::{Map, MapValues, Sample, Snapshot};
 
-impl<C: Communicator + ?Sized> Worker<C> {
+impl Worker {
     /// The reported quantities after the last step.
     pub fn sample(&mut self) -> Result<Sample, SimulationError> {
         self.check_watched()?;

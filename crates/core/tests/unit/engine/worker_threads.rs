@@ -5,6 +5,7 @@ use std::sync::mpsc::channel;
 use std::time::Duration;
 
 use super::*;
+use crate::engine::comm::Communicator;
 use crate::engine::comm::threads::Threads;
 use crate::engine::execution::{Decomposition, Execution};
 use crate::engine::kernel::InstructionSet;
