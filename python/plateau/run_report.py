@@ -278,7 +278,9 @@ def _short(unit: Unit, value: float, digits: int = 3) -> str:
     return with_minus(f"{rounded:.6g} {unit.symbol}") if math.isfinite(value) else UNKNOWN
 
 
-def report(runs: Run | Sequence[Run], output: str | os.PathLike[str] | None = None, *, force: bool = False) -> str:
+def report(
+    runs: Run | Sequence[Run], output: str | os.PathLike[str] | None = None, *, force: bool = False, progress: bool | None = None
+) -> str:
     """Writes one page in HTML about a run, or about several that are compared with the first.
 
     Parameters
@@ -289,6 +291,8 @@ def report(runs: Run | Sequence[Run], output: str | os.PathLike[str] | None = No
         The page; by default in the working directory, named like the run file, or ``report.html`` for several.
     force : bool
         Replace the page if it exists.
+    progress : bool, optional
+        Show progress; by default in notebooks and terminals.
 
     Returns
     -------
@@ -301,15 +305,15 @@ def report(runs: Run | Sequence[Run], output: str | os.PathLike[str] | None = No
         raise InputError(f"-o {path}: a report is a page in HTML, expected a name such as {path.with_suffix('.html')}; a browser prints it as PDF")
     path = followed(path)
     refuse_file(path, force, inputs_of(trees), "name another one with -o")
-    put(path, report_page(trees).encode())
+    put(path, report_page(trees, progress).encode())
     return str(path)
 
 
-def report_page(runs: Sequence[xarray.DataTree]) -> str:
+def report_page(runs: Sequence[xarray.DataTree], progress: bool | None = False) -> str:
     """The page about opened runs."""
     told = [Told(run, label) for run, label in zip(runs, labels_of(runs), strict=True)]
     drawn = figures.drawn(runs)
-    files = saved(drawn, ["svg"], dpi=200)
+    files = saved(drawn, ["svg"], dpi=200, progress=progress)
     wanted = FIRST_FIGURES[0 if any(one.dissipates for one in told) else 1]
     # High ones of several panels have less room there.
     first = sorted((name for name in wanted if name in drawn), key=lambda name: drawn[name].get_figheight() * 25.4 > 90)[:2]

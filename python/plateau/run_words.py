@@ -5,7 +5,7 @@ import math
 from pathlib import Path
 
 from plateau import figures
-from plateau.command_line import Words, of_all, options, several
+from plateau.command_line import Words, of_all, options, progress, several
 from plateau.errors import InputError
 from plateau.exports import FORMATS, export
 from plateau.figures import FIGURES
@@ -91,7 +91,7 @@ def _plot(given: argparse.Namespace) -> str:
     for name in given.figure or FIGURES:
         refuse_file(folder / f"{name}.{given.format}", given.force, inputs, "-o DIR names another folder")
     drawn = figures.drawn(runs, given.figure, given.at, width=given.width, cmap=given.cmap, polar=given.polar)
-    files = saved(drawn, [given.format])
+    files = saved(drawn, [given.format], progress=progress(given))
     put_together(folder, files, given.force, inputs)
     for path in sorted(folder.glob(f"*-[0-9]*.{given.format}")):
         if path.name not in files and path.stem.rpartition("-")[0] in FIGURES:
@@ -102,7 +102,7 @@ def _plot(given: argparse.Namespace) -> str:
 
 
 def _report(given: argparse.Namespace) -> str:
-    path = report(given.runs, given.output, force=given.force)
+    path = report(given.runs, given.output, force=given.force, progress=progress(given))
     return f"wrote {path} ({_size(path)})\n"
 
 

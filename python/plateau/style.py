@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any, ParamSpec, TypeVar
 
 from plateau.errors import MissingPackageError
+from plateau.progress import Progress
 from plateau.units import with_minus
 
 P = ParamSpec("P")
@@ -64,14 +65,18 @@ def _look() -> Any:
     return matplotlib.rc_params_from_file(Path(__file__).with_name("plateau.mplstyle"), use_default_template=False)
 
 
-def saved(figures: Mapping[str, Any], formats: Sequence[str] | None = None, dpi: int | None = None) -> dict[str, bytes]:
+def saved(
+    figures: Mapping[str, Any], formats: Sequence[str] | None = None, dpi: int | None = None, progress: bool | None = False
+) -> dict[str, bytes]:
     """Files of figures by name with ending, of all formats unless told; equal figures give equal files. `dpi` is also that of maps within svg and pdf."""
     import matplotlib
 
-    files = {}
+    files: dict[str, bytes] = {}
     # Without a layout of the user's, which would take the place of the one that is found here.
-    with matplotlib.rc_context(_look() | {"figure.autolayout": False, "figure.constrained_layout.use": False}):
-        for name, figure in figures.items():
+    layout = {"figure.autolayout": False, "figure.constrained_layout.use": False}
+    with matplotlib.rc_context(_look() | layout), Progress(progress) as told:
+        for at, (name, figure) in enumerate(figures.items()):
+            told.show(at / len(figures), f"figure {at + 1} of {len(figures)}")
             figure.dpi = dpi or matplotlib.rcParams["savefig.dpi"]
             # The places of all that is drawn are the same in each format. Found by savefig, they would take a drawing of their own.
             if engine := figure.get_layout_engine():

@@ -134,8 +134,10 @@ class Runs(InFolder):
     @classmethod
     def setUpClass(cls):
         super().setUpClass()
-        cls.run_ = plateau.run("quick.toml", "quick.h5", set=SHORT)
-        cls.round_ = plateau.run("quick.toml", "round.h5", set=ROUND)
+        # A fifth of a second for a pulse of the contact area.
+        pulses = {"materials.pin_resin.wear_height": "0.04 um"}
+        cls.run_ = plateau.run("quick.toml", "quick.h5", set=SHORT | pulses)
+        cls.round_ = plateau.run("quick.toml", "round.h5", set=ROUND | pulses)
 
     def test_the_mean_is_the_one_that_the_program_prints(self):
         for run in (self.run_, self.round_):

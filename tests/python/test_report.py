@@ -174,7 +174,7 @@ class Report(unittest.TestCase):
         pathlib.Path("page.html").write_text("before")
         pathlib.Path("page.html").chmod(0o640)
         pathlib.Path("link.html").symlink_to("page.html")
-        with unittest.mock.patch.object(run_report, "report_page", lambda runs: "after"):
+        with unittest.mock.patch.object(run_report, "report_page", lambda runs, progress: "after"):
             plateau.report("quick.h5", "link.html", force=True)
         self.assertTrue(os.path.islink("link.html"))
         self.assertEqual((pathlib.Path("page.html").read_text(), os.stat("page.html").st_mode & 0o777), ("after", 0o640))

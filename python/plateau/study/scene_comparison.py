@@ -193,8 +193,10 @@ def compare(
     Comparison
     """
     files = [Path(file_name(scene, "a scene")) for scene in scenes]
-    if len(files) < 2 or seeds < 1 or not 0.0 < confidence < 1.0:
-        raise InputError("compare: expected two scenes or more, one seed or more, and a confidence between 0 and 1")
+    if len(files) < 2:
+        raise InputError(f"compare: found {len(files)}, expected two scenes or more")
+    if seeds < 1 or not 0.0 < confidence < 1.0:
+        raise InputError("compare: expected one seed or more, and a confidence between 0 and 1")
     stems = [file.stem for file in files]
     names = [stem if stems.count(stem) == 1 else f"{stem}-{number}" for number, stem in enumerate(stems, 1)]
     changes = [f"{key}={toml_of(value)}" for key, value in set.items()] if isinstance(set, Mapping) else list(set)

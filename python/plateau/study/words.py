@@ -2,6 +2,7 @@
 compare``. Each is a thin layer on a function of `plateau.study`."""
 
 import argparse
+import warnings
 from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
@@ -125,9 +126,12 @@ def csv_of(table: pandas.DataFrame) -> bytes:
     return written_table([list(map(str, table)), *(list(map(cell, row)) for row in table.itertuples(index=False, name=None))])
 
 
-def _opened(given: argparse.Namespace, name: str, of: str | None = None) -> tuple[Study, Path, str | None]:
-    """The study, the folder of the answer, and what its files are of; refuses a folder that is taken before any work is done."""
+def _opened(
+    given: argparse.Namespace, name: str, of: str | None = None, check: Callable[[argparse.Namespace, Study], object] = lambda *_: None
+) -> tuple[Study, Path, str | None]:
+    """The study, the folder of the answer, and what its files are of; what `check` refuses, or a folder that is taken, before any work is done."""
     study = analysed(given.study, given.directory)
+    check(given, study)
     folder = study.directory / name if given.output is None else given.output
     said = None if of is None else f"{of} {relative(given.study, folder)}"
     refuse_earlier(folder, said, given.force)
@@ -145,7 +149,7 @@ def _inputs(study: Study, *others: Path | None) -> tuple[Path, ...]:
 def _effects(given: argparse.Namespace) -> str:
     study, folder, _ = _opened(given, "effects")
     found = studies.effects(study, **options(given, "model", "confidence"))
-    drawn = saved(figures := found.figures())
+    drawn = saved(figures := found.figures(), progress=progress(given))
     tables = {"effects.csv": found.table.drop(columns="factors"), "residuals.csv": found.residuals}
     return _told(given, found, folder, {**tables, "effects.html": found.page(figures, drawn), **drawn}, _inputs(study), study.title)
 
@@ -167,21 +171,34 @@ def _predict(given: argparse.Namespace) -> str:
 
 
 def _optimize(given: argparse.Namespace) -> str:
-    study, folder, _ = _opened(given, "optimum")
+    study, folder, _ = _opened(given, "optimum", check=_goals)
     asked = options(given, "maximize", "minimize", "target", "limit", "limit_on", "hold", "importance", "model", "confidence")
     found = studies.optimize(study, **asked, runs=given.runs or 0, **options(given, "confirm", "jobs", "workers"), progress=progress(given))
     table = found.table.assign(**found.settings.set_index("factor")["text"].rename(str.strip))
-    said = _told(given, found, folder, {"optimum.csv": table, **saved(found.figures(given.contour))}, _inputs(study))
+    said = _told(given, found, folder, {"optimum.csv": table, **saved(found.figures(given.contour), progress=progress(given))}, _inputs(study))
     if found.keeps_limits:
         return said
     show(said)
     raise RunFailed("no settings within the ranges keep all limits")
 
 
+def _goals(given: argparse.Namespace, study: Study) -> object:
+    """Refuses goals and limits that cannot be."""
+    from plateau.study.analysis import usable
+    from plateau.study.goals import wanted
+
+    with warnings.catch_warnings():
+        # They are given when they are sought.
+        warnings.simplefilter("ignore")
+        usable(study)
+    aims = {aim: getattr(given, aim) or () for aim in ("maximize", "minimize", "target")}
+    return wanted(study, aims, given.limit or (), given.limit_on, given.importance or ())
+
+
 def _sensitivity(given: argparse.Namespace) -> str:
     study, folder, _ = _opened(given, "sensitivity")
     found = studies.sensitivity(study, confidence=given.confidence)
-    return _told(given, found, folder, {"sensitivity.csv": found.table, **saved(found.figures())}, _inputs(study), study.title)
+    return _told(given, found, folder, {"sensitivity.csv": found.table, **saved(found.figures(), progress=progress(given))}, _inputs(study), study.title)
 
 
 def _import(given: argparse.Namespace) -> str:
@@ -197,7 +214,7 @@ def _fit(given: argparse.Namespace) -> str:
         return json_of(planned.document()) if given.json else planned.text()
     study, folder, of = _opened(given, "fit", "fit")
     found = studies.fit(study, **options(given, "jobs", "workers", "retry"), progress=progress(given))
-    return _told(given, found, folder, {**found.tables, **saved(found.figures())}, _inputs(study), of=of)
+    return _told(given, found, folder, {**found.tables, **saved(found.figures(), progress=progress(given))}, _inputs(study), of=of)
 
 
 def _compare(given: argparse.Namespace) -> str:
@@ -208,6 +225,6 @@ def _compare(given: argparse.Namespace) -> str:
     refuse_earlier(folder, of, given.force)
     asked = options(given, "set", "confidence", "jobs", "workers")
     found = studies.compare(given.scenes, given.seeds, responses=given.response, output=folder, **asked, progress=progress(given))
-    drawn = saved(figures := found.figures())
+    drawn = saved(figures := found.figures(), progress=progress(given))
     tables = {"comparison.csv": found.table, "means.csv": found.means, "runs.csv": found.runs, "curves.csv": found.curves}
     return _told(given, found, folder, {"comparison.html": found.page(figures, drawn), **tables, **drawn}, tuple(given.scenes), of=of)
