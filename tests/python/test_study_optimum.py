@@ -233,8 +233,11 @@ class Wishes(unittest.TestCase):
     def test_what_may_be_chance_is_said(self):
         random = np.random.default_rng(4)
         runs = pandas.DataFrame(np.repeat(list(itertools.product((-1.0, 0.0, 1.0), repeat=2)), 2, axis=0), columns=["A", "B"])
-        study = study_of([span("A"), span("B")], runs.assign(y=random.normal(size=18)), "csv")
-        self.assertTrue(any("may be chance" in said for said in optimize(study, maximize=["y"]).cautions))
+        # What sets of seeds add everywhere is no effect of a factor.
+        for seeds in (0.0, 9.0):
+            y = random.normal(size=18) + np.tile([0.0, seeds], 9)
+            study = study_of([span("A"), span("B")], runs.assign(y=y, **({"replicate": np.tile([1, 2], 9)} if seeds else {})), "csv")
+            self.assertTrue(any("may be chance" in said for said in optimize(study, maximize=["y"]).cautions))
         sure = study_of([span("A"), span("B")], runs.assign(y=5.0 * runs["A"] + random.normal(size=18)), "csv")
         self.assertFalse(any("may be chance" in said for said in optimize(sure, maximize=["y"]).cautions))
 

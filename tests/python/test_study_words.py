@@ -102,7 +102,7 @@ class Words(unittest.TestCase):
     def draw_nothing(self):
         """For what is no matter of figures, which take half of the time."""
         self.patch(analysis, "DRAWINGS", {})
-        self.patch(words, "saved", lambda figures: {})
+        self.patch(words, "saved", lambda figures, progress: {})
 
     def call(self, *words, status=0):
         """What is printed and said."""
@@ -257,6 +257,11 @@ class Words(unittest.TestCase):
         self.refused("sweep", "predict", "study.toml", "-o", "study.toml", "--force", said="study.toml is an input and is not replaced")
         self.refused("sweep", "predict", "study.toml", "--at", "load=9 N", said="give --extrapolate to see")
         self.assertIn("load = 9 N", self.call("sweep", "predict", "study.toml", "--at", "load=9 N", "--extrapolate", "-q")[0])
+        # A wrong goal is said before a folder that is in the way.
+        pathlib.Path("taken").mkdir()
+        pathlib.Path("taken/optimum.csv").touch()
+        self.refused("sweep", "optimize", "study.toml", "--minimize", "leek", "-o", "taken", said="there is none of this name")
+        self.refused("sweep", "optimize", "study.toml", "--minimize", "leak", "-o", "taken", said="taken")
         out, err = self.call("sweep", "optimize", "study.toml", "--minimize", "leak", "--limit", "grip>=5", "-q", status=1)
         self.assertIn("missed", out)
         self.assertEqual(err, "plateau: no settings within the ranges keep all limits\n")

@@ -318,6 +318,13 @@ class Fitted:
         return self._held_out[:, 1]
 
     @property
+    def explained(self) -> Squares:
+        """What the factors explain beside the sets of seeds."""
+        blocks = LeastSquares(self.design[:, : self.columns[1].stop])
+        left = blocks.residuals(self.values - self.mean)
+        return Squares(len(self.fit.kept) - len(blocks.kept), max(float(left @ left) - self.residual.sum, 0.0))
+
+    @property
     def press(self) -> float:
         """Sum of the squares by which runs differ from the fit without their point; NaN if a point has a coefficient of its own."""
         return float(self._held_out[:, 2].sum())

@@ -9,7 +9,7 @@ import pandas
 
 from plateau.errors import InputError
 from plateau.study.data import Factor, Numbers, Response, Study
-from plateau.study.model import Fitted, NothingToFit, Squares, f_test
+from plateau.study.model import Fitted, NothingToFit, f_test
 from plateau.study.model_choice import cautions, fitted
 from plateau.study.process import Process
 from plateau.units import unit_of, with_digits
@@ -88,9 +88,7 @@ class Surrogate:
         """Whether what is forecast may be scatter: the model is not significant, or the process foretells points no better than their mean."""
         if self._taken is not None:
             return not self.missed < 1.0
-        residual, total = self._fit.residual, self._fit.total
-        explained = Squares(total.freedom - residual.freedom, total.sum - residual.sum)
-        return bool(f_test(explained, residual)[1] > 1.0 - self._fit.confidence)
+        return bool(f_test(self._fit.explained, self._fit.residual)[1] > 1.0 - self._fit.confidence)
 
     @cached_property
     def cautions(self) -> list[str]:

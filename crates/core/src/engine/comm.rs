@@ -15,9 +15,9 @@ use crate::model::error::SimulationError;
 pub enum CommError {
     #[error("worker {worker} failed: {message}")]
     Worker { worker: usize, message: String },
-    /// What the workers talk through.
+    /// Ranks cannot reach each other.
     #[error("{message}")]
-    Means { message: String },
+    Ranks { message: String },
 }
 
 impl From<CommError> for SimulationError {

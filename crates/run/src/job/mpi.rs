@@ -224,7 +224,7 @@ pub enum MpiError {
 
 impl From<MpiError> for CommError {
     fn from(error: MpiError) -> Self {
-        Self::Means { message: error.to_string() }
+        Self::Ranks { message: error.to_string() }
     }
 }
 
