@@ -14,6 +14,8 @@ os.environ["MPLBACKEND"] = "agg"
 
 QUICK = ROOT / "data" / "scenes" / "quick.toml"
 SHORT = {"operation.duration": "20 s", "output.maps_at": ["0 s", "10 s"]}
+# A fifth of a second for a pulse of the contact area, in place of 25 s.
+PULSES = {"materials.pin_resin.wear_height": "0.04 um"}
 ROUND = {**SHORT, "mesh": {"shape": "disc", "pin_width": "1 mm", "cell_size": "50 um", "mean_radius": "20.5 mm"}}
 STUDY = f"""
 version = 1

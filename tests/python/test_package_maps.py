@@ -13,7 +13,7 @@ import warnings
 import h5py
 import numpy as np
 import xarray
-from package_scenes import ROUND, SHORT, InFolder
+from package_scenes import PULSES, ROUND, SHORT, InFolder
 
 import plateau
 from plateau import means
@@ -134,10 +134,8 @@ class Runs(InFolder):
     @classmethod
     def setUpClass(cls):
         super().setUpClass()
-        # A fifth of a second for a pulse of the contact area.
-        pulses = {"materials.pin_resin.wear_height": "0.04 um"}
-        cls.run_ = plateau.run("quick.toml", "quick.h5", set=SHORT | pulses)
-        cls.round_ = plateau.run("quick.toml", "round.h5", set=ROUND | pulses)
+        cls.run_ = plateau.run("quick.toml", "quick.h5", set=SHORT | PULSES)
+        cls.round_ = plateau.run("quick.toml", "round.h5", set=ROUND | PULSES)
 
     def test_the_mean_is_the_one_that_the_program_prints(self):
         for run in (self.run_, self.round_):

@@ -14,15 +14,13 @@ import xml.etree.ElementTree as xml
 
 import h5py
 import numpy as np
-from package_scenes import QUICK, SHORT
+from package_scenes import PULSES, QUICK, SHORT
 
 import plateau
 from plateau import command_line, figures, run_report
 from plateau.quantities import CELSIUS, MM2, NUMBER, PERCENT
 from plateau.run_report import Measure, report_page
 
-# A fifth of a second for a pulse in place of 25 s.
-PULSES = SHORT | {"materials.pin_resin.wear_height": "0.04 um"}
 HOSTILE = '<script>alert(1)</script> "$x & \u202eback'
 
 
@@ -39,8 +37,8 @@ class Report(unittest.TestCase):
         folder = tempfile.TemporaryDirectory()
         cls.addClassCleanup(folder.cleanup)
         cls.made = pathlib.Path(folder.name)
-        plateau.run(QUICK, cls.made / "quick.h5", set=PULSES)
-        plateau.run(QUICK, cls.made / "heavy.h5", set={**PULSES, "operation.normal_force": "10 N"}).close()
+        plateau.run(QUICK, cls.made / "quick.h5", set=SHORT | PULSES)
+        plateau.run(QUICK, cls.made / "heavy.h5", set={**SHORT, **PULSES, "operation.normal_force": "10 N"}).close()
         with h5py.File(cls.made / "heavy.h5", "r+") as file:
             file.attrs["title"] = HOSTILE
         plateau.run(QUICK.with_name("stops.toml"), cls.made / "stops.h5")

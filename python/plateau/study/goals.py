@@ -144,8 +144,11 @@ class Problem:
     def worth(self, points: pandas.DataFrame) -> Numbers:
         """The mean desirability; NaN where a limit is missed."""
         found = self.forecasts(points)
-        reached = overall(self.goals, [goal.desirability(found[goal.response]["value"]) for goal in self.goals])
-        return np.where(self.keeps(found), reached, np.nan)
+        return np.where(self.keeps(found), self.desirability(found), np.nan)
+
+    def desirability(self, forecasts: dict[str, pandas.DataFrame]) -> Numbers:
+        """The mean desirability, whether limits are kept or not."""
+        return overall(self.goals, [goal.desirability(forecasts[goal.response]["value"]) for goal in self.goals])
 
     def keeps(self, forecasts: dict[str, pandas.DataFrame]) -> Numbers:
         """Whether forecasts keep all limits."""

@@ -354,7 +354,7 @@ class Fitted:
         parts, freedoms = self._between(weights, self._leaves)
         return np.square(parts).sum(axis=1), freedoms
 
-    @property
+    @cached_property
     def _leaves(self) -> Numbers:
         """What the mean model of all blocks leaves of the runs, as a matrix."""
         without = self.design.copy()

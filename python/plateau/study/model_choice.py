@@ -77,12 +77,17 @@ def no_squares(fit: Fitted) -> str:
     return f"the runs cannot tell {', '.join(aliased)} from other terms" if aliased else ""
 
 
-# Cautions, advice and JSON ask for it, and each time all other models would be fitted.
-@lru_cache(maxsize=32)
 def misfit(fit: Fitted) -> dict[str, Any] | None:
     """What a model misses significantly, by replicates or by models with all its terms and more (Bonferroni), and the model to try."""
+    return _misfit(fit)[0]
+
+
+# Cautions, advice and JSON ask for it, and each time all other models would be fitted.
+@lru_cache(maxsize=32)
+def _misfit(fit: Fitted) -> tuple[dict[str, Any] | None, Fitted | None]:
+    """What a model misses, and the fit of the model to try."""
     if np.isnan(fit.error):
-        return None
+        return None, None
     own, level = fit.residual, 1.0 - fit.confidence
     others = [other for model in ("main", "interactions", "quadratic", "full") if model != fit.model and (other := _other(fit, model))]
     _, _, f, p = fit.lack_of_fit
@@ -98,10 +103,10 @@ def misfit(fit: Fitted) -> dict[str, Any] | None:
         tests = [fit.beyond(new, other.residual, other.design)[1:] if other.residual.sum > 0 else (np.inf, 0.0) for new, other in both]
         found = [(*test, other) for test, other in zip(tests, larger, strict=True) if test[1] < level / len(larger)]
         if not found:
-            return None
+            return None, None
     f, p, best = min(found, key=lambda one: one[2].residual.mean, default=(f, p, None))
     tried = {"model_to_try": best and best.model, "r_squared": best and 1.0 - best.residual.sum / best.total.sum}
-    return {"f": f if np.isfinite(f) else None, "p": p, "by_replicates": by_replicates, **tried}
+    return {"f": f if np.isfinite(f) else None, "p": p, "by_replicates": by_replicates, **tried}, best
 
 
 def _other(fit: Fitted, model: str) -> Fitted | None:
@@ -118,14 +123,15 @@ def _other(fit: Fitted, model: str) -> Fitted | None:
 def cautions(fit: Fitted) -> list[str]:
     """What is to be known before the model is believed: a sentence each."""
     said = []
-    if (missed := misfit(fit)) is not None:
+    missed, best = _misfit(fit)
+    if missed is not None:
         p = "p < 0.0001" if missed["p"] < 1e-4 else f"p = {missed['p']:.2g}"
         better = 'no other --model explains more; narrow the ranges, or try scale = "logarithmic" for a factor'
-        if missed["model_to_try"]:
+        if best is not None:
             share = f"R² {missed['r_squared']:.4f} instead of {1.0 - fit.residual.sum / fit.total.sum:.4f}"
-            better = f"try --model {missed['model_to_try']}, which explains more, {share}"
-            if (of := _other(fit, missed["model_to_try"])) and of.point_count <= len(of.own):
-                better = f"--model {missed['model_to_try']} explains more, {share}, but all points: make runs at others, such as centre points"
+            better = f"try --model {best.model}, which explains more, {share}"
+            if best.point_count <= len(best.own):
+                better = f"--model {best.model} explains more, {share}, but all points: make runs at others, such as centre points"
         how = ": points differ from the model by more than replicates from each other" if missed["by_replicates"] else ""
         said.append(f"lack of fit{how} ({p}); {better}")
     if (freedom := fit.point_count - len(fit.own)) <= 0:

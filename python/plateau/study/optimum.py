@@ -336,8 +336,7 @@ def _profiler(problem: Problem, best: dict[str, Any], factors: Mapping[Factor, A
     figure, axes = new(*size, caption, len(shown) + 1, len(factors), note, sharex="col", sharey="row")
     for column, (factor, levels) in enumerate(factors.items()):
         # The best settings, too: where limits hold them from both sides, no other place of the line keeps all of them.
-        own = [*_range(factor, best[factor.name], STEPS), best[factor.name]] if levels is None else []
-        values = np.array(levels) if levels is not None else np.unique(own)
+        values = np.union1d(_range(factor, best[factor.name], STEPS), [best[factor.name]]) if levels is None else np.array(levels)
         points = pandas.DataFrame([best] * len(values)).assign(**{factor.name: values})
         forecasts, places = problem.forecasts(points, with_intervals=True), positions(factor, values)
         style = {"color": LINES[0], "linestyle": "-" if levels is None else "none", "marker": "" if levels is None else "o"}
@@ -352,7 +351,8 @@ def _profiler(problem: Problem, best: dict[str, Any], factors: Mapping[Factor, A
             for limit in (limit for limit in problem.limits if limit.response == name):
                 axis.axhline(unit.value(limit.value), color=LINES[1], linestyle=":")
             axes[row, 0].set_ylabel(labelled(name, unit.symbol))
-        desirability, kept = replace(problem, limits=[]).worth(points), problem.worth(points)
+        desirability = problem.desirability(forecasts)
+        kept = np.where(problem.keeps(forecasts), desirability, np.nan)
         spans[factor.name] = float(np.ptp(np.nan_to_num(kept)))
         axes[-1, column].plot(places, desirability, **(style | {"color": QUIET}))
         axes[-1, column].plot(places, kept, **style)

@@ -258,15 +258,13 @@ def drawn_models(one: Surrogate, places: pandas.DataFrame, random: np.random.Gen
     """Models with other coefficients, by what these differ by between sets of seeds, and smooth functions of as much as the model misses."""
     fit, where, result = one._fit, one.rows(places), []
     rows, freedom, missed = fit.matrix(places), fit.residual_freedom, fit._missed[0]
-    if np.isnan(fit.error):
+    parts, of_parts = fit.fit.root * fit.error**0.5, float(freedom)
+    if fit.seeds > 1 and not np.isnan(fit.error):
+        parts, each = fit._between(fit.fit.root @ fit.fit.basis.T, fit._leaves)
+        of_parts = float(each.mean())
+    if np.isnan(parts).any():
         # Nothing tells the error.
         return np.array([rows @ fit.coefficients])
-    parts, of_parts = fit.fit.root * fit.error**0.5, float(freedom)
-    if fit.seeds > 1:
-        parts, each = fit._between(fit.fit.root @ fit.fit.basis.T, fit._leaves)
-        if np.isnan(each).any():
-            return np.array([rows @ fit.coefficients])
-        of_parts = float(each.mean())
     for _ in range(FUNCTIONS):
         change, scale = parts @ _student(of_parts, parts.shape[1], random), np.sqrt(freedom / random.chisquare(freedom))
         frequency = random.standard_t(5, (COSINES, where.shape[1])) / np.exp(np.log(2.0) + random.standard_normal(where.shape[1]))
