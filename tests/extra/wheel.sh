@@ -78,7 +78,7 @@ use_wheel() {
     inside "$1" chown -R user /home/user
     ! as_user "$1" 'command -v cargo || command -v rustc' || { echo 'there is a Rust' && exit 1; }
     began=$(date +%s)
-    as_user "$1" "$2 -m venv venv && venv/bin/pip install --quiet --disable-pip-version-check ./*.whl matplotlib" || exit 1
+    as_user "$1" "$2 -m venv venv && venv/bin/pip install --quiet --disable-pip-version-check ./$(basename "$wheel")[all]" || exit 1
     echo "pip install: $(($(date +%s) - began)) s"
     as_user "$1" 'venv/bin/python wheel_use.py && venv/bin/plateau --version' || exit 1
     # The shell inside expands it.
