@@ -8,7 +8,6 @@
 
 mod statistics;
 
-use rayon::prelude::*;
 pub(super) use statistics::crossing;
 use statistics::{Line, Quantiles, Reach, Spectrum};
 
@@ -21,7 +20,6 @@ use super::synthesis::planar::{self, Grid, Plane};
 use super::synthesis::translation::Translation;
 use super::{Body, Length, Patch};
 use crate::model::mesh::Mesh;
-use crate::surface::fft::Complex;
 
 /// What is made of a patch that is smaller than the body.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -92,9 +90,8 @@ pub(super) fn extend(
         // The preparation warns of it.
         return Ok(vec![mean(&patch.heights); body.columns(mesh) * mesh.rows()]);
     };
-    let mut plane = Plane::of(&grid);
     let translation = Translation::of(|x| quantiles.normal(x), QUADRATURE_STEP, 0.0);
-    let mut power = gaussian_power(correlation, |value| translation.inverse(value), &mut plane);
+    let mut power = gaussian_power(correlation, |value| translation.inverse(value), &Plane::of(&grid));
     // Where no field has it, the nearest.
     power.iter_mut().for_each(|power| *power = power.max(0.0));
     let stream = if body == Body::Disc { Stream::DiscExtension } else { Stream::PinExtension };
@@ -129,7 +126,7 @@ fn statistics_of_patch(
         if long_waves > MUCH { ": measure a larger area" } else { "" }
     ));
     report.extend(few_heights(&cells));
-    let correlation = autocorrelation(spectrum.power, &mut Plane::of(&grid));
+    let correlation = Plane::of(&grid).autocorrelation(spectrum.power);
     report.extend(Reach::of(&correlation, &grid, &cells).remarks(long_waves > MUCH, patch, body, mesh));
     Ok(Some(Statistics { grid, correlation, quantiles }))
 }
@@ -211,37 +208,15 @@ fn grid(patch: &Patch, body: Body, mesh: &Mesh) -> Result<Grid, PreparationError
     if many || grid.is_too_large() { Err(large([grid.padded_columns, grid.padded_rows])) } else { Ok(grid) }
 }
 
-/// From the power at every harmonic to the autocorrelation at every lag, 1 at none, column by column.
-fn autocorrelation(power: Vec<f64>, plane: &mut Plane) -> Vec<f64> {
-    let mut values: Vec<Complex> = power.into_iter().map(|power| Complex { re: power, im: 0.0 }).collect();
-    plane.forward(&mut values);
-    let variance = values.first().map_or(1.0, |value| value.re);
-    values.into_iter().map(|value| value.re / variance).collect()
-}
-
 /// Autocorrelation that is no more than rounding.
 const ROUNDING: f64 = 1e-13;
 
 /// The power of the Gaussian field that has this autocorrelation after a map of its values, of which this is the inverse; negative
 /// where no field has it.
-pub(super) fn gaussian_power(
-    correlation: Vec<f64>,
-    inverse: impl Fn(f64) -> f64 + Sync,
-    plane: &mut Plane,
-) -> Vec<f64> {
+pub(super) fn gaussian_power(correlation: Vec<f64>, inverse: impl Fn(f64) -> f64 + Sync, plane: &Plane) -> Vec<f64> {
     let [columns, rows] = plane.size();
-    let opposite = |here: usize| (columns - here / rows) % columns * rows + (rows - here % rows) % rows;
-    let mut values: Vec<Complex> = vec![Complex::default(); correlation.len()];
     // Of two opposite lags, which have the same value, the first.
-    values.par_iter_mut().enumerate().filter(|(here, _)| *here <= opposite(*here)).for_each(|(here, value)| {
-        value.re = match correlation[here] {
-            small if small.abs() < ROUNDING => 0.0,
-            correlation => inverse(correlation.min(1.0)),
-        };
-    });
-    for here in 0..values.len() {
-        values[here].re = values[here.min(opposite(here))].re;
-    }
-    plane.forward(&mut values);
-    values.into_iter().map(|value| value.re).collect()
+    let opposite = |here: usize| (columns - here / rows) % columns * rows + (rows - here % rows) % rows;
+    let beyond_rounding = |value: f64| if value.abs() < ROUNDING { 0.0 } else { inverse(value.min(1.0)) };
+    plane.power_of(correlation, |here| here.min(opposite(here)), beyond_rounding)
 }

@@ -87,7 +87,7 @@ impl Spectrum {
     pub(super) fn of(cells: &Patch, grid: &Grid) -> Self {
         let (columns, rows) = (grid.padded_columns, grid.padded_rows);
         let (along, across) = (tapers(cells.columns), tapers(cells.rows));
-        let mut plane = Plane::of(grid);
+        let plane = Plane::of(grid);
         let mut power = vec![0.0; columns * rows];
         for first in &along {
             // Two real fields travel as the two parts of a complex one.

@@ -70,7 +70,7 @@ pub(super) fn base(
     report.extend(found.warnings(size));
     let correlation = found.on(&grid);
     let cut = Cut::of(fraction);
-    let power = nearest(gaussian_power(correlation, |value| cut.inverse(value), &mut Plane::of(&grid)));
+    let power = nearest(gaussian_power(correlation, |value| cut.inverse(value), &Plane::of(&grid)));
     let field = planar::field(&grid, power, None, &mut Random::new(seed, Stream::PinBaseExtension));
     let base = highest(&field, fraction, mesh);
     let of_picture = [found.at(cell[0], 0.0), found.at(0.0, cell[1])];
@@ -165,7 +165,7 @@ impl Autocorrelation {
         for (x, y) in places() {
             values[x * lags[1] + y].re = f64::from(u8::from(is_fibre(x, y))) - mean;
         }
-        let mut plane = Plane::new(lags[0], lags[1], 1);
+        let plane = Plane::new(lags[0], lags[1]);
         plane.forward(&mut values);
         values.iter_mut().for_each(|value| *value = Complex { re: value.norm_sqr(), im: 0.0 });
         // The transform of what is symmetric is that back.

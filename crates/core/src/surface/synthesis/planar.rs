@@ -124,9 +124,9 @@ pub(in crate::surface) fn field(
     translation: Option<&Translation>,
     random: &mut Random,
 ) -> Vec<f64> {
-    let mut plane = Plane::of(grid);
+    let plane = Plane::of(grid);
     if let Some(translation) = translation {
-        distort(&mut power, translation, &mut plane);
+        power = distorted(power, translation, grid, &plane);
     }
     let strongest = power.iter().copied().fold(0.0, f64::max);
     let gain = power.iter().map(|power| if *power > WEAKEST * strongest { power.sqrt() } else { 0.0 });
@@ -142,37 +142,33 @@ pub(in crate::surface) fn field(
 ///
 /// The inverse of the translation need not be an autocorrelation: where its spectrum is negative, no Gaussian field has
 /// it, and the nearest that one has is 0 there.
-fn distort(power: &mut [f64], translation: &Translation, plane: &mut Plane) {
-    let mut values: Vec<Complex> = power.iter().map(|power| Complex { re: *power, im: 0.0 }).collect();
-    plane.forward(&mut values);
-    let variance = values.first().map_or(1.0, |value| value.re);
-    values.iter_mut().for_each(|value| *value = Complex { re: value.re / variance, im: 0.0 });
-    plane.map_symmetric(&mut values, |autocorrelation| translation.inverse(autocorrelation));
-    plane.forward(&mut values);
-    let repeats = plane.repeats;
-    for (column, (power, values)) in power.chunks_mut(plane.rows).zip(values.chunks(plane.rows)).enumerate() {
-        let kept = column.min(plane.columns - column).is_multiple_of(repeats);
-        power.iter_mut().zip(values).for_each(|(power, value)| *power = if kept { value.re.max(0.0) } else { 0.0 });
+fn distorted(power: Vec<f64>, translation: &Translation, grid: &Grid, plane: &Plane) -> Vec<f64> {
+    let [columns, rows] = plane.size();
+    let first = |here: usize| harmonic(here / rows, columns) * rows + harmonic(here % rows, rows);
+    let mut power = plane.power_of(plane.autocorrelation(power), first, |value| translation.inverse(value));
+    for (column, power) in power.chunks_mut(rows).enumerate() {
+        let kept = harmonic(column, columns).is_multiple_of(grid.repeats);
+        power.iter_mut().for_each(|power| *power = if kept { power.max(0.0) } else { 0.0 });
     }
+    power
 }
 
 /// Transform in the plane, column by column and then row by row.
 pub(in crate::surface) struct Plane {
     columns: usize,
     rows: usize,
-    repeats: usize,
     along_y: Fft,
     along_x: Fft,
 }
 
 impl Plane {
-    /// That of so many columns and rows, along which the field repeats so many times.
-    pub(in crate::surface) fn new(columns: usize, rows: usize, repeats: usize) -> Self {
-        Self { columns, rows, repeats, along_y: Fft::new(rows), along_x: Fft::new(columns) }
+    /// That of so many columns and rows.
+    pub(in crate::surface) fn new(columns: usize, rows: usize) -> Self {
+        Self { columns, rows, along_y: Fft::new(rows), along_x: Fft::new(columns) }
     }
 
     pub(in crate::surface) fn of(grid: &Grid) -> Self {
-        Self::new(grid.padded_columns, grid.padded_rows, grid.repeats)
+        Self::new(grid.padded_columns, grid.padded_rows)
     }
 
     /// Columns and rows of the plane.
@@ -181,7 +177,7 @@ impl Plane {
     }
 
     /// Transforms in place, several columns and then several rows at a time.
-    pub(in crate::surface) fn forward(&mut self, values: &mut [Complex]) {
+    pub(in crate::surface) fn forward(&self, values: &mut [Complex]) {
         let rows = self.rows;
         values.par_chunks_mut(LINES * rows).for_each_init(
             || (vec![Lines::default(); rows], Vec::new()),
@@ -221,23 +217,40 @@ impl Plane {
     }
 
     /// Transform back, times the number of points.
-    fn backward(&mut self, values: &mut [Complex]) {
+    fn backward(&self, values: &mut [Complex]) {
         values.iter_mut().for_each(|value| *value = value.conj());
         self.forward(values);
         values.iter_mut().for_each(|value| *value = value.conj());
     }
 
-    /// Maps the real parts of what is symmetric in either direction.
-    fn map_symmetric(&self, values: &mut [Complex], map: impl Fn(f64) -> f64) {
-        for column in 0..self.columns {
-            let mirrored_column = (self.columns - column) % self.columns;
-            for row in 0..self.rows {
-                let mirrored_row = (self.rows - row) % self.rows;
-                let first = column.min(mirrored_column) * self.rows + row.min(mirrored_row);
-                let here = column * self.rows + row;
-                values[here].re = if here == first { map(values[here].re) } else { values[first].re };
-            }
+    /// The transform of real values that are symmetric, which is real as well.
+    fn of_symmetric(&self, values: Vec<f64>) -> Vec<f64> {
+        let mut values: Vec<Complex> = values.into_iter().map(|re| Complex { re, im: 0.0 }).collect();
+        self.forward(&mut values);
+        values.into_iter().map(|value| value.re).collect()
+    }
+
+    /// From the power at every harmonic to the autocorrelation at every lag, 1 at none, column by column.
+    pub(in crate::surface) fn autocorrelation(&self, power: Vec<f64>) -> Vec<f64> {
+        let values = self.of_symmetric(power);
+        let variance = values[0];
+        values.into_iter().map(|value| value / variance).collect()
+    }
+
+    /// The power of a field with this autocorrelation after a map of its values, of which this is the inverse; negative where no field has
+    /// it. Of lags that have the same value by symmetry, `first` is the first.
+    pub(in crate::surface) fn power_of(
+        &self,
+        mut values: Vec<f64>,
+        first: impl Fn(usize) -> usize + Sync,
+        inverse: impl Fn(f64) -> f64 + Sync,
+    ) -> Vec<f64> {
+        let firsts = values.par_iter_mut().enumerate().filter(|(here, _)| *here == first(*here));
+        firsts.for_each(|(_, value)| *value = inverse(*value));
+        for here in 0..values.len() {
+            values[here] = values[first(here)];
         }
+        self.of_symmetric(values)
     }
 }
 
