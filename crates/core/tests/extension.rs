@@ -6,14 +6,9 @@ use plateau_core::model::mesh::Mesh;
 use plateau_core::surface::{
     Body, Extension, HeightSynthesis, Level, Patch, Preparation, PreparationError, RawHeights, Texture,
 };
-use sha2::{Digest, Sha256};
 
-/// Cells of 1 mm by 1 mm at the mean radius.
-fn ring(columns: usize, rows: usize, pin_columns: usize) -> Mesh {
-    let mean_radius = 1e-3 * columns as f64 / TAU;
-    let half = 0.5e-3 * rows as f64;
-    Mesh::new(rows, columns, pin_columns, mean_radius - half, mean_radius + half).unwrap()
-}
+use crate::preparation::ring;
+use crate::synthesis_bits::digest;
 
 fn statistics(seed: u64) -> Preparation {
     Preparation { level: Level::Plane, extend: Some(Extension::Statistics { seed }), ..Preparation::default() }
@@ -271,10 +266,7 @@ fn the_bits_of_extended_patches_are_known() {
     ] {
         let heights = extended(statistics(9), &patch, body, &mesh);
         assert_eq!(heights, extended(statistics(9), &patch, body, &mesh));
-        let mut digest = Sha256::new();
-        heights.iter().for_each(|height| digest.update(height.to_le_bytes()));
-        let found: String = digest.finalize().iter().map(|byte| format!("{byte:02x}")).collect();
-        assert_eq!(found, expected, "{body:?}");
+        assert_eq!(digest(&heights), expected, "{body:?}");
     }
 }
 

@@ -17,7 +17,7 @@ use plateau_core::model::mesh::Mesh;
 use plateau_core::surface::{Body, Fill, Length, Level, Patch, Preparation, PreparationError, RawHeights, level};
 
 /// Cells of 1 mm by 1 mm at the mean radius.
-fn ring(columns: usize, rows: usize, pin_columns: usize) -> Mesh {
+pub(crate) fn ring(columns: usize, rows: usize, pin_columns: usize) -> Mesh {
     let mean_radius = 1e-3 * columns as f64 / TAU;
     let half = 0.5e-3 * rows as f64;
     Mesh::new(rows, columns, pin_columns, mean_radius - half, mean_radius + half).unwrap()
@@ -127,30 +127,26 @@ fn refuses_numbers_that_make_no_sense() {
     let error = |preparation: Preparation, raw| apply(preparation, raw, Body::Pin, &mesh).unwrap_err();
     let good = || RawHeights::OnMesh(vec![1.0; 4]);
     let nothing = Preparation::default();
-    for pixel in [0.0, -1.0, f64::NAN, f64::INFINITY] {
-        let preparation = Preparation { pixel: Some(pixel), ..nothing };
-        assert!(matches!(error(preparation, good()), PreparationError::Value { key: "pixel", .. }));
-    }
-    for outliers in [0.0, -3.0, f64::NAN, f64::INFINITY] {
-        let preparation = Preparation { outliers: Some(outliers), ..nothing };
-        assert!(matches!(error(preparation, good()), PreparationError::Value { key: "outliers", .. }));
-    }
     // Four heights, three of them alike: their median absolute deviation is 0.
     let alike = RawHeights::OnMesh(vec![1.0, 1.0, 1.0, 2.0]);
     let preparation = Preparation { outliers: Some(5.0), ..nothing };
     assert_eq!(error(preparation, alike), PreparationError::NoDeviation);
-    let preparation = Preparation { cutoff: Some(f64::NAN), ..nothing };
-    assert!(matches!(error(preparation, good()), PreparationError::Value { key: "cutoff", .. }));
-    for rotate in [f64::NAN, f64::INFINITY] {
-        let preparation = Preparation { rotate, ..nothing };
-        assert!(matches!(error(preparation, good()), PreparationError::Value { key: "rotate", .. }));
+    let mut wrong = vec![
+        ("cutoff", Preparation { cutoff: Some(f64::NAN), ..nothing }),
+        ("scale", Preparation { scale: f64::INFINITY, ..nothing }),
+    ];
+    wrong.extend([f64::NAN, f64::INFINITY].map(|rotate| ("rotate", Preparation { rotate, ..nothing })));
+    for number in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        wrong.extend([
+            ("pixel", Preparation { pixel: Some(number), ..nothing }),
+            ("outliers", Preparation { outliers: Some(number), ..nothing }),
+            ("outlier_slope", Preparation { outlier_slope: Some(number), ..nothing }),
+        ]);
     }
-    for slope in [0.0, -0.1, f64::NAN, f64::INFINITY] {
-        let preparation = Preparation { outlier_slope: Some(slope), ..nothing };
-        assert!(matches!(error(preparation, good()), PreparationError::Value { key: "outlier_slope", .. }));
+    for (expected, preparation) in wrong {
+        let found = error(preparation, good());
+        assert!(matches!(found, PreparationError::Value { key, .. } if key == expected), "{expected}: {found}");
     }
-    let preparation = Preparation { scale: f64::INFINITY, ..nothing };
-    assert!(matches!(error(preparation, good()), PreparationError::Value { key: "scale", .. }));
     for level in [Level::None, Level::Plane] {
         let infinite = RawHeights::OnMesh(vec![1.0, f64::INFINITY, 1.0, 1.0]);
         let preparation = Preparation { level, ..nothing };

@@ -6,7 +6,7 @@ use plateau_core::model::mesh::Mesh;
 use plateau_core::surface::{Body, HeightSynthesis, SynthesisError, Texture};
 
 /// Ring of mean radius 1 whose cells are as wide as 2π/columns and as high as that times `aspect`.
-fn ring(columns: usize, rows: usize, pin_columns: usize, aspect: f64) -> Mesh {
+pub(crate) fn ring(columns: usize, rows: usize, pin_columns: usize, aspect: f64) -> Mesh {
     let half = 0.5 * rows as f64 * aspect * TAU / columns as f64;
     Mesh::new(rows, columns, pin_columns, 1.0 - half, 1.0 + half).unwrap()
 }
@@ -16,7 +16,7 @@ fn synthesis(seed: u64, correlation_length: f64) -> HeightSynthesis {
 }
 
 /// Mean over the field of h(column, row) h(column + columns, row + rows); round the ring if it closes.
-fn correlation(field: &[f64], rows: usize, lag: (usize, usize), closed: bool) -> f64 {
+pub(crate) fn correlation(field: &[f64], rows: usize, lag: (usize, usize), closed: bool) -> f64 {
     let columns = field.len() / rows;
     let (mut sum, mut count) = (0.0, 0.0);
     for column in 0..if closed { columns } else { columns - lag.0 } {

@@ -9,7 +9,7 @@ use plateau_core::model::mesh::Mesh;
 use plateau_core::surface::{Body, HeightSynthesis, Texture};
 use sha2::{Digest, Sha256};
 
-fn digest(heights: &[f64]) -> String {
+pub(crate) fn digest(heights: &[f64]) -> String {
     let mut digest = Sha256::new();
     heights.iter().for_each(|height| digest.update(height.to_le_bytes()));
     digest.finalize().iter().map(|byte| format!("{byte:02x}")).collect()

@@ -3,32 +3,13 @@
 use std::f64::consts::{PI, TAU};
 use std::sync::LazyLock;
 
-use plateau_core::model::mesh::Mesh;
 use plateau_core::surface::{Body, HeightSynthesis, Texture};
 
 use crate::scenes::few_or_all;
+use crate::synthesis::{correlation, ring};
 
 /// Tolerances are those of the mean over as many.
 static SEEDS: LazyLock<u64> = LazyLock::new(|| few_or_all(5, 20));
-
-/// Ring of mean radius 1 with square cells.
-fn ring(columns: usize, rows: usize, pin_columns: usize) -> Mesh {
-    let half = 0.5 * rows as f64 * TAU / columns as f64;
-    Mesh::new(rows, columns, pin_columns, 1.0 - half, 1.0 + half).unwrap()
-}
-
-/// Mean over the field of h(column, row) h(column + columns, row + rows); round the ring if it closes.
-fn correlation(field: &[f64], rows: usize, lag: (usize, usize), closed: bool) -> f64 {
-    let columns = field.len() / rows;
-    let (mut sum, mut count) = (0.0, 0.0);
-    for column in 0..if closed { columns } else { columns - lag.0 } {
-        for row in 0..rows - lag.1 {
-            sum += field[column * rows + row] * field[(column + lag.0) % columns * rows + row + lag.1];
-            count += 1.0;
-        }
-    }
-    sum / count
-}
 
 fn moment(field: &[f64], power: i32) -> f64 {
     field.iter().map(|z| z.powi(power)).sum::<f64>() / field.len() as f64
@@ -100,7 +81,7 @@ impl Shape {
 /// Σ ρ = πℓ² cells. Products z z' have at most the variance κ and depend on two pairs of places each.
 #[test]
 fn moments_and_autocorrelation() {
-    let mesh = ring(1000, 128, 300);
+    let mesh = ring(1000, 128, 300, 1.0);
     let cells = 3.0;
     let length = cells * mesh.column_width();
     let rows = mesh.rows();
@@ -180,7 +161,7 @@ fn power_law(hurst: f64, roll_off: f64, short_cutoff: f64, distance: f64) -> (f6
 /// heights, and Σ ρ/N ≤ 2 Σ ρ²/N for the mean taken out.
 #[test]
 fn autocorrelation_of_power_laws() {
-    let mesh = ring(1000, 128, 300);
+    let mesh = ring(1000, 128, 300, 1.0);
     let rows = mesh.rows();
     for (body, hurst) in [(Body::Disc, 0.8), (Body::Disc, 0.2), (Body::Pin, 0.5)] {
         let (roll_off, short_cutoff) = (24.0, 4.0);
@@ -207,7 +188,7 @@ fn autocorrelation_of_power_laws() {
 
 #[test]
 fn a_power_law_with_moments_keeps_its_autocorrelation() {
-    let mesh = ring(1000, 128, 10);
+    let mesh = ring(1000, 128, 10, 1.0);
     let cell = mesh.column_width();
     let texture = Texture::PowerLaw { hurst: 0.8, roll_off: 24.0 * cell, short_cutoff: Some(4.0 * cell) };
     let Shape { skewness, kurtosis, .. } = SHAPES[0];
@@ -230,7 +211,7 @@ fn a_power_law_with_moments_keeps_its_autocorrelation() {
 
 #[test]
 fn a_patch_with_moments_repeats_round_the_ring() {
-    let mesh = ring(1200, 20, 10);
+    let mesh = ring(1200, 20, 10, 1.0);
     let settings = HeightSynthesis {
         skewness: -1.0,
         kurtosis: 5.0,

@@ -2,6 +2,7 @@
 
 use std::f64::consts::{LN_2, PI};
 
+use super::tiling::mirrored;
 use super::*;
 
 /// What is left of a wave of length λ behind a Gaussian filter of nesting index λc: exp(-π (α λc/λ)²), α² = ln 2/π.
@@ -75,10 +76,6 @@ fn heights_are_the_means_that_define_the_filter() {
         for nesting_index in [shortest, longest] {
             let found = apply(s_filter(nesting_index), RawHeights::OnMesh(heights.clone()), body, &mesh).unwrap();
             let reach = |pitch: f64| (1.85 * nesting_index / pitch) as isize + 1;
-            let mirrored = |place: isize, count: usize| {
-                let place = place.rem_euclid(2 * count as isize) as usize;
-                place.min(2 * count - 1 - place)
-            };
             for (index, found) in found.iter().enumerate() {
                 let (mut sum, mut weights) = (0.0, 0.0);
                 for dx in -reach(pitches[0])..=reach(pitches[0]) {
