@@ -2,7 +2,7 @@
 
 use std::fs;
 use std::io::Write;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::LazyLock;
 
 use plateau_io::surface::{ReadOptions, read};
@@ -11,26 +11,7 @@ use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, ZipWriter};
 
 use crate::few_or_all;
-
-fn corpus(name: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/corpus/surfaces").join(name)
-}
-
-fn options() -> ReadOptions {
-    ReadOptions::default()
-}
-
-fn um() -> ReadOptions {
-    ReadOptions { unit: Some(1e-6), ..options() }
-}
-
-fn black_to_white(height: f64) -> ReadOptions {
-    ReadOptions { height_range: Some([0.0, height]), ..options() }
-}
-
-fn message(path: &Path, options: &ReadOptions) -> String {
-    read(path, options).unwrap_err().to_string()
-}
+use crate::tables::{black_to_white, corpus, message, options, um};
 
 /// A version 1.0 header with this dictionary and this much data.
 fn array(dictionary: &str, data: usize) -> Vec<u8> {

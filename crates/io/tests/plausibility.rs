@@ -8,6 +8,7 @@ use plateau_io::plausibility::{Recorded, of_scene, of_surfaces};
 use plateau_io::scene::Scene;
 use plateau_io::scene::{self, Warning};
 use plateau_io::study::{Study, plan::Plan};
+use plateau_io::surface::npy::write_array;
 use plateau_io::surface::{self, Loaded};
 use tempfile::TempDir;
 
@@ -75,14 +76,9 @@ fn bounds_of(path: &str, key: &str, beyond: &str, inside: &str, words: &[&str]) 
 
 /// Heights for all cells, m, as NumPy writes them.
 fn npy(folder: &TempDir, name: &str, (columns, rows): (usize, usize), height: impl Fn(usize) -> f64) -> PathBuf {
-    let header = format!("{{'descr': '<f8', 'fortran_order': False, 'shape': ({columns}, {rows}), }}");
-    let header = format!("{header:<117}\n");
-    let mut bytes = b"\x93NUMPY\x01\0".to_vec();
-    bytes.extend(u16::try_from(header.len()).expect("a short header").to_le_bytes());
-    bytes.extend(header.as_bytes());
-    bytes.extend((0..columns * rows).flat_map(|cell| height(cell).to_le_bytes()));
+    let heights = (0..columns * rows).flat_map(|cell| height(cell).to_le_bytes());
     let path = folder.path().join(name);
-    std::fs::write(&path, bytes).expect("a file");
+    write_array(&path, "<f8", &[columns, rows], heights).expect("a file");
     path
 }
 

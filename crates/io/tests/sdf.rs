@@ -7,7 +7,7 @@ use plateau_core::surface::Patch;
 use plateau_io::surface::sdf::{self, SdfError};
 
 /// Reads the whole content of a file.
-fn read(content: &[u8]) -> Result<Patch, SdfError> {
+pub(crate) fn read(content: &[u8]) -> Result<Patch, SdfError> {
     sdf::read(content, content.len() as u64).map(|surface| surface.patch)
 }
 

@@ -5,13 +5,10 @@ use std::path::{Path, PathBuf};
 use std::thread;
 
 use plateau_core::surface::Patch;
-use plateau_io::surface::sdf::{self, SdfError};
+use plateau_io::surface::sdf;
 
 use crate::few_or_all;
-
-fn read(content: &[u8]) -> Result<Patch, SdfError> {
-    sdf::read(content, content.len() as u64).map(|surface| surface.patch)
-}
+use crate::sdf::read;
 
 fn text(dialect: &str, fields: &str, data: &str) -> String {
     format!(

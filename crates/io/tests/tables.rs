@@ -3,22 +3,23 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use ::hdf5::types::{FixedAscii, VarLenUnicode};
 use plateau_core::surface::Patch;
 use plateau_io::surface::{Decimal, Format, Lay, Measured, ReadOptions, hdf5, read};
 
-fn corpus(name: &str) -> PathBuf {
+pub(crate) fn corpus(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/corpus/surfaces").join(name)
 }
 
-fn options() -> ReadOptions {
+pub(crate) fn options() -> ReadOptions {
     ReadOptions::default()
 }
 
-fn um() -> ReadOptions {
+pub(crate) fn um() -> ReadOptions {
     ReadOptions { unit: Some(1e-6), ..options() }
 }
 
-fn black_to_white(height: f64) -> ReadOptions {
+pub(crate) fn black_to_white(height: f64) -> ReadOptions {
     ReadOptions { height_range: Some([0.0, height]), ..options() }
 }
 
@@ -35,7 +36,7 @@ fn expect(measured: &Measured, missing: &[usize]) {
     }
 }
 
-fn message(path: &Path, options: &ReadOptions) -> String {
+pub(crate) fn message(path: &Path, options: &ReadOptions) -> String {
     read(path, options).unwrap_err().to_string()
 }
 
@@ -110,8 +111,8 @@ fn every_profile_of_the_corpus_gives_the_heights_it_was_made_of() {
         let heights = (0..20).map(f64::from).collect();
         let (column_pitch, row_pitch) = if rows == 1 { (1e-6, 3e-3) } else { (3e-3, 1e-6) };
         hdf5::write(&path, &Patch { columns, rows, column_pitch, row_pitch, heights }).unwrap();
-        let profile = read(&path, &options()).unwrap().stylus_profile(None).unwrap().unwrap();
-        assert_eq!((profile.pitch, profile.heights.len(), profile.heights[7]), (1e-6, 20, 7.0));
+        let profile = read(&path, &options()).unwrap();
+        assert_eq!((profile.pitch, profile.heights.len(), profile.heights[7]), (Some([1e-6; 2]), 20, 7.0));
         std::fs::remove_file(&path).unwrap();
     }
     let told = [
@@ -188,28 +189,18 @@ fn dimensions_named_x_and_y_are_laid_out_by_name() {
 
 #[test]
 fn packed_numbers_are_what_netcdf_says_also_of_coordinates() {
-    use ::hdf5::types::{FixedAscii, VarLenUnicode};
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("a.nc");
     // By hand: as 16 bits without a sign, -1 is 65535 and -32768 is 32768, which marks a missing point.
     let file = ::hdf5::File::create(&path).unwrap();
     let dataset = file.new_dataset::<i16>().shape((2, 3)).create("z").unwrap();
     dataset.write_raw(&[0_i16, 1, -1, -2, -32768, 32767]).unwrap();
-    // A file that is open for writing is not read.
-    let text = |name: &str, text: &str| {
-        let file = ::hdf5::File::open_rw(&path).unwrap();
-        let dataset = file.dataset("z").unwrap();
-        let _ = dataset.delete_attr(name);
-        let text: VarLenUnicode = text.parse().unwrap();
-        dataset.new_attr::<VarLenUnicode>().create(name).unwrap().write_scalar(&text).unwrap();
-    };
-    dataset.new_attr::<i16>().create("_FillValue").unwrap().write_scalar(&-32768).unwrap();
-    dataset.new_attr::<f64>().create("scale_factor").unwrap().write_scalar(&1e-9).unwrap();
+    set(&dataset, "_FillValue", -32768_i16);
+    set(&dataset, "scale_factor", 1e-9);
     // Rows first, in labels of one length.
-    let labels = ["y", "x"].map(|label| FixedAscii::<1>::from_ascii(label).unwrap());
-    dataset.new_attr::<FixedAscii<1>>().shape(2).create("DIMENSION_LABELS").unwrap().write_raw(&labels).unwrap();
+    attribute(&dataset, "DIMENSION_LABELS", &["y", "x"].map(|label| FixedAscii::<1>::from_ascii(label).unwrap()));
+    set(&dataset, "_Unsigned", text("true"));
     drop((dataset, file));
-    text("_Unsigned", "true");
     let measured = read(&path, &options()).unwrap();
     assert_eq!((measured.columns, measured.rows), (3, 2));
     for (found, expected) in measured.heights.iter().zip([0.0, 65534e-9, 1e-9, f64::NAN, 65535e-9, 32767e-9]) {
@@ -218,31 +209,21 @@ fn packed_numbers_are_what_netcdf_says_also_of_coordinates() {
             "{found}, expected {expected}"
         );
     }
-    text("_Unsigned", "no");
+    change(&path, "z", |dataset| set(dataset, "_Unsigned", text("no")));
     assert!(message(&path, &options()).contains("_Unsigned = \"no\", expected \"true\" or \"false\""));
-    text("_Unsigned", "false");
-    text("missing_value", "32767");
+    change(&path, "z", |dataset| set(dataset, "_Unsigned", text("false")));
+    change(&path, "z", |dataset| set(dataset, "missing_value", text("32767")));
     assert!(message(&path, &options()).contains("the attribute missing_value, expected a number"));
 
     fs::copy(corpus("packed.nc"), &path).unwrap();
-    let file = ::hdf5::File::open_rw(&path).unwrap();
-    let x = file.dataset("x").unwrap();
-    x.new_attr::<f64>().create("scale_factor").unwrap().write_scalar(&0.5).unwrap();
-    drop((x, file));
+    change(&path, "x", |x| set(x, "scale_factor", 0.5));
     let pitch = read(&path, &options()).unwrap().pitch.unwrap();
     assert!((pitch[0] - 1e-6).abs() < 1e-18, "{pitch:?}");
     // An offset takes no part in the distance, and what is a mark is no coordinate.
-    let file = ::hdf5::File::open_rw(&path).unwrap();
-    let x = file.dataset("x").unwrap();
-    x.new_attr::<f64>().create("add_offset").unwrap().write_scalar(&-3.0).unwrap();
-    drop((x, file));
+    change(&path, "x", |x| set(x, "add_offset", -3.0));
     let pitch = read(&path, &options()).unwrap().pitch.unwrap();
     assert!((pitch[0] - 1e-6).abs() < 1e-18, "{pitch:?}");
-    let file = ::hdf5::File::open_rw(&path).unwrap();
-    let x = file.dataset("x").unwrap();
-    let second = x.read_raw::<f64>().unwrap()[1];
-    x.new_attr::<f64>().create("missing_value").unwrap().write_scalar(&second).unwrap();
-    drop((x, file));
+    change(&path, "x", |x| set(x, "missing_value", x.read_raw::<f64>().unwrap()[1]));
     let found = message(&path, &options());
     assert!(found.contains("its dimension /x are not equidistant: number 1 is NaN"), "{found}");
 }
@@ -253,13 +234,30 @@ fn packed<T: ::hdf5::H5Type>(folder: &Path, stored: &[T], attributes: impl Fn(&:
     let file = ::hdf5::File::create(&path).unwrap();
     let dataset = file.new_dataset::<T>().shape((stored.len(), 1)).create("z").unwrap();
     dataset.write_raw(stored).unwrap();
-    dataset.new_attr::<f64>().create("scale_factor").unwrap().write_scalar(&1e-9).unwrap();
+    set(&dataset, "scale_factor", 1e-9);
     attributes(&dataset);
     path
 }
 
+/// Changes a dataset of a file, which is closed then: one that is open for writing is not read.
+fn change(path: &Path, name: &str, change: impl Fn(&::hdf5::Dataset)) {
+    let file = ::hdf5::File::open_rw(path).unwrap();
+    change(&file.dataset(name).unwrap());
+}
+
+/// Gives a dataset an attribute that is a list.
 fn attribute<T: ::hdf5::H5Type>(dataset: &::hdf5::Dataset, name: &str, values: &[T]) {
     dataset.new_attr::<T>().shape(values.len()).create(name).unwrap().write_raw(values).unwrap();
+}
+
+/// Gives a dataset an attribute that is one value, in place of one of that name.
+fn set<T: ::hdf5::H5Type>(dataset: &::hdf5::Dataset, name: &str, value: T) {
+    let _ = dataset.delete_attr(name);
+    dataset.new_attr::<T>().create(name).unwrap().write_scalar(&value).unwrap();
+}
+
+fn text(text: &str) -> VarLenUnicode {
+    text.parse().unwrap()
 }
 
 #[test]
@@ -282,16 +280,14 @@ fn stored_numbers_that_are_not_valid_are_missing_points() {
     // As bytes without a sign, -56 is 200; what no byte means is beyond all of them.
     for largest in [&[0_i16, 200], &[0, -56]] {
         let path = packed(folder.path(), &[0_i8, 127, -128, -56, -55], |dataset| {
-            let text: ::hdf5::types::VarLenUnicode = "true".parse().unwrap();
-            attribute(dataset, "_Unsigned", &[text]);
+            attribute(dataset, "_Unsigned", &[text("true")]);
             attribute(dataset, "valid_range", largest);
         });
         assert_eq!(heights(&path), [Some(0.0), Some(127.0), Some(128.0), Some(200.0), None]);
     }
     // With a sign, though the type has none: 65535 is -1 and 32768 is -32768, which is the mark.
     let path = packed(folder.path(), &[0_u16, 32767, 32768, 65535], |dataset| {
-        let text: ::hdf5::types::VarLenUnicode = "false".parse().unwrap();
-        attribute(dataset, "_Unsigned", &[text]);
+        attribute(dataset, "_Unsigned", &[text("false")]);
         attribute(dataset, "_FillValue", &[32768_u16]);
     });
     assert_eq!(heights(&path), [Some(0.0), Some(32767.0), None, Some(-1.0)]);
@@ -299,7 +295,6 @@ fn stored_numbers_that_are_not_valid_are_missing_points() {
     let path = packed(folder.path(), &[1.0_f32, -999.9], |dataset| attribute(dataset, "missing_value", &[-999.9_f64]));
     assert_eq!(heights(&path), [Some(1.0), None]);
 
-    let text = |text: &str| text.parse::<::hdf5::types::VarLenUnicode>().unwrap();
     let found =
         |attributes: &dyn Fn(&::hdf5::Dataset)| message(&packed(folder.path(), &stored, attributes), &options());
     let told = [
@@ -316,7 +311,7 @@ fn units_and_labels_that_are_no_texts_are_refused() {
     let folder = tempfile::tempdir().unwrap();
     let found =
         |attributes: &dyn Fn(&::hdf5::Dataset)| message(&packed(folder.path(), &[1.0, 2.0], attributes), &options());
-    let two: [::hdf5::types::VarLenUnicode; 2] = ["m", "m"].map(|text| text.parse().unwrap());
+    let two = ["m", "m"].map(text);
     let told = [
         found(&|dataset| attribute(dataset, "units", &[1e-6])),
         found(&|dataset| attribute(dataset, "units", &two)),
@@ -325,11 +320,10 @@ fn units_and_labels_that_are_no_texts_are_refused() {
     ];
     let path = folder.path().join("a.nc");
     fs::copy(corpus("packed.nc"), &path).unwrap();
-    let file = ::hdf5::File::open_rw(&path).unwrap();
-    let x = file.dataset("x").unwrap();
-    x.delete_attr("units").unwrap();
-    attribute(&x, "units", &[1e-3]);
-    drop((x, file));
+    change(&path, "x", |x| {
+        x.delete_attr("units").unwrap();
+        attribute(x, "units", &[1e-3]);
+    });
     insta::assert_snapshot!(format!("{}\n{}", told.join("\n"), message(&path, &options())));
 }
 
@@ -371,20 +365,17 @@ fn a_file_of_an_instrument_is_to_be_converted_whatever_is_said_of_it() {
 
 #[test]
 fn coordinates_that_are_no_grid_are_refused() {
-    use ::hdf5::types::VarLenUnicode;
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("a.nc");
     // Every coordinate of x, and its unit, in a copy of the file of xarray.
     let case = |x: [f64; 5], units: &str| {
         fs::copy(corpus("packed.nc"), &path).unwrap();
-        let file = ::hdf5::File::open_rw(&path).unwrap();
-        let dataset = file.dataset("x").unwrap();
-        dataset.write_raw(&x).unwrap();
-        dataset.delete_attr("units").unwrap();
-        let units: VarLenUnicode = units.parse().unwrap();
-        // In a list of one, as netCDF has texts.
-        dataset.new_attr::<VarLenUnicode>().shape(1).create("units").unwrap().write_raw(&[units]).unwrap();
-        drop((dataset, file));
+        change(&path, "x", |dataset| {
+            dataset.write_raw(&x).unwrap();
+            dataset.delete_attr("units").unwrap();
+            // In a list of one, as netCDF has texts.
+            attribute(dataset, "units", &[text(units)]);
+        });
         read(&path, &options()).map(|measured| measured.pitch.unwrap()[0]).map_err(|error| error.to_string())
     };
     let pitch = case([0.0, 2.0, 4.0, 6.0, 8.0], "mm").unwrap();
@@ -406,15 +397,13 @@ fn coordinates_that_are_no_grid_are_refused() {
 
 #[test]
 fn attributes_that_say_otherwise_are_refused() {
-    use ::hdf5::types::VarLenUnicode;
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("a.h5");
     let case = |units: &str, pitch: &[f64]| {
         let file = ::hdf5::File::create(&path).unwrap();
         let dataset = file.new_dataset_builder().with_data(&ndarray::arr2(&[[1.0, 2.0]])).create("z").unwrap();
-        let units: VarLenUnicode = units.parse().unwrap();
-        dataset.new_attr::<VarLenUnicode>().create("units").unwrap().write_scalar(&units).unwrap();
-        dataset.new_attr::<f64>().shape(pitch.len()).create("pitch").unwrap().write_raw(pitch).unwrap();
+        set(&dataset, "units", text(units));
+        attribute(&dataset, "pitch", pitch);
         drop((dataset, file));
         read(&path, &options())
     };
@@ -427,7 +416,7 @@ fn attributes_that_say_otherwise_are_refused() {
     }
     let file = ::hdf5::File::create(&path).unwrap();
     let dataset = file.new_dataset_builder().with_data(&ndarray::arr2(&[[1.0, 2.0]])).create("Surface").unwrap();
-    dataset.new_attr::<f64>().create("Z Converter").unwrap().write_scalar(&1.0).unwrap();
+    set(&dataset, "Z Converter", 1.0);
     drop((dataset, file));
     let found = message(&path, &options());
     assert!(

@@ -7,6 +7,8 @@ use plateau_core::surface::Patch;
 use plateau_io::surface::sdf::{Dialect, Encoding, SdfKind};
 use plateau_io::surface::{Format, ReadOptions, WriteError, read, write};
 
+use crate::fixtures::entries;
+
 /// Heights of every size and sign, missing points at the corners and in a row, pitches that decimals round.
 fn patch(columns: usize, rows: usize) -> Patch {
     let mut heights: Vec<f64> = (0..columns * rows).map(|i| 1e-6 * (0.7 * i as f64).sin() / 3.0).collect();
@@ -31,11 +33,6 @@ fn read_patch(path: &Path) -> Patch {
     let measured = read(path, &ReadOptions::default()).unwrap();
     assert_eq!(measured.warnings, [""; 0]);
     measured.into_patch().unwrap()
-}
-
-/// Names of the files of a folder.
-fn names(folder: &Path) -> Vec<String> {
-    fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect()
 }
 
 #[test]
@@ -93,7 +90,7 @@ fn an_existing_file_is_replaced_only_when_that_is_asked_for_and_never_damaged() 
     assert_eq!(fs::read(&path).unwrap(), b"precious");
     write(&path, &patch(4, 5), true).unwrap();
     check_equal(&read_patch(&path), &patch(4, 5));
-    assert_eq!(names(folder.path()), ["out.h5"]);
+    assert_eq!(entries(folder.path()), ["out.h5"]);
 }
 
 #[cfg(unix)]
@@ -133,5 +130,5 @@ fn what_cannot_be_written_is_named() {
     ] {
         assert_eq!(message(name, patch), expected);
     }
-    assert_eq!(names(folder.path()), [""; 0]);
+    assert_eq!(entries(folder.path()), [""; 0]);
 }
