@@ -14,7 +14,7 @@ use super::error::{FileError, SurfaceError};
 use super::files::{detect, read};
 use super::format::Format;
 use super::image::Grey;
-use super::measured::{Lay, ProfileError, ReadOptions};
+use super::measured::{Lay, ProfileError, ReadOptions, grooves};
 use super::{hdf5, image};
 use crate::input::{self, digested};
 use crate::limits;
@@ -55,49 +55,31 @@ pub struct Patches {
 }
 
 /// Makes the surfaces of a scene, and notes what it reads and does.
-pub(super) struct Loader<'a> {
-    pub(super) mesh: &'a Mesh,
-    pub(super) inputs: Inputs,
-    pub(super) report: Vec<String>,
+struct Loader<'a> {
+    mesh: &'a Mesh,
+    /// Every surface file with the SHA-256 of what was read of it, in hexadecimal digits, each once.
+    inputs: Vec<(PathBuf, String)>,
+    report: Vec<String>,
     /// Bodies with heights that a run recorded.
-    pub(super) recorded: Vec<Body>,
+    recorded: Vec<Body>,
     /// The patches from which heights come, where they are asked for.
-    pub(super) patches: Option<Patches>,
-}
-
-impl<'a> Loader<'a> {
-    /// Nothing is read yet, and patches are not asked for.
-    pub(super) fn new(scene: &'a Scene) -> Self {
-        Self {
-            mesh: &scene.parameters.mesh,
-            inputs: Inputs::default(),
-            report: Vec::new(),
-            recorded: Vec::new(),
-            patches: None,
-        }
-    }
-}
-
-/// Every surface file with the SHA-256 of what was read of it, in hexadecimal digits, each once.
-#[derive(Debug, Default)]
-pub(super) struct Inputs(pub(super) Vec<(PathBuf, String)>);
-
-impl Inputs {
-    /// Reads a file, and adds it with the digest of what was read. A file that disc and pin have in common, and that changed in between, is
-    /// there twice.
-    pub(super) fn read<T>(&mut self, path: &Path, read: impl FnMut() -> Result<T, FileError>) -> Result<T, FileError> {
-        let (content, digest) = digested(path, read, FileError::from)?;
-        let input = (path.to_owned(), digest);
-        if !self.0.contains(&input) {
-            self.0.push(input);
-        }
-        Ok(content)
-    }
+    patches: Option<Patches>,
 }
 
 impl Loader<'_> {
+    /// Reads a file, and adds it with the digest of what was read. A file that disc and pin have in common, and that changed in between, is
+    /// there twice.
+    fn read<T>(&mut self, path: &Path, read: impl FnMut() -> Result<T, FileError>) -> Result<T, FileError> {
+        let (content, digest) = digested(path, read, FileError::from)?;
+        let input = (path.to_owned(), digest);
+        if !self.inputs.contains(&input) {
+            self.inputs.push(input);
+        }
+        Ok(content)
+    }
+
     /// Base of every cell of the pin.
-    pub(super) fn base(&mut self, source: &BaseSource, mirror: bool) -> Result<Vec<Base>, SurfaceError> {
+    fn base(&mut self, source: &BaseSource, mirror: bool) -> Result<Vec<Base>, SurfaceError> {
         let key = "pin.base";
         let mut base = match source {
             BaseSource::Uniform(base) => {
@@ -113,15 +95,11 @@ impl Loader<'_> {
                 ));
                 synthesis.base(self.mesh).map_err(|reason| SurfaceError::Fibre { key, reason })?
             }
-            BaseSource::File { path, dataset } => self
-                .file_base(path, dataset.as_deref())
-                .map_err(|reason| SurfaceError::File { key, path: path.clone(), reason })?,
+            BaseSource::File { path, dataset } => {
+                self.file_base(path, dataset.as_deref()).map_err(in_file(key, path))?
+            }
             BaseSource::Image { path, micrograph } => {
-                let map = self.fibre_map(path, micrograph).map_err(|reason| SurfaceError::File {
-                    key,
-                    path: path.clone(),
-                    reason,
-                })?;
+                let map = self.fibre_map(path, micrograph).map_err(in_file(key, path))?;
                 self.report.extend(map.report.iter().map(|step| format!("{key}: {step}")));
                 map.base
             }
@@ -136,16 +114,18 @@ impl Loader<'_> {
     }
 
     fn fibre_map(&mut self, path: &Path, micrograph: &Micrograph) -> Result<FibreMap, FileError> {
-        let (map, picture) = self.inputs.read(path, || fibre_map(path, micrograph, self.mesh))?;
+        let mesh = self.mesh;
+        let (map, picture) = self.read(path, || fibre_map(path, micrograph, mesh))?;
         let pixel = Length(micrograph.pixel);
         self.report.push(format!("pin.base: {}, {picture}, {pixel} a pixel", path.display()));
         Ok(map)
     }
 
     fn file_base(&mut self, path: &Path, dataset: Option<&str>) -> Result<Vec<Base>, FileError> {
-        let shape = (self.mesh.pin_columns(), self.mesh.rows());
-        let (name, base) = self.inputs.read(path, || match detect(path)? {
-            Format::Hdf5 => Ok(hdf5::base(path, dataset, shape, |cell| self.mesh.is_present(cell))?),
+        let mesh = self.mesh;
+        let shape = (mesh.pin_columns(), mesh.rows());
+        let (name, base) = self.read(path, || match detect(path)? {
+            Format::Hdf5 => Ok(hdf5::base(path, dataset, shape, |cell| mesh.is_present(cell))?),
             format => Err(FileError::NotABase(format)),
         })?;
         self.report.push(format!("pin.base: {}, dataset {name}", path.display()));
@@ -157,9 +137,13 @@ impl Loader<'_> {
 /// from something else.
 pub fn micrograph(scene: &Scene) -> Result<Option<(FibreMap, f64)>, SurfaceError> {
     let BaseSource::Image { path, micrograph } = &scene.pin_base else { return Ok(None) };
-    let map = fibre_map(path, micrograph, &scene.parameters.mesh);
-    let (map, _) = map.map_err(|reason| SurfaceError::File { key: "pin.base", path: path.clone(), reason })?;
+    let (map, _) = fibre_map(path, micrograph, &scene.parameters.mesh).map_err(in_file("pin.base", path))?;
     Ok(Some((map, micrograph.pixel)))
+}
+
+/// The error of a file that a table of the scene names.
+fn in_file(key: &'static str, path: &Path) -> impl Fn(FileError) -> SurfaceError {
+    move |reason| SurfaceError::File { key, path: path.to_owned(), reason }
 }
 
 /// Makes the fibre map of an image file; says what the image is besides.
@@ -218,11 +202,7 @@ fn profile_lay(source: &HeightSource) -> Option<Lay> {
 
 impl Loader<'_> {
     /// Heights of a body, and the fraction of its points that a cutoff cut.
-    pub(super) fn heights(
-        &mut self,
-        settings: &HeightSettings,
-        body: Body,
-    ) -> Result<(Vec<f64>, Option<f64>), SurfaceError> {
+    fn heights(&mut self, settings: &HeightSettings, body: Body) -> Result<(Vec<f64>, Option<f64>), SurfaceError> {
         let [surface, prepare] = keys(body);
         let (raw, has_peaks_positive) = match &settings.source {
             HeightSource::Flat => {
@@ -239,13 +219,9 @@ impl Loader<'_> {
             HeightSource::File { path, options } => {
                 let Preparation { pixel, extend, .. } = settings.preparation;
                 if options.profile_lay == Some(Lay::Isotropic) && extend.is_none() {
-                    let reason = ProfileError::Isotropic.into();
-                    return Err(SurfaceError::File { key: surface, path: path.clone(), reason });
+                    return Err(in_file(surface, path)(ProfileError::Isotropic.into()));
                 }
-                let (raw, instrument) = self
-                    .file_heights(path, options, body, pixel)
-                    .map_err(|reason| SurfaceError::File { key: surface, path: path.clone(), reason })?;
-                (raw, instrument)
+                self.file_heights(path, options, body, pixel).map_err(in_file(surface, path))?
             }
         };
         let mut preparation = settings.preparation;
@@ -291,7 +267,7 @@ impl Loader<'_> {
         body: Body,
         pixel: Option<f64>,
     ) -> Result<(RawHeights, bool), FileError> {
-        let measured = self.inputs.read(path, || read(path, options))?;
+        let measured = self.read(path, || read(path, options))?;
         let notes = measured.notes.iter().map(|note| format!("{note}, ")).collect::<String>();
         let [surface, _] = keys(body);
         self.report.push(format!("{surface}: {}, {notes}{}", path.display(), measured.describe()));
@@ -299,10 +275,11 @@ impl Loader<'_> {
         let instrument = measured.instrument;
         let mesh = (body.columns(self.mesh), self.mesh.rows());
         let found = (measured.columns, measured.rows);
-        if let Some(profile) = measured.stylus_profile(pixel)? {
-            let pitch = Length(profile.pitch);
-            self.report.push(format!("{surface}: {}, points {pitch} apart", profile.describe()));
-            return Ok((RawHeights::Patch(profile.into_patch(body, self.mesh)), instrument));
+        if let Some(lay) = measured.profile_lay {
+            let pitch = pixel.or(measured.pitch.map(|pitch| pitch[0])).ok_or(ProfileError::NoPitch)?;
+            let (patch, told) = grooves(measured.heights, pitch, lay, body, self.mesh);
+            self.report.push(format!("{surface}: {told}, points {} apart", Length(pitch)));
+            return Ok((RawHeights::Patch(patch), instrument));
         }
         if found.0 == 1 || found.1 == 1 {
             self.report.push(format!(
@@ -335,7 +312,7 @@ impl Loader<'_> {
     }
 
     /// Warns of a step that the run which recorded the heights of a body has already taken.
-    pub(super) fn warn_of_second(&mut self, body: Body, table: &str, key: &str) {
+    fn warn_of_second(&mut self, body: Body, table: &str, key: &str) {
         if self.recorded.contains(&body) {
             self.report.push(format!(
                 "{table}: warning: {key} is applied to the map of a run, which has already been prepared: leave it out, unless \
@@ -392,29 +369,28 @@ fn spread(heights: &[f64]) -> String {
 /// instrument's peaks are positive, while the pin's z grows away from the disc. HDF5, NumPy and synthetic heights are
 /// taken as they are.
 pub fn load(scene: &Scene) -> Result<Loaded, SurfaceError> {
-    Loader::new(scene).load(scene)
+    Ok(made(scene, None)?.0)
 }
 
 /// As [`load`], with the patches from which the heights of disc and pin come: prepared, scaled and with the sign that the
 /// heights have, at their own pitch; none for a body whose heights come from no patch.
 pub fn load_with_patches(scene: &Scene) -> Result<(Loaded, Patches), SurfaceError> {
-    let mut loader = Loader { patches: Some(Patches::default()), ..Loader::new(scene) };
-    let loaded = loader.load(scene)?;
-    Ok((loaded, loader.patches.unwrap_or_default()))
+    made(scene, Some(Patches::default()))
 }
 
-impl Loader<'_> {
-    fn load(&mut self, scene: &Scene) -> Result<Loaded, SurfaceError> {
-        let (disc_height, disc_cut) = self.heights(&scene.disc_surface, Body::Disc)?;
-        let (mut pin_height, pin_cut) = self.heights(&scene.pin_surface, Body::Pin)?;
-        let pin_base = self.base(&scene.pin_base, scene.pin_base_mirror)?;
-        if scene.resin_recess != 0.0 {
-            self.warn_of_second(Body::Pin, "pin.surface", "resin_recess");
-            set_back_resin(&mut pin_height, &pin_base, scene.resin_recess);
-            self.report.push(format!("pin.surface: resin set back by {}", Length(scene.resin_recess)));
-        }
-        let surfaces = InitialSurfaces { disc_height, pin_height, pin_base };
-        let (inputs, report) = (std::mem::take(&mut self.inputs).0, std::mem::take(&mut self.report));
-        Ok(Loaded { surfaces, disc_cut, pin_cut, inputs, report })
+/// The surfaces, and the patches from which they come where these are asked for.
+fn made(scene: &Scene, patches: Option<Patches>) -> Result<(Loaded, Patches), SurfaceError> {
+    let mesh = &scene.parameters.mesh;
+    let mut loader = Loader { mesh, inputs: Vec::new(), report: Vec::new(), recorded: Vec::new(), patches };
+    let (disc_height, disc_cut) = loader.heights(&scene.disc_surface, Body::Disc)?;
+    let (mut pin_height, pin_cut) = loader.heights(&scene.pin_surface, Body::Pin)?;
+    let pin_base = loader.base(&scene.pin_base, scene.pin_base_mirror)?;
+    if scene.resin_recess != 0.0 {
+        loader.warn_of_second(Body::Pin, "pin.surface", "resin_recess");
+        set_back_resin(&mut pin_height, &pin_base, scene.resin_recess);
+        loader.report.push(format!("pin.surface: resin set back by {}", Length(scene.resin_recess)));
     }
+    let surfaces = InitialSurfaces { disc_height, pin_height, pin_base };
+    let Loader { inputs, report, patches, .. } = loader;
+    Ok((Loaded { surfaces, disc_cut, pin_cut, inputs, report }, patches.unwrap_or_default()))
 }

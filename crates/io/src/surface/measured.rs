@@ -60,13 +60,6 @@ impl Measured {
         Some(Patch { columns, rows, column_pitch, row_pitch, heights })
     }
 
-    /// The heights as a profile; none if they are not taken as one. `pixel` reinterprets the distance of its points, m.
-    pub fn stylus_profile(&self, pixel: Option<f64>) -> Result<Option<StylusProfile>, ProfileError> {
-        let Some(lay) = self.profile_lay else { return Ok(None) };
-        let pitch = pixel.or(self.pitch.map(|pitch| pitch[0])).ok_or(ProfileError::NoPitch)?;
-        Ok(Some(StylusProfile { pitch, heights: self.heights.clone(), lay }))
-    }
-
     /// Takes the heights as a profile: in one row, with one pitch.
     pub(super) fn take_as_profile(&mut self, lay: Lay) -> Result<(), ProfileError> {
         let size = (self.columns, self.rows);
@@ -140,15 +133,17 @@ pub(super) fn inflated(bytes: usize) -> usize {
     bytes.saturating_mul(MOST_INFLATED)
 }
 
-/// Heights along a line, with what a user takes them for.
-#[derive(Debug, Clone, PartialEq)]
-pub struct StylusProfile {
-    /// Distance of neighbouring points, m.
-    pub pitch: f64,
-    /// Heights, m; NaN where there is none.
-    pub heights: Vec<f64>,
-    /// The lay of the surface that the profile stands for.
-    pub lay: Lay,
+/// What a file has of a kind, in words: the first of it, and how many more; or that there is nothing.
+pub(super) fn present<T>(all: &[T], name: impl Fn(&T) -> String, nothing: &str) -> String {
+    const NAMED: usize = 12;
+    if all.is_empty() {
+        return nothing.to_owned();
+    }
+    let mut names: Vec<String> = all.iter().take(NAMED).map(name).collect();
+    if all.len() > NAMED {
+        names.push(format!("and {} more", all.len() - NAMED));
+    }
+    format!("it has {}", names.join(", "))
 }
 
 /// Why a file gives no profile, or a profile no surface.
@@ -170,29 +165,23 @@ pub enum ProfileError {
     Isotropic,
 }
 
-impl StylusProfile {
-    /// The surface of grooves that the profile stands for, with the size that `body` needs along the grooves: one column
-    /// as long as the body, or one row as wide as the track. Across the grooves it is as long as the profile.
-    ///
-    /// Without grooves it is the profile itself, in one row as wide as its pitch.
-    pub fn into_patch(self, body: Body, mesh: &Mesh) -> Patch {
-        let Self { pitch, heights, lay } = self;
-        let points = heights.len();
-        let row = |row_pitch: f64| (points, 1, pitch, row_pitch);
-        let (columns, rows, column_pitch, row_pitch) = match lay {
-            Lay::Along => (1, points, body.length(mesh), pitch),
-            Lay::Across => row(mesh.rows() as f64 * mesh.row_height()),
-            Lay::Isotropic => row(pitch),
-        };
-        Patch { columns, rows, column_pitch, row_pitch, heights }
-    }
-
-    /// What becomes of the profile, in words.
-    pub fn describe(&self) -> &'static str {
-        match self.lay {
-            Lay::Along => "profile across grooves along sliding, the same all along",
-            Lay::Across => "profile along sliding across grooves, the same from edge to edge",
-            Lay::Isotropic => "profile of a surface without a direction",
+/// The surface of grooves that a profile of points this far apart, m, stands for, with the size that `body` needs along the grooves: one
+/// column as long as the body, or one row as wide as the track. Across the grooves it is as long as the profile. Besides, what becomes of
+/// the profile, in words.
+///
+/// Without grooves it is the profile itself, in one row as wide as its pitch.
+pub(super) fn grooves(heights: Vec<f64>, pitch: f64, lay: Lay, body: Body, mesh: &Mesh) -> (Patch, &'static str) {
+    let points = heights.len();
+    let row = |row_pitch: f64| (points, 1, pitch, row_pitch);
+    let ((columns, rows, column_pitch, row_pitch), told) = match lay {
+        Lay::Along => {
+            ((1, points, body.length(mesh), pitch), "profile across grooves along sliding, the same all along")
         }
-    }
+        Lay::Across => {
+            let track = mesh.rows() as f64 * mesh.row_height();
+            (row(track), "profile along sliding across grooves, the same from edge to edge")
+        }
+        Lay::Isotropic => (row(pitch), "profile of a surface without a direction"),
+    };
+    (Patch { columns, rows, column_pitch, row_pitch, heights }, told)
 }

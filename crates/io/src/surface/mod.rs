@@ -18,5 +18,5 @@ pub use files::{WriteError, read, write};
 pub use format::{Format, Instrument};
 pub use image::ImageError;
 pub use load::{Loaded, Patches, load, load_with_patches, micrograph, stated_pixel};
-pub use measured::{Disagreement, Lay, Measured, ProfileError, ReadOptions, StylusProfile};
+pub use measured::{Disagreement, Lay, Measured, ProfileError, ReadOptions};
 pub use npy::NpyError;

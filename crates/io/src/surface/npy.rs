@@ -9,7 +9,7 @@ use thiserror::Error;
 use zip::ZipArchive;
 
 use super::format::Format;
-use super::measured::{MOST_POINTS, Measured, ReadOptions, inflated};
+use super::measured::{MOST_POINTS, Measured, ReadOptions, inflated, present};
 use super::stored::{Kind, Number};
 use crate::memory::{NoRoom, refuse_beyond};
 use crate::text::short;
@@ -44,24 +44,12 @@ pub enum NpyError {
 
 impl NpyError {
     /// No one array is that of this name, or the only one with two dimensions.
-    fn choice(name: Option<&str>, present: impl Iterator<Item = String>) -> Self {
-        const NAMED: usize = 12;
-        let mut present: Vec<String> = present.collect();
-        let more = present.len().saturating_sub(NAMED);
-        present.truncate(NAMED);
-        if more > 0 {
-            present.push(format!("and {more} more"));
-        }
-        Self::Choice {
-            problem: match name {
-                Some(name) => format!("the archive has no one array \"{}\"", short(name).escape_debug()),
-                None => "expected one array of two dimensions: name it with dataset = \"...\"".to_owned(),
-            },
-            present: match present.as_slice() {
-                [] => "the archive has no arrays".to_owned(),
-                names => format!("it has {}", names.join(", ")),
-            },
-        }
+    fn choice(name: Option<&str>, arrays: &[Member]) -> Self {
+        let problem = match name {
+            Some(name) => format!("the archive has no one array \"{}\"", short(name).escape_debug()),
+            None => "expected one array of two dimensions: name it with dataset = \"...\"".to_owned(),
+        };
+        Self::Choice { problem, present: present(arrays, Member::describe, "the archive has no arrays") }
     }
 }
 
@@ -319,7 +307,7 @@ pub(super) fn read_archive(content: &[u8], options: &ReadOptions) -> Result<Meas
     };
     let (chosen, others): (Vec<_>, Vec<_>) = members.into_iter().partition(wanted);
     let [Member { index, name, header }] = <[Member; 1]>::try_from(chosen)
-        .map_err(|chosen| NpyError::choice(name, chosen.into_iter().chain(others).map(|member| member.describe())))?;
+        .map_err(|chosen| NpyError::choice(name, &chosen.into_iter().chain(others).collect::<Vec<_>>()))?;
     let wrap = |reason| NpyError::Member { name: name.clone(), reason: Box::new(reason) };
     let header = header.map_err(wrap)?;
     let number = number(&header.descr).map_err(wrap)?;

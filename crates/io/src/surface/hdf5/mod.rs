@@ -8,22 +8,19 @@ use std::path::Path;
 use hdf5::Dataset;
 use hdf5::types::TypeDescriptor;
 use ndarray::ArrayView2;
-use netcdf::{Dimensions, Packing, is_metre, numbers, stated_unit};
+use netcdf::{Dimensions, Packing, is_metre, numbers, stated_unit, wrong};
 use plateau_core::model::state::Base;
 use plateau_core::observe::{Map, MapValues};
 use plateau_core::surface::{Body, Patch};
 
 use super::error::Hdf5Error;
 use super::format::Format;
-use super::measured::{MOST_POINTS, Measured, agreed_pitch};
+use super::measured::{MOST_POINTS, Measured, agreed_pitch, present};
 use crate::hdf5_file::{self, in_words, text_attribute, write_text};
 use crate::memory::refuse_beyond;
 use crate::number;
 use crate::run_file::{ReadError, RunFile, State, map_path};
 use crate::text::short;
-
-/// Datasets named in a message.
-const NAMED: usize = 12;
 
 /// What is looked for.
 #[derive(Clone, Copy)]
@@ -78,7 +75,11 @@ pub(super) fn heights(path: &Path, dataset: Option<&str>, at: Option<f64>) -> Re
         let dataset = find(path, dataset, Wanted::Heights)?;
         refuse_other_units(&dataset)?;
         let (dimensions, packing) = (Dimensions::of(&dataset)?, Packing::of(&dataset)?);
-        let pitch = agreed_with_coordinates(&dataset, pitch(&dataset)?, dimensions.pitch)?;
+        let stated = pitch(&dataset)?;
+        let pitch = agreed_pitch(dimensions.pitch, stated).map_err(|_| {
+            let found = format!("pitch = {:?}", stated.unwrap_or_default());
+            wrong(&dataset, found, "the distance of points as its coordinates have it")
+        })?;
         Ok::<_, Hdf5Error>((dataset, dimensions, packing, pitch))
     })?;
     let (name, shape) = (dataset.name(), bounded_shape(&dataset)?);
@@ -114,19 +115,6 @@ fn converted(dataset: &Dataset) -> hdf5::Result<Option<String>> {
     Ok(Some(format!("converted from {file} (SHA-256 {digest}) by {by}")))
 }
 
-/// The distance of points that the attribute `pitch` and the coordinates tell, m.
-fn agreed_with_coordinates(
-    dataset: &Dataset,
-    pitch: Option<[f64; 2]>,
-    coordinates: Option<[f64; 2]>,
-) -> Result<Option<[f64; 2]>, Hdf5Error> {
-    agreed_pitch(coordinates, pitch).map_err(|_| Hdf5Error::Attribute {
-        dataset: dataset.name(),
-        found: format!("pitch = {:?}", pitch.unwrap_or_default()),
-        expected: "the distance of points as its coordinates have it",
-    })
-}
-
 /// Refuses heights that say of themselves that they are not in m.
 fn refuse_other_units(dataset: &Dataset) -> Result<(), Hdf5Error> {
     // Zygo says so in words of its own, as fringes or nanometres.
@@ -138,7 +126,7 @@ fn refuse_other_units(dataset: &Dataset) -> Result<(), Hdf5Error> {
         return Ok(());
     }
     let found = format!("units = \"{}\"", short(&found).escape_debug());
-    Err(Hdf5Error::Attribute { dataset: dataset.name(), found, expected: "\"m\"" })
+    Err(wrong(dataset, found, "\"m\""))
 }
 
 /// The attribute `pitch`, m: one length, or those along x and y.
@@ -151,11 +139,10 @@ fn pitch(dataset: &Dataset) -> Result<Option<[f64; 2]>, Hdf5Error> {
         [x, y] if x > 0.0 && y > 0.0 && x.is_finite() && y.is_finite() => Ok(Some([x, y])),
         // One length is that along both.
         [both] if both > 0.0 && both.is_finite() => Ok(Some([both; 2])),
-        _ => Err(Hdf5Error::Attribute {
-            dataset: dataset.name(),
-            found: format!("pitch = {lengths:?}"),
-            expected: "the distance of points along x and y in m, positive and finite",
-        }),
+        _ => {
+            let expected = "the distance of points along x and y in m, positive and finite";
+            Err(wrong(dataset, format!("pitch = {lengths:?}"), expected))
+        }
     }
 }
 
@@ -231,18 +218,8 @@ fn find(path: &Path, dataset: Option<&str>, wanted: Wanted) -> Result<Dataset, H
 }
 
 fn list(datasets: &[Dataset]) -> String {
-    if datasets.is_empty() {
-        return "it has no datasets".to_owned();
-    }
-    let mut names: Vec<String> = datasets
-        .iter()
-        .take(NAMED)
-        .map(|dataset| format!("{} ({})", short(&dataset.name()), describe(dataset)))
-        .collect();
-    if datasets.len() > NAMED {
-        names.push(format!("and {} more", datasets.len() - NAMED));
-    }
-    format!("it has {}", names.join(", "))
+    let name = |dataset: &Dataset| format!("{} ({})", short(&dataset.name()), describe(dataset));
+    present(datasets, name, "it has no datasets")
 }
 
 fn describe(dataset: &Dataset) -> String {

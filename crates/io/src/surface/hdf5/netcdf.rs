@@ -41,21 +41,14 @@ impl Packing {
             }
             match numbers(dataset, name)?[..] {
                 [number] if number.is_finite() && fits(number) => Ok(number),
-                ref found => {
-                    let found = format!("{name} = {found:?}");
-                    Err(Hdf5Error::Attribute { dataset: dataset.name(), found, expected })
-                }
+                ref found => Err(wrong(dataset, format!("{name} = {found:?}"), expected)),
             }
         };
         let mut marks = Vec::new();
         for name in ["_FillValue", "missing_value"] {
             let found = numbers(dataset, name)?;
             if found.is_empty() && dataset.attr(name).is_ok() {
-                return Err(Hdf5Error::Attribute {
-                    dataset: dataset.name(),
-                    found: name.to_owned(),
-                    expected: "a number, or up to 64, in it",
-                });
+                return Err(wrong(dataset, name, "a number, or up to 64, in it"));
             }
             marks.extend(found);
         }
@@ -69,8 +62,7 @@ impl Packing {
             && least > largest
         {
             let found = format!("valid_range, or valid_min and valid_max, of {valid:?}");
-            let expected = "the least number first: correct or delete it";
-            return Err(Hdf5Error::Attribute { dataset: dataset.name(), found, expected });
+            return Err(wrong(dataset, found, "the least number first: correct or delete it"));
         }
         Ok(Self {
             range,
@@ -125,12 +117,16 @@ fn range(dataset: &Dataset) -> Result<Option<[f64; 2]>, Hdf5Error> {
         (Some("true"), TypeDescriptor::Integer(_)) => Ok(Some([0.0, count])),
         (Some("false"), TypeDescriptor::Unsigned(_)) => Ok(Some([-0.5 * count, count])),
         (Some("true" | "false"), _) => Ok(None),
-        (text, _) => Err(Hdf5Error::Attribute {
-            dataset: dataset.name(),
-            found: format!("{UNSIGNED} = {:?}", short(text.unwrap_or_default())),
-            expected: "\"true\" or \"false\"",
-        }),
+        (text, _) => {
+            let found = format!("{UNSIGNED} = {:?}", short(text.unwrap_or_default()));
+            Err(wrong(dataset, found, "\"true\" or \"false\""))
+        }
     }
+}
+
+/// The error of an attribute that says another thing than is expected.
+pub(super) fn wrong(dataset: &Dataset, found: impl Into<String>, expected: &'static str) -> Hdf5Error {
+    Hdf5Error::Attribute { dataset: dataset.name(), found: found.into(), expected }
 }
 
 /// Makes integers of a range those of the same bits that are in it; what no bits of the type mean stays.
@@ -154,17 +150,16 @@ fn valid(dataset: &Dataset) -> Result<Option<[f64; 2]>, Hdf5Error> {
     let stated = |name: &str, expected: &'static str, count: usize| {
         let Ok(attribute) = dataset.attr(name) else { return Ok(None) };
         let found = numbers(dataset, name)?;
-        let error = |found: String, expected| Err(Hdf5Error::Attribute { dataset: dataset.name(), found, expected });
         if found.len() != count || found.iter().any(|number| number.is_nan()) {
             let found =
                 if found.is_empty() { format!("{name}, which is no number") } else { format!("{name} = {found:?}") };
-            return error(found, expected);
+            return Err(wrong(dataset, found, expected));
         }
         // Some programs mean heights by such numbers, others what is stored.
         if is_float(&attribute.dtype()?.to_descriptor()?) && !stores_floats {
             let expected =
                 "integers, as the numbers that are stored, of which it says what is valid: correct or delete it";
-            return error(format!("{name} = {found:?}"), expected);
+            return Err(wrong(dataset, format!("{name} = {found:?}"), expected));
         }
         Ok(Some(found))
     };
@@ -271,11 +266,9 @@ fn labels(dataset: &Dataset) -> Result<Vec<String>, Hdf5Error> {
         return Ok(labels);
     }
     // Without them x and y might be taken for one another.
-    Err(Hdf5Error::Attribute {
-        dataset: dataset.name(),
-        found: format!("DIMENSION_LABELS of {count} values of type {}", attribute.dtype()?.to_descriptor()?),
-        expected: "one text for each dimension: correct it, or delete it where the dimensions are (columns, rows)",
-    })
+    let found = format!("DIMENSION_LABELS of {count} values of type {}", attribute.dtype()?.to_descriptor()?);
+    let expected = "one text for each dimension: correct it, or delete it where the dimensions are (columns, rows)";
+    Err(wrong(dataset, found, expected))
 }
 
 /// The first scale of each dimension; none where there is none.
@@ -311,10 +304,9 @@ fn step(dataset: &Dataset, place: usize, scale: &Dataset) -> Result<Option<f64>,
     let unit = match stated_unit(scale)? {
         None => 1.0,
         Some(unit) if is_metre(&unit) => 1.0,
-        Some(unit) => units::parse(&format!("1 {unit}"), Dimension::Length).map_err(|_| Hdf5Error::Attribute {
-            dataset: name.clone(),
-            found: format!("units = \"{}\"", short(&unit).escape_debug()),
-            expected: "a unit of length, for it has the coordinates of heights",
+        Some(unit) => units::parse(&format!("1 {unit}"), Dimension::Length).map_err(|_| {
+            let found = format!("units = \"{}\"", short(&unit).escape_debug());
+            wrong(scale, found, "a unit of length, for it has the coordinates of heights")
         })?,
     };
     let refuse = |problem: String| {
@@ -350,7 +342,7 @@ pub(super) fn stated_unit(dataset: &Dataset) -> Result<Option<String>, Hdf5Error
             numbers => format!("units = {numbers:?}"),
         };
         let expected = "the name of a unit as one text: correct it, or delete it where the numbers are in m";
-        return Err(Hdf5Error::Attribute { dataset: dataset.name(), found, expected });
+        return Err(wrong(dataset, found, expected));
     }
     Ok(unit)
 }
