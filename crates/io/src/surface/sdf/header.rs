@@ -171,13 +171,15 @@ impl DataType {
         }
     }
 
-    /// Whether a number of BCR-1.0 says that none was measured: the largest of its type.
-    fn is_missing_in_bcr(self, number: f64) -> bool {
-        match (self.number.integers(), self.number.size) {
-            (Some([_, largest]), _) => number == largest,
-            (None, 4) => number >= f64::from(BCR_MISSING_32),
-            (None, _) => number >= BCR_MISSING_64,
-        }
+    /// Tells whether a number says that none was measured: ISO 25178-71 marks that by the smallest number of the type, BCR-1.0 by the
+    /// largest.
+    pub(super) fn marks(self, dialect: Dialect) -> impl Fn(f64) -> bool {
+        let of_floats = match self.number.size {
+            4 => [f32::MIN, BCR_MISSING_32].map(f64::from),
+            _ => [f64::MIN, BCR_MISSING_64],
+        };
+        let [smallest, largest] = self.number.integers().unwrap_or(of_floats);
+        move |number| if dialect == Dialect::Bcr1 { number >= largest } else { number == smallest }
     }
 
     /// The number that a text states, NaN if it says that none was measured; nothing if it is no number of this type.
@@ -194,22 +196,8 @@ impl DataType {
             }
             None => text.parse().ok()?,
         };
-        Some(if dialect == Dialect::Bcr1 && self.is_missing_in_bcr(number) { f64::NAN } else { number })
-    }
-
-    /// Gives `take` every number of `bytes`, NaN where none was measured: ISO 25178-71 marks those by the smallest
-    /// number of the type, BCR-1.0 by the largest; NaN is what some programs write.
-    pub(super) fn decode(self, bytes: &[u8], dialect: Dialect, mut take: impl FnMut(f64)) {
-        let smallest = match (self.number.integers(), self.number.size) {
-            (Some([smallest, _]), _) => smallest,
-            (None, 4) => f64::from(f32::MIN),
-            (None, _) => f64::MIN,
-        };
-        for bytes in bytes.chunks_exact(self.number.size) {
-            let number = self.number.read(bytes);
-            let missing = if dialect == Dialect::Bcr1 { self.is_missing_in_bcr(number) } else { number == smallest };
-            take(if missing { f64::NAN } else { number });
-        }
+        // In the text of ISO 25178-71 a word says it.
+        Some(if dialect == Dialect::Bcr1 && self.marks(dialect)(number) { f64::NAN } else { number })
     }
 }
 
@@ -270,13 +258,9 @@ impl Header {
     /// Room for the heights in the order of the file. In BCR-1.0 the first profile has the largest y (so MountainsMap
     /// shows such files, and so sdfio reads them; the document itself does not say), in ISO 25178-71 y is 0 there.
     pub(super) fn room(&self) -> Profiles {
-        let (columns, rows, heights) = (self.points, self.profiles, vec![f64::NAN; self.points * self.profiles]);
-        Profiles { columns, rows, downward: self.dialect == Dialect::Bcr1, heights, done: 0 }
-    }
-
-    pub(super) fn patch(&self, heights: Profiles) -> Patch {
         let Self { points: columns, profiles: rows, x_scale: column_pitch, y_scale: row_pitch, .. } = *self;
-        Patch { columns, rows, column_pitch, row_pitch, heights: heights.heights }
+        let patch = Patch { columns, rows, column_pitch, row_pitch, heights: vec![f64::NAN; columns * rows] };
+        Profiles { patch, downward: self.dialect == Dialect::Bcr1, done: 0 }
     }
 
     /// Heights that the header promises.
@@ -306,11 +290,10 @@ fn zero(field: &'static str, (found, at): (i64, Position), expected: &'static st
 
 /// Takes heights in the order of a file, x growing fastest, and stores them column by column.
 pub(super) struct Profiles {
-    columns: usize,
-    rows: usize,
+    /// The patch that they make, with NaN where a height is still to come.
+    pub(super) patch: Patch,
     /// The first profile has the largest y.
     downward: bool,
-    heights: Vec<f64>,
     /// Heights taken so far.
     done: usize,
 }
@@ -323,14 +306,15 @@ impl Profiles {
 
     /// Heights that are not there yet.
     pub(super) fn missing(&self) -> usize {
-        self.heights.len() - self.done
+        self.patch.heights.len() - self.done
     }
 
     /// Takes the next height, for which there must be room.
     pub(super) fn push(&mut self, height: f64) {
-        let (profile, column) = (self.done / self.columns, self.done % self.columns);
-        let row = if self.downward { self.rows - 1 - profile } else { profile };
-        self.heights[column * self.rows + row] = height;
+        let Patch { columns, rows, ref mut heights, .. } = self.patch;
+        let (profile, column) = (self.done / columns, self.done % columns);
+        let row = if self.downward { rows - 1 - profile } else { profile };
+        heights[column * rows + row] = height;
         self.done += 1;
     }
 }

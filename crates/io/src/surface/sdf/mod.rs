@@ -274,7 +274,7 @@ fn read_heights(text: &mut Lexer<impl BufRead>, header: &Header) -> Result<Patch
         let at = Position::Line(number);
         if word == b"*" {
             return match heights.missing() {
-                0 => Ok(header.patch(heights)),
+                0 => Ok(heights.patch),
                 _ => Err(SdfError::Count { at, found: heights.len(), points, profiles }),
             };
         }
@@ -315,7 +315,8 @@ fn binary(mut source: impl BufRead, length: u64) -> Result<Surface, SdfError> {
         return Err(truncated(header_size as u128, "the header".to_owned()));
     }
     let header = binary_header(&rest, count_size, dialect)?;
-    let size = header.data_type.number.size;
+    let number = header.data_type.number;
+    let (size, marks_missing) = (number.size, header.data_type.marks(dialect));
     // Compared before anything is allocated: a header can promise more than any file holds.
     let needed = header_size as u128 + header.heights() * size as u128;
     let what = || format!("{} x {} heights of {size} bytes", header.points, header.profiles);
@@ -333,27 +334,20 @@ fn binary(mut source: impl BufRead, length: u64) -> Result<Surface, SdfError> {
             ErrorKind::UnexpectedEof => truncated(needed, what()),
             _ => error.into(),
         })?;
-        let (mut index, mut infinite) = (0, None);
-        header.data_type.decode(chunk, dialect, |number| {
-            let height = number * header.z_scale;
-            if height.is_infinite() && infinite.is_none() {
-                infinite = Some((index, height));
+        for (index, bytes) in chunk.chunks_exact(size).enumerate() {
+            let stored = number.read(bytes);
+            let height = if marks_missing(stored) { f64::NAN } else { stored * header.z_scale };
+            if height.is_infinite() {
+                let (at, found) = (Position::Byte(offset + index * size), height.to_string());
+                return Err(SdfError::Height { at, found, expected: "a finite number times Zscale" });
             }
-            index += 1;
             heights.push(height);
-        });
-        if let Some((index, height)) = infinite {
-            return Err(SdfError::Height {
-                at: Position::Byte(offset + index * size),
-                found: height.to_string(),
-                expected: "a finite number times Zscale",
-            });
         }
     }
     let mut trailer = Vec::new();
     source.take(TRAILER).read_to_end(&mut trailer)?;
     let warnings = trailer_warning(&trailer, needed, length).into_iter().collect();
-    Ok(Surface { patch: header.patch(heights), warnings })
+    Ok(Surface { patch: heights.patch, warnings })
 }
 
 /// Up to `count` bytes, fewer only at the end of the file.
