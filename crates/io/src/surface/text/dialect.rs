@@ -8,22 +8,26 @@ use crate::surface::error::TextError;
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Fault {
     NotANumber,
-    /// A decimal comma where points are expected.
-    Comma,
-    /// A decimal point where commas are expected.
-    Point,
+    /// This decimal mark where the other is expected.
+    Mark(Decimal),
     /// Digits in groups of three.
     Grouped,
     Infinite,
 }
 
 impl Fault {
-    pub(super) fn at(self, line: usize, column: usize, cell: &str) -> TextError {
+    /// The error of a cell; of a wrong mark it tells a number `beside` it that has the right one.
+    pub(super) fn at(
+        self,
+        line: usize,
+        column: usize,
+        cell: &str,
+        beside: impl FnOnce() -> Option<Box<str>>,
+    ) -> TextError {
         let found = shown(cell);
         match self {
             Self::NotANumber => TextError::Number { line, column, found },
-            Self::Comma => TextError::Mark { line, column, found, mark: Decimal::Comma, beside: None },
-            Self::Point => TextError::Mark { line, column, found, mark: Decimal::Point, beside: None },
+            Self::Mark(mark) => TextError::Mark { line, column, found, mark, beside: beside() },
             Self::Grouped => TextError::Grouped { line, column, found },
             Self::Infinite => TextError::Infinite { line, column, found },
         }
@@ -36,16 +40,8 @@ pub(super) fn number(cell: &str, decimal: Decimal) -> Result<f64, Fault> {
         Decimal::Point => cell.parse::<f64>().ok(),
         Decimal::Comma => with_comma(cell),
     };
-    match parsed {
-        Some(number) if number.is_infinite() => Err(Fault::Infinite),
-        Some(number) => Ok(number),
-        None => missing(cell).map_or_else(
-            || Err(fault(cell, decimal)),
-            |infinite| {
-                if infinite { Err(Fault::Infinite) } else { Ok(f64::NAN) }
-            },
-        ),
-    }
+    let number = parsed.or_else(|| missing(cell)).ok_or_else(|| fault(cell, decimal))?;
+    if number.is_infinite() { Err(Fault::Infinite) } else { Ok(number) }
 }
 
 /// A number with a decimal comma, or with neither comma nor point.
@@ -65,8 +61,8 @@ fn fault(cell: &str, decimal: Decimal) -> Fault {
         return Fault::Grouped;
     }
     match decimal {
-        Decimal::Point if with_comma(cell).is_some() => Fault::Comma,
-        Decimal::Comma if cell.parse::<f64>().is_ok() => Fault::Point,
+        Decimal::Point if with_comma(cell).is_some() => Fault::Mark(Decimal::Comma),
+        Decimal::Comma if cell.parse::<f64>().is_ok() => Fault::Mark(Decimal::Point),
         _ => Fault::NotANumber,
     }
 }
@@ -86,21 +82,19 @@ fn is_grouped(cell: &str) -> bool {
         && (groups.len() > 1 || fraction.is_some_and(is_digits))
 }
 
-/// Whether a cell is what programs write for a point that was not measured: then, whether it is an infinite number.
-fn missing(cell: &str) -> Option<bool> {
+/// No number, or an infinite one, where a cell is what programs write for a point that was not measured.
+fn missing(cell: &str) -> Option<f64> {
     let all = |mark: u8| cell.bytes().all(|byte| byte == mark);
     if all(b'*') || all(b'-') || ["bad", "na", "n/a", "no data"].iter().any(|word| cell.eq_ignore_ascii_case(word)) {
-        return Some(false);
+        return Some(f64::NAN);
     }
     // What the C library of Windows prints: 1.#QNAN, -1.#IND00, 1.#INF, -nan(ind).
     let unsigned = cell.strip_prefix(['+', '-']).unwrap_or(cell).to_ascii_lowercase();
     if let Some(word) = unsigned.strip_prefix("1.#").or(unsigned.strip_prefix("1,#")) {
-        return ["qnan", "snan", "ind", "inf"]
-            .iter()
-            .find(|known| word.starts_with(**known))
-            .map(|known| *known == "inf");
+        let known = [("qnan", f64::NAN), ("snan", f64::NAN), ("ind", f64::NAN), ("inf", f64::INFINITY)];
+        return known.iter().find(|(known, _)| word.starts_with(known)).map(|(_, number)| *number);
     }
-    unsigned.strip_prefix("nan(").filter(|rest| rest.ends_with(')')).map(|_| false)
+    (unsigned.starts_with("nan(") && unsigned.ends_with(')')).then_some(f64::NAN)
 }
 
 /// Text of a file as it can stand in a message.
@@ -246,7 +240,7 @@ fn decimal<'a>(lines: impl Iterator<Item = (usize, &'a str)>, separator: Separat
                 continue;
             }
             if number(cell, Decimal::Point) == Err(Fault::Grouped) {
-                return Err(Fault::Grouped.at(line, column + 1, cell));
+                return Err(TextError::Grouped { line, column: column + 1, found: shown(cell) });
             }
             if cell.contains('.') && number(cell, Decimal::Point).is_ok() {
                 return Ok(Decimal::Point);

@@ -169,13 +169,8 @@ impl Numbers {
         for (line, text) in lines.clone() {
             let before = numbers.values.len();
             for (column, cell) in separator.cells(text, terminated).enumerate() {
-                let value = number(cell, decimal).map_err(|fault| match fault.at(line, column + 1, cell) {
-                    TextError::Mark { line, column, found, mark, .. } => {
-                        let beside = beside(lines.clone(), separator, decimal);
-                        TextError::Mark { line, column, found, mark, beside }
-                    }
-                    other => other,
-                });
+                let beside = || beside(lines.clone(), separator, decimal);
+                let value = number(cell, decimal).map_err(|fault| fault.at(line, column + 1, cell, beside));
                 numbers.values.push(value?);
             }
             let found = numbers.values.len() - before;
