@@ -135,13 +135,21 @@ const RULES: &[Rule<Scene>] = &[
     ("pin.surface.synthetic.correlation_length_across", |scene| correlation_length_across(scene, &scene.pin_surface)),
     ("pin.base.synthetic.fibre_length", fibre_length),
     ("plateaus.transport_length", transport_length),
+    ("friction.shear_strength", shear_strength),
+    ("thermal.ambient", ambient),
+    ("thermal.disc.conductivity", |scene| substance(&thermal(scene)?.disc.substance)),
+    ("thermal.disc.coating.conductivity", |scene| substance(&thermal(scene)?.disc.coating?.substance)),
+    ("thermal.disc.coating.thickness", coating_thickness),
+    ("thermal.pin.conductivity", |scene| substance(&thermal(scene)?.pin.substance)),
+    ("thermal.disc.thickness", heat_capacity),
+    ("thermal.pin.area", pin_area),
+    ("emission.pin_density", |scene| density(scene.parameters.emission.as_ref()?.pin_density)),
+    ("emission.disc_density", |scene| density(scene.parameters.emission.as_ref()?.disc_density)),
 ];
 
 /// Values that cannot be meant, as far as the scene tells without its surfaces.
 pub fn of_scene(scene: &Scene) -> Vec<Warning> {
-    let mut warnings = apply(RULES, scene, scene);
-    warnings.extend(apply(DISSIPATION_RULES, scene, scene));
-    warnings
+    apply(RULES, scene, scene)
 }
 
 fn nominal_pressure(scene: &Scene) -> Option<Finding> {
@@ -275,20 +283,6 @@ const DENSITY: RangeInclusive<f64> = 10.0..=23_000.0;
 const SPECIFIC_HEAT: RangeInclusive<f64> = 100.0..=4200.0;
 /// No film that shears is stronger than what it lies on, Pa.
 const STRONGEST: f64 = 1e9;
-
-/// Rules of friction, heat and emission.
-const DISSIPATION_RULES: &[Rule<Scene>] = &[
-    ("friction.shear_strength", shear_strength),
-    ("thermal.ambient", ambient),
-    ("thermal.disc.conductivity", |scene| substance(&thermal(scene)?.disc.substance)),
-    ("thermal.disc.coating.conductivity", |scene| substance(&thermal(scene)?.disc.coating?.substance)),
-    ("thermal.disc.coating.thickness", coating_thickness),
-    ("thermal.pin.conductivity", |scene| substance(&thermal(scene)?.pin.substance)),
-    ("thermal.disc.thickness", heat_capacity),
-    ("thermal.pin.area", pin_area),
-    ("emission.pin_density", |scene| density(scene.parameters.emission.as_ref()?.pin_density)),
-    ("emission.disc_density", |scene| density(scene.parameters.emission.as_ref()?.disc_density)),
-];
 
 fn thermal(scene: &Scene) -> Option<&Thermal> {
     scene.parameters.thermal.as_deref()
