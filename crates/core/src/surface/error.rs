@@ -1,7 +1,5 @@
 //! Why a surface cannot be prepared or made.
 
-use std::fmt;
-
 use thiserror::Error;
 
 use super::Length;
@@ -19,7 +17,7 @@ pub enum PreparationError {
     #[error(
         "{missing} of {points} points are missing{}; fill = \"level\" gives them the mean of the levelled surface, \
          fill = \"interpolate\" heights between those around them",
-        AsOutliers(*outliers)
+        as_outliers(*outliers)
     )]
     Missing { missing: usize, outliers: usize, points: usize },
     #[error(
@@ -27,7 +25,7 @@ pub enum PreparationError {
          leave outliers out"
     )]
     NoDeviation,
-    #[error("all {points} points are missing{}", AsAllOutliers(*outliers))]
+    #[error("all {points} points are missing{}", as_all_outliers(*outliers))]
     AllMissing { outliers: usize, points: usize },
     #[error("{key} is {found:?}, expected {expected}")]
     Value { key: &'static str, found: f64, expected: &'static str },
@@ -52,7 +50,7 @@ pub enum PreparationError {
         Length(radii[0]), Length(radii[1])
     )]
     UnrollTooLarge { points: f64, patch: usize, radii: [f64; 2] },
-    #[error("{}, measured are radii from {} to {}: check unroll.centre", Wanted(*wanted), Length(found[0]), Length(found[1]))]
+    #[error("{}, measured are radii from {} to {}: check unroll.centre", not_found(*wanted), Length(found[0]), Length(found[1]))]
     UnrollNothing { wanted: Option<[f64; 2]>, found: [f64; 2] },
     #[error(
         "{key} is {}, expected at least two pixels, {}, and at most the shorter side of the heights, {}",
@@ -89,35 +87,23 @@ const LARGER: &str = "repeat = true tiles the patch at its own scale without a s
                       heights with its statistics";
 
 /// How many of the missing points are outliers, in words.
-struct AsOutliers(usize);
-
-impl fmt::Display for AsOutliers {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        if self.0 == 0 { Ok(()) } else { write!(f, ", {} of them as outliers", self.0) }
-    }
+fn as_outliers(outliers: usize) -> String {
+    if outliers == 0 { String::new() } else { format!(", {outliers} of them as outliers") }
 }
 
 /// How many of the points, of which none is left, are outliers, in words, and what to do then.
-struct AsAllOutliers(usize);
-
-impl fmt::Display for AsAllOutliers {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let advice = if self.0 == 0 { "" } else { ": give outliers or outlier_slope a larger limit, or leave it out" };
-        write!(f, "{}{advice}", AsOutliers(self.0))
-    }
+fn as_all_outliers(outliers: usize) -> String {
+    let advice = if outliers == 0 { "" } else { ": give outliers or outlier_slope a larger limit, or leave it out" };
+    as_outliers(outliers) + advice
 }
 
 /// What part of a ring was not found, in words.
-struct Wanted(Option<[f64; 2]>);
-
-impl fmt::Display for Wanted {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.0 {
-            Some([inner, outer]) => {
-                write!(f, "in no direction the heights reach over unroll.radii, {} to {}", Length(inner), Length(outer))
-            }
-            None => write!(f, "no four neighbouring points of a ring were measured"),
+fn not_found(radii: Option<[f64; 2]>) -> String {
+    match radii {
+        Some([inner, outer]) => {
+            format!("in no direction the heights reach over unroll.radii, {} to {}", Length(inner), Length(outer))
         }
+        None => "no four neighbouring points of a ring were measured".to_owned(),
     }
 }
 

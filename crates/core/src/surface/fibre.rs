@@ -24,20 +24,14 @@ pub fn set_back_resin(heights: &mut [f64], base: &[Base], recess: f64) {
 }
 
 /// All points within `radius` of a straight segment.
-pub(super) struct Capsule {
-    pub(super) centre: (f64, f64),
-    pub(super) direction: (f64, f64),
+struct Capsule {
+    centre: (f64, f64),
+    direction: (f64, f64),
     half_segment: f64,
     radius: f64,
 }
 
 impl Capsule {
-    /// A capsule of this length from end to end, turned by an angle, rad.
-    pub(super) fn new(centre: (f64, f64), angle: f64, length: f64, width: f64) -> Self {
-        let direction = (libm::cos(angle), libm::sin(angle));
-        Self { centre, direction, half_segment: 0.5 * (length - width), radius: 0.5 * width }
-    }
-
     fn contains(&self, x: f64, y: f64) -> bool {
         let (x, y) = (x - self.centre.0, y - self.centre.1);
         let along = x * self.direction.0 + y * self.direction.1;
@@ -56,14 +50,8 @@ impl Capsule {
         ]
     }
 
-    /// Cells that are looked at to find those of the capsule.
-    pub(super) fn box_cells(&self, mesh: &Mesh) -> u64 {
-        let [columns, rows] = self.reach(mesh);
-        columns.len() as u64 * rows.len() as u64
-    }
-
     /// Cells of the pin whose centres lie in the capsule.
-    pub(super) fn cells(&self, mesh: &Mesh) -> impl Iterator<Item = usize> {
+    fn cells(&self, mesh: &Mesh) -> impl Iterator<Item = usize> {
         let (width, height, rows) = (mesh.column_width(), mesh.row_height(), mesh.rows());
         let [columns, row_range] = self.reach(mesh);
         columns
@@ -148,7 +136,8 @@ impl FibreSynthesis {
         while placed < MOST_FIBRES && looked < MOST_CELLS {
             let capsule = self.draw(&mut random, width, height);
             placed += 1;
-            looked += capsule.box_cells(mesh);
+            let [columns, rows] = capsule.reach(mesh);
+            looked += columns.len() as u64 * rows.len() as u64;
             let is_new = |cell: &usize| base[*cell] == Base::Resin && mesh.is_present(*cell);
             let new_cells: Vec<usize> = capsule.cells(mesh).filter(is_new).collect();
             let before = covered / total;
@@ -200,7 +189,9 @@ impl FibreSynthesis {
     fn draw(&self, random: &mut Random, width: f64, height: f64) -> Capsule {
         let mut place = |size: f64| (size + self.fibre_length) * random.uniform() - 0.5 * self.fibre_length;
         let centre = (place(width), place(height));
-        Capsule::new(centre, PI * random.uniform(), self.fibre_length, self.fibre_width)
+        let angle = PI * random.uniform();
+        let (direction, radius) = ((libm::cos(angle), libm::sin(angle)), 0.5 * self.fibre_width);
+        Capsule { centre, direction, half_segment: 0.5 * (self.fibre_length - self.fibre_width), radius }
     }
 
     /// Refuses what is no fibre map.
