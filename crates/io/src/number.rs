@@ -47,21 +47,20 @@ pub fn significant(number: f64, digits: usize) -> String {
 pub fn with_error(number: f64, error: Option<f64>) -> String {
     let Some(error) = error else { return significant(number, 5) };
     // As it is rounded: 0.0996 is 0.10.
-    let magnitude =
-        if error > 0.0 { format!("{error:.1e}").parse::<f64>().unwrap_or(error).log10().floor() } else { -3.0 };
+    let magnitude = if error > 0.0 { to_digits(error, 2).log10().floor() } else { -3.0 };
     let decimals = (1.0 - magnitude).clamp(0.0, 9.0) as usize;
     format!("{number:.decimals$} ± {error:.decimals$}")
 }
 
-/// The number to nine significant digits, for words: the last digits of a sum of many terms say nothing.
-pub fn to_nine_digits(number: f64) -> f64 {
-    format!("{number:.8e}").parse().unwrap_or(number)
+/// The number to so many significant digits.
+pub fn to_digits(number: f64, digits: usize) -> f64 {
+    format!("{number:.*e}", digits.saturating_sub(1)).parse().unwrap_or(number)
 }
 
 /// The largest number with so many significant digits that is not above a positive one but for rounding: a limit that people may
 /// write down.
 pub fn not_above(number: f64, digits: usize) -> f64 {
-    let nearest = format!("{number:.*e}", digits.saturating_sub(1)).parse().unwrap_or(number);
+    let nearest = to_digits(number, digits);
     if nearest <= number * (1.0 + 1e-12) {
         return nearest;
     }
@@ -76,11 +75,6 @@ pub fn less_than(bound: f64, digits: usize) -> String {
     let nearest = significant(bound, digits).parse().unwrap_or(bound);
     let last = 10_f64.powi(bound.log10().floor() as i32 + 1 - digits as i32);
     format!("< {}", significant(if nearest < bound { nearest + last } else { nearest }, digits))
-}
-
-/// The number to fifteen significant digits: what is left of one that was stated with fewer, without what arithmetic added.
-pub fn to_fifteen_digits(number: f64) -> f64 {
-    format!("{number:.14e}").parse().unwrap_or(number)
 }
 
 /// A number with at most so many significant digits, for people: no zeros at the end, and a sign that is as wide as a plus.

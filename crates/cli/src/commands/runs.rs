@@ -253,7 +253,7 @@ fn brake(summary: &RunSummary) -> Vec<(&'static str, String)> {
             value("pad_wear_per_distance").zip(value("pad_life")).filter(|(_, life)| *life > 0.0 && life.is_finite())
         {
             // Three digits are more than such a number has.
-            let life: f64 = format!("{:.2e}", life * 1e-3).parse().unwrap_or(life * 1e-3);
+            let life = number::to_digits(life * 1e-3, 3);
             let [rate, life] = [number::short(rate * 1e9), number::grouped(life.round() as u64)];
             text += &format!(", {rate} mm in 1000 km: at this rate they last {life} km");
         }

@@ -356,7 +356,7 @@ fn map_times(settings: &mut Settings, end: f64, warnings: &mut Vec<Warning>) -> 
             key: key.to_owned(),
             found: format!("maps at {}", text::list(beyond, ", ")),
             // In words for people: the last digits of a time that is a sum of steps say nothing.
-            bound: format!("after the run, which ends at {} s", number::to_nine_digits(end)),
+            bound: format!("after the run, which ends at {} s", number::to_digits(end, 9)),
             advice: "they are not taken: give earlier times, or a longer operation.duration".to_owned(),
         });
     }

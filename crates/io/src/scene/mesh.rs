@@ -158,7 +158,8 @@ impl Geometry {
             }
         };
         // To as many digits as lengths are given with: 22 mm less 2 mm are 20 mm.
-        let radii = [mean_radius - 0.5 * pin_width, mean_radius + 0.5 * pin_width].map(number::to_fifteen_digits);
+        let radii =
+            [mean_radius - 0.5 * pin_width, mean_radius + 0.5 * pin_width].map(|radius| number::to_digits(radius, 15));
         let counts = [whole(pin_width / cell_size), disc_columns, pin_columns];
         // Casts saturate: what is too large for memory is refused as such.
         Ok(Cells { counts: counts.map(|count| count as u64), radii, outline })

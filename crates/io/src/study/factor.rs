@@ -229,7 +229,7 @@ impl Factor {
         };
         let level = Level::new(self.key(), &stated(value));
         // The run has the number to its last bit; people read the one that was meant, 0.3 in place of 0.30000000000000004.
-        let Level { label, .. } = Level::new(self.key(), &stated(number::to_fifteen_digits(value)));
+        let Level { label, .. } = Level::new(self.key(), &stated(number::to_digits(value, 15)));
         Some(Level { label, ..level })
     }
 

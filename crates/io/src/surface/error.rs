@@ -1,7 +1,7 @@
 //! Why the initial surfaces of a scene cannot be made, and why an HDF5 file or a text file gives none.
 
+use std::io;
 use std::path::PathBuf;
-use std::{fmt, io};
 
 use plateau_core::surface::micrograph::MicrographError;
 use plateau_core::surface::{FibreError, PreparationError, SynthesisError};
@@ -48,7 +48,7 @@ pub enum FileError {
     Folder,
     #[error("this is not a regular file")]
     NotAFile,
-    #[error("this is not a surface file that is known ({found}); {READABLE}{}", ByConversion(*is_binary))]
+    #[error("this is not a surface file that is known ({found}); {READABLE}{}", by_conversion(*is_binary))]
     Unknown { found: String, is_binary: bool },
     #[error("this is {}, which is not read as it is; {CONVERSION}{}", .0.name, skipped(.0.is_text))]
     Instrument(Instrument),
@@ -130,12 +130,8 @@ impl From<Hdf5Error> for FileError {
 const READABLE: &str = "SDF, HDF5, NumPy arrays, PNG, TIFF and text are read";
 
 /// The line that converts a file that another program may know, behind what to do about any file; nothing for another.
-struct ByConversion(bool);
-
-impl fmt::Display for ByConversion {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        if self.0 { write!(f, "; if it is of an instrument, {CONVERSION}") } else { Ok(()) }
-    }
+fn by_conversion(is_binary: bool) -> String {
+    if is_binary { format!("; if it is of an instrument, {CONVERSION}") } else { String::new() }
 }
 
 /// Why an HDF5 file gives no surface.
@@ -170,7 +166,7 @@ pub enum Hdf5Error {
          pin, at = \"100 s\" beside it one at another time"
     )]
     WhichMap,
-    #[error("this run file has no map {map}{}", AtTime(at.as_ref()))]
+    #[error("this run file has no map {map}{}", at_time(at.as_ref()))]
     NoMap { map: &'static str, at: Option<(f64, Vec<f64>)> },
     #[error("at is a time of a map of heights of a run file, which {found} is not: leave it out")]
     NotRecorded { found: String },
@@ -197,17 +193,11 @@ impl From<OpenError> for Hdf5Error {
 }
 
 /// The time that was asked for, and those that there are, in words.
-struct AtTime<'a>(Option<&'a (f64, Vec<f64>)>);
-
-impl fmt::Display for AtTime<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let seconds = |time: &f64| format!("{} s", number::plain(*time));
-        match self.0 {
-            None => f.write_str(": output.maps of its scene says which are recorded"),
-            Some((at, times)) => {
-                write!(f, " at {}, its maps are at {}", seconds(at), list(times.iter().map(seconds), ", "))
-            }
-        }
+fn at_time(at: Option<&(f64, Vec<f64>)>) -> String {
+    let seconds = |time: &f64| format!("{} s", number::plain(*time));
+    match at {
+        None => ": output.maps of its scene says which are recorded".to_owned(),
+        Some((at, times)) => format!(" at {}, its maps are at {}", seconds(at), list(times.iter().map(seconds), ", ")),
     }
 }
 
@@ -347,5 +337,5 @@ fn other(mark: Decimal, beside: Option<&str>) -> String {
 
 /// A number with six digits, which is enough for a message.
 pub(super) fn short(number: f64) -> f64 {
-    format!("{number:.5e}").parse().unwrap_or(number)
+    number::to_digits(number, 6)
 }

@@ -34,22 +34,14 @@ impl Wanted {
     fn fits(self, dataset: &Dataset) -> bool {
         let number = descriptor(dataset);
         let is_integer = matches!(number, Some(TypeDescriptor::Integer(_) | TypeDescriptor::Unsigned(_)));
+        let is_word = matches!(number, Some(TypeDescriptor::Enum(_) | TypeDescriptor::Boolean));
         match (self, dataset.shape()[..].as_ref()) {
             (Self::Heights, [_, _]) => {
                 matches!(number, Some(TypeDescriptor::Float(_))) || (is_integer && Packing::is_packed(dataset))
             }
             (Self::Base(expected), &[first, second]) => {
                 let is_turned = Dimensions::of(dataset).is_ok_and(|dimensions| dimensions.is_turned);
-                expected == (if is_turned { (second, first) } else { (first, second) })
-                    && matches!(
-                        number,
-                        Some(
-                            TypeDescriptor::Integer(_)
-                                | TypeDescriptor::Unsigned(_)
-                                | TypeDescriptor::Enum(_)
-                                | TypeDescriptor::Boolean
-                        )
-                    )
+                expected == (if is_turned { (second, first) } else { (first, second) }) && (is_integer || is_word)
             }
             _ => false,
         }
