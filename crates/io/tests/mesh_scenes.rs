@@ -1,20 +1,12 @@
 //! The mesh of a scene in cells and in lengths, and the round pin.
 
 use std::fs;
-use std::path::{Path, PathBuf};
 
 use plateau_core::model::mesh::{Mesh, Outline};
 use plateau_core::observe::schedule::SampleEvery;
-use plateau_io::scene::{self, Scene};
+use plateau_io::scene;
 
-fn good(name: &str) -> PathBuf {
-    Path::new("tests/scenes/good").join(name)
-}
-
-fn load(name: &str, sets: &[&str]) -> Scene {
-    let sets: Vec<String> = sets.iter().map(|set| (*set).to_owned()).collect();
-    scene::load(&good(name), &sets).unwrap_or_else(|error| panic!("{error}"))
-}
+use crate::good_scenes::{good, load};
 
 #[test]
 fn a_mesh_in_lengths_is_that_in_rows_and_columns() {

@@ -22,7 +22,7 @@ use crate::run_file::header::{Header, InputFile, State};
 use crate::run_file::layout::{
     ACCELERATION, FORMAT_VERSION, MAP_TIME, PIN_BASE, Statuses, TIME, TIME_OF_SERIES, map_path, series_path,
 };
-use crate::scene::mesh::{Geometry, Refused};
+use crate::scene::mesh::{Cells, Refused};
 use crate::scene::schema::choices::{SHAPE, Shape};
 use crate::scene::{self, is_study};
 use crate::text::{short, shown_title};
@@ -86,7 +86,7 @@ impl Opening<'_> {
             }
         };
         let refused = |Refused { message, .. }: Refused| self.damaged(format!("its mesh: {message}"));
-        let cells = Geometry::read(shape, length, count, incomplete)?.cells().map_err(refused)?;
+        let cells = Cells::read(shape, length, count, incomplete, refused)?;
         for (name, expected) in ["radius", "disc_angle", "pin_angle"].into_iter().zip(cells.counts) {
             let found = self.dataset(name)?.size();
             if found as u64 != expected {

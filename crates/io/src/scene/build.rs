@@ -23,10 +23,10 @@ use crate::scene::cycle::{
 use crate::scene::error::{Origin, Problem, SceneError, Warning};
 use crate::scene::interpret::Setting;
 use crate::scene::layers::{self, Layered};
-use crate::scene::mesh::{Geometry, Refused};
+use crate::scene::mesh::{Cells, Refused};
 use crate::scene::resolved;
 use crate::scene::schema::choices::{self, Shape};
-use crate::scene::schema::{ACCELERATION, join};
+use crate::scene::schema::{self, ACCELERATION, Key, join};
 use crate::scene::settings::{self, Settings};
 use crate::scene::surfaces::{base, heights};
 use crate::{number, text};
@@ -34,7 +34,7 @@ use crate::{number, text};
 /// Reads the scene at `path`, lays it over the scenes it extends, applies the arguments of `--set` (`key.path=value`)
 /// and checks everything that can be checked without reading surfaces.
 pub fn load(path: &Path, sets: &[String]) -> Result<Scene, SceneError> {
-    checked(layers::read(path, None, &[sets])?, path)
+    of_layers(path, None, &[sets])
 }
 
 /// As [`load`], of the text of a scene that is in no file: what it names is looked for as if it were at `path`.
@@ -45,11 +45,7 @@ pub fn of_text(path: &Path, text: &str) -> Result<Scene, SceneError> {
 /// As [`load`], or of a text as [`of_text`], with lists of changes that are laid over each other, as scenes are that extend others: a
 /// later one may choose another alternative.
 pub fn of_layers(path: &Path, text: Option<&str>, sets: &[&[String]]) -> Result<Scene, SceneError> {
-    checked(layers::read(path, text, sets)?, path)
-}
-
-fn checked(layers: Layered, path: &Path) -> Result<Scene, SceneError> {
-    let Layered { entries, files, mut problems, replaced } = layers;
+    let Layered { entries, files, mut problems, replaced } = layers::read(path, text, sets)?;
     if problems.is_empty() {
         // A key that is mistyped or was dropped is not missing too.
         settings::refuse_missing(&entries, path, &mut problems);
@@ -95,15 +91,8 @@ fn build(mut settings: Settings, mut files: Vec<(PathBuf, String)>, path: &Path)
         Some(Setting::Integer(count)) => Workers::Count(address(*count)),
         _ => Workers::Auto,
     };
-    let seeds = [
-        "disc.surface.synthetic.seed",
-        "disc.prepare.extend_seed",
-        "pin.base.synthetic.seed",
-        "pin.base.extend_seed",
-        "pin.surface.synthetic.seed",
-        "pin.prepare.extend_seed",
-    ];
-    let seeds = seeds.into_iter().filter_map(|key| Some((key.to_owned(), settings.integer(key).ok()?)));
+    let seeds = schema::keys().iter().filter(|key| key.is_seed()).map(Key::path);
+    let seeds = seeds.filter_map(|path| settings.integer(&path).ok().map(|seed| (path, seed)));
     Ok(Scene {
         title: settings.text("title")?.to_owned(),
         path: path.to_path_buf(),
@@ -141,7 +130,7 @@ fn adaptive(settings: &Settings) -> Result<Option<Adaptive>, Problem> {
     let Some(tolerance) = settings.optional_number(&tolerance)? else { return Ok(None) };
     if settings.get("operation.steps").is_some() {
         let message = "a run that chooses its acceleration has no certain number of steps, give operation.duration";
-        return Err(Problem::new(&settings.origin("operation.steps"), "operation.steps", message));
+        return Err(settings.problem("operation.steps", message));
     }
     Ok(Some(Adaptive { tolerance, largest: settings.number(&max)? }))
 }
@@ -193,24 +182,24 @@ fn parameters(settings: &Settings, brake: Option<&Brake>) -> Result<(Parameters,
     add_dissipation(settings, brake, &mut parameters)?;
     if !parameters.step_time().is_normal() {
         let message = format!("a step would last {} s, which cannot be computed with", parameters.step_time());
-        return Err(Problem::new(&settings.origin(speed_key), speed_key, message));
+        return Err(settings.problem(speed_key, message));
     }
     Ok((parameters, operation))
 }
 
 fn mesh(settings: &Settings) -> Result<Mesh, Problem> {
     let path = |name: &str| join("mesh", name);
-    let problem = |name: &str, message: String| Problem::new(&settings.origin(&path(name)), &path(name), message);
+    let problem = |name: &str, message: String| settings.problem(&path(name), message);
     let refused = |Refused { key, message }: Refused| problem(key, message);
     // A scene that says nothing of it resolves to one that says nothing, as before there was a choice.
-    let shape = settings.get("mesh.shape").map(|_| settings.choice("mesh.shape", &choices::SHAPE));
-    let geometry = Geometry::read(
-        shape.transpose()?.unwrap_or(Shape::Rectangle),
+    let shape = settings.optional_choice("mesh.shape", &choices::SHAPE)?;
+    let cells = Cells::read(
+        shape.unwrap_or(Shape::Rectangle),
         |name| settings.optional_number(&path(name)),
-        |name| settings.get(&path(name)).map(|_| settings.integer(&path(name))).transpose(),
+        |name| settings.optional_integer(&path(name)),
         |name| problem(name, "it is not given".to_owned()),
+        refused,
     )?;
-    let cells = geometry.cells().map_err(refused)?;
     // The mesh itself takes memory, so this comes first. A pin wider than the ring is a clearer message.
     let [rows, disc_columns, pin_columns] = cells.counts;
     if pin_columns <= disc_columns {
@@ -286,7 +275,7 @@ fn plateaus(settings: &Settings) -> Result<PlateauRules, Problem> {
     let transport_length = settings.optional_number(TRANSPORT_LENGTH)?;
     let refused = |reason: &str| {
         let message = format!("{reason}; leave one of them out");
-        Err(Problem::new(&settings.origin(TRANSPORT_LENGTH), TRANSPORT_LENGTH, message))
+        Err(settings.problem(TRANSPORT_LENGTH, message))
     };
     if transport_length.is_some() {
         if debris != DebrisRule::Local {
@@ -381,13 +370,13 @@ pub(super) fn length(
     operation: Option<&OperationCycle>,
 ) -> Result<Length, Problem> {
     let duration = settings.optional_number("operation.duration")?;
-    let given = settings.get("operation.steps").map(|_| settings.integer("operation.steps")).transpose()?;
+    let given = settings.optional_integer("operation.steps")?;
     let key = match (duration, given) {
         (Some(_), _) => "operation.duration",
         (None, Some(_)) => "operation.steps",
         (None, None) => ACCELERATION,
     };
-    let problem = |message: String| Problem::new(&settings.origin(key), key, message);
+    let problem = |message: String| settings.problem(key, message);
     let length = match (operation, duration, given) {
         (Some(OperationCycle { cycle, .. }), _, _) => {
             let angle = parameters.step_angle();
@@ -439,7 +428,7 @@ fn add_dissipation(settings: &Settings, brake: Option<&Brake>, parameters: &mut 
     parameters.thermal =
         if settings.has_table("thermal") { Some(Arc::new(thermal(settings, share, turns)?)) } else { None };
     parameters.emission = if settings.has_table("emission") { Some(emission(settings)?) } else { None };
-    let problem = |key: &str, message: &str| Err(Problem::new(&settings.origin(key), key, message));
+    let problem = |key: &str, message: &str| Err(settings.problem(key, message));
     if parameters.thermal.is_some() && parameters.friction.is_none() {
         return problem(
             "thermal.ambient",
@@ -499,7 +488,7 @@ fn friction(settings: &Settings) -> Result<Friction, Problem> {
     if !["friction", "friction.secondary", "friction.resin"].into_iter().any(is_given) {
         let message = "this table gives no coefficient of friction: expected pressure_coefficient = 0.33, \
                        shear_strength = \"0.75 MPa\" or both, for example; or leave [friction] out";
-        return Err(Problem::new(&settings.origin("friction"), "friction", message));
+        return Err(settings.problem("friction", message));
     }
     let other = |table: &str| if settings.has_table(table) { law(table) } else { Ok(primary) };
     Ok(Friction {
@@ -560,9 +549,8 @@ fn emission(settings: &Settings) -> Result<Emission, Problem> {
     let number = |key: &str| settings.number(&format!("emission.{key}"));
     let (pm10_fraction, pm25_fraction) = (number("pm10_fraction")?, number("pm25_fraction")?);
     if pm25_fraction > pm10_fraction {
-        let key = "emission.pm25_fraction";
         let message = format!("{pm25_fraction} is more than pm10_fraction = {pm10_fraction}, of which it is a part");
-        return Err(Problem::new(&settings.origin(key), key, message));
+        return Err(settings.problem("emission.pm25_fraction", message));
     }
     Ok(Emission {
         pm10_fraction,

@@ -45,17 +45,7 @@ pub(super) struct Layered {
 /// of this version.
 pub(super) fn read(path: &Path, text: Option<&str>, sets: &[&[String]]) -> Result<Layered, SceneError> {
     let mut problems = Vec::new();
-    let (files, layers) = read_chain(path, text, &mut problems)?;
-    lay_all(files, layers, sets, problems)
-}
-
-/// Lays the scenes, from the top down, and the `--set` arguments over each other.
-fn lay_all(
-    files: Files,
-    mut layers: Vec<Entries>,
-    sets: &[&[String]],
-    mut problems: Vec<Problem>,
-) -> Result<Layered, SceneError> {
+    let (files, mut layers) = read_chain(path, text, &mut problems)?;
     for arguments in sets {
         let mut set = Entries::new();
         for argument in *arguments {

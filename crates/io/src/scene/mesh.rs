@@ -8,31 +8,11 @@ use plateau_core::surface::Length;
 use super::schema::choices::Shape;
 use crate::number;
 
-/// Content of `[mesh]`, lengths in m.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Geometry {
-    size: Size,
-    shape: Shape,
-}
-
-/// The two ways of saying it, see [`super::schema::WAYS`].
-#[derive(Debug, Clone, Copy, PartialEq)]
-enum Size {
-    Cells { inner: f64, outer: f64, rows: u64, disc_columns: u64, pin_columns: u64, pin_diameter: Option<f64> },
-    Lengths { pin_width: f64, pin_length: Option<f64>, cell_size: f64, mean_radius: f64 },
-}
-
 /// Reason why it is no mesh: the name of the key in `[mesh]` and a message.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Refused {
     pub(crate) key: &'static str,
     pub(crate) message: String,
-}
-
-impl Refused {
-    fn new(key: &'static str, message: String) -> Self {
-        Self { key, message }
-    }
 }
 
 /// Rows and columns, and where they are.
@@ -45,78 +25,36 @@ pub(crate) struct Cells {
     outline: Outline,
 }
 
-impl Geometry {
-    /// Reads it with functions that give a length (m) and a count by the name of the key, `None` where it is not given.
+impl Cells {
+    /// Reads them with functions that give a length (m) and a count by the name of the key, `None` where it is not given: in one of the two
+    /// ways of saying it, see [`super::schema::WAYS`].
     pub(crate) fn read<E>(
         shape: Shape,
         length: impl Fn(&'static str) -> Result<Option<f64>, E>,
         count: impl Fn(&'static str) -> Result<Option<u64>, E>,
         missing: impl Fn(&'static str) -> E,
+        refused: impl Fn(Refused) -> E,
     ) -> Result<Self, E> {
         let needed = |name| length(name)?.ok_or_else(|| missing(name));
-        let size = match length("cell_size")? {
-            Some(cell_size) => Size::Lengths {
-                pin_width: needed("pin_width")?,
-                pin_length: length("pin_length")?,
-                cell_size,
-                mean_radius: needed("mean_radius")?,
-            },
-            None => {
-                let counted = |name| count(name)?.ok_or_else(|| missing(name));
-                Size::Cells {
-                    rows: counted("rows")?,
-                    disc_columns: counted("disc_columns")?,
-                    pin_columns: counted("pin_columns")?,
-                    inner: needed("inner_radius")?,
-                    outer: needed("outer_radius")?,
-                    pin_diameter: length("pin_diameter")?,
-                }
-            }
-        };
-        Ok(Self { size, shape })
-    }
-
-    /// Its rows and columns.
-    pub(crate) fn cells(&self) -> Result<Cells, Refused> {
-        match self.size {
-            Size::Cells { inner, outer, rows, disc_columns, pin_columns, pin_diameter } => Ok(Cells {
-                counts: [rows, disc_columns, pin_columns],
-                radii: [inner, outer],
-                outline: self.outline(pin_diameter)?,
-            }),
-            Size::Lengths { pin_width, pin_length, cell_size, mean_radius } => {
-                self.divided(pin_width, pin_length, cell_size, mean_radius)
-            }
+        if let Some(cell_size) = length("cell_size")? {
+            let (pin_width, pin_length) = (needed("pin_width")?, length("pin_length")?);
+            return Self::divided(shape, pin_width, pin_length, cell_size, needed("mean_radius")?).map_err(refused);
         }
-    }
-
-    /// The outline where the mesh is given in rows and columns.
-    fn outline(&self, pin_diameter: Option<f64>) -> Result<Outline, Refused> {
-        match (self.shape, pin_diameter) {
-            (Shape::Rectangle, None) => Ok(Outline::Rectangle),
-            (Shape::Disc, Some(diameter)) => Ok(Outline::Disc { radius: 0.5 * diameter }),
-            (Shape::Rectangle, Some(_)) => Err(Refused::new(
-                "pin_diameter",
-                "this key has a meaning only beside shape = \"disc\", which is not given; a rectangle has pin_columns and all rows"
-                    .to_owned(),
-            )),
-            (Shape::Disc, None) => Err(Refused::new(
-                "shape",
-                "rows and columns do not say how large a round pin is: give pin_diameter, or the mesh by pin_width, cell_size \
-                 and mean_radius"
-                    .to_owned(),
-            )),
-        }
+        let counted = |name| count(name)?.ok_or_else(|| missing(name));
+        let counts = [counted("rows")?, counted("disc_columns")?, counted("pin_columns")?];
+        let radii = [needed("inner_radius")?, needed("outer_radius")?];
+        let outline = outline(shape, length("pin_diameter")?).map_err(refused)?;
+        Ok(Self { counts, radii, outline })
     }
 
     /// Rows, ring and pin in cells of this size: the width is met exactly, the ring to half a column, the pin too.
     fn divided(
-        &self,
+        shape: Shape,
         pin_width: f64,
         pin_length: Option<f64>,
         cell_size: f64,
         mean_radius: f64,
-    ) -> Result<Cells, Refused> {
+    ) -> Result<Self, Refused> {
         if pin_width >= 2.0 * mean_radius {
             let message = format!(
                 "a pin of {} does not fit a ring of the mean radius {}, whose inner radius would not be above 0: expected \
@@ -125,7 +63,7 @@ impl Geometry {
                 Length(mean_radius),
                 Length(2.0 * mean_radius)
             );
-            return Err(Refused::new("pin_width", message));
+            return Err(Refused { key: "pin_width", message });
         }
         let circumference = TAU * mean_radius;
         let disc_columns = whole(circumference / cell_size);
@@ -137,9 +75,9 @@ impl Geometry {
                 Length(circumference),
                 Length(mean_radius)
             );
-            Err(Refused::new(key, message))
+            Err(Refused { key, message })
         };
-        let (pin_columns, outline) = match (self.shape, pin_length) {
+        let (pin_columns, outline) = match (shape, pin_length) {
             (Shape::Rectangle, Some(length)) if length > circumference => {
                 return too_long("pin_length", format!("a pin of {}", Length(length)));
             }
@@ -147,7 +85,8 @@ impl Geometry {
                 (whole(length / (mean_radius * column_angle)).min(disc_columns), Outline::Rectangle)
             }
             (Shape::Rectangle, None) => {
-                return Err(Refused::new("pin_width", "a rectangle needs its pin_length, too".to_owned()));
+                let message = "a rectangle needs its pin_length, too".to_owned();
+                return Err(Refused { key: "pin_width", message });
             }
             (Shape::Disc, _) => {
                 let radius = 0.5 * pin_width;
@@ -162,11 +101,9 @@ impl Geometry {
             [mean_radius - 0.5 * pin_width, mean_radius + 0.5 * pin_width].map(|radius| number::to_digits(radius, 15));
         let counts = [whole(pin_width / cell_size), disc_columns, pin_columns];
         // Casts saturate: what is too large for memory is refused as such.
-        Ok(Cells { counts: counts.map(|count| count as u64), radii, outline })
+        Ok(Self { counts: counts.map(|count| count as u64), radii, outline })
     }
-}
 
-impl Cells {
     /// Makes the mesh, which takes memory.
     pub(crate) fn mesh(&self) -> Result<Mesh, Refused> {
         // What is too large for this machine's addresses is too many cells.
@@ -198,9 +135,27 @@ impl Cells {
                     ("pin_diameter", message)
                 }
             };
-            Refused::new(key, message)
+            Refused { key, message }
         })
     }
+}
+
+/// The outline where the mesh is given in rows and columns.
+fn outline(shape: Shape, pin_diameter: Option<f64>) -> Result<Outline, Refused> {
+    let (key, message) = match (shape, pin_diameter) {
+        (Shape::Rectangle, None) => return Ok(Outline::Rectangle),
+        (Shape::Disc, Some(diameter)) => return Ok(Outline::Disc { radius: 0.5 * diameter }),
+        (Shape::Rectangle, Some(_)) => (
+            "pin_diameter",
+            "this key has a meaning only beside shape = \"disc\", which is not given; a rectangle has pin_columns and all rows",
+        ),
+        (Shape::Disc, None) => (
+            "shape",
+            "rows and columns do not say how large a round pin is: give pin_diameter, or the mesh by pin_width, cell_size \
+             and mean_radius",
+        ),
+    };
+    Err(Refused { key, message: message.to_owned() })
 }
 
 /// The nearest whole number that is a count of cells.

@@ -133,6 +133,11 @@ impl Settings {
         self.get(path).map(|_| self.number(path)).transpose()
     }
 
+    /// An integer that may be absent.
+    pub(super) fn optional_integer(&self, path: &str) -> Result<Option<u64>, Problem> {
+        self.get(path).map(|_| self.integer(path)).transpose()
+    }
+
     /// A list of two numbers (SI units) that may be absent.
     pub(super) fn optional_pair(&self, path: &str) -> Result<Option<[f64; 2]>, Problem> {
         match self.get(path) {
@@ -144,7 +149,12 @@ impl Settings {
 
     fn unlike(&self, path: &str, expected: &str, found: Option<&Setting>) -> Problem {
         let found = found.map_or("nothing".to_owned(), |setting| format!("{setting:?}"));
-        Problem::new(&self.origin(path), path, format!("found {found}, expected {expected}"))
+        self.problem(path, format!("found {found}, expected {expected}"))
+    }
+
+    /// Problem with a key, at the place where it was given.
+    pub(super) fn problem(&self, path: &str, message: impl Into<String>) -> Problem {
+        Problem::new(&self.origin(path), path, message)
     }
 
     fn fill_in(&mut self, entries: &Entries, scene: &Path) {

@@ -37,17 +37,17 @@ fn preparation(settings: &Settings, table: &str) -> Result<Preparation, Problem>
         && short >= long
     {
         let message = "it is not shorter than l_filter; waves between the two are kept, expected a shorter one";
-        return Err(Problem::new(&settings.origin(&key("s_filter")), &key("s_filter"), message));
+        return Err(settings.problem(&key("s_filter"), message));
     }
     Ok(Preparation {
         crop: Some(crop).filter(|crop| crop.along.is_some() || crop.across.is_some()),
         unroll: centre.map(|centre| Unroll { centre, radii }),
         rotate: number("rotate")?.unwrap_or(0.0),
-        flip: settings.get(&key("flip")).map(|_| settings.choice(&key("flip"), &choices::FLIP)).transpose()?,
+        flip: settings.optional_choice(&key("flip"), &choices::FLIP)?,
         level: settings.choice(&key("level"), &choices::LEVEL)?,
         outlier_slope: number("outlier_slope")?,
         outliers: number("outliers")?,
-        fill: settings.get(&key("fill")).map(|_| settings.choice(&key("fill"), &choices::FILL)).transpose()?,
+        fill: settings.optional_choice(&key("fill"), &choices::FILL)?,
         pixel: number("pixel")?,
         s_filter,
         l_filter,
@@ -63,7 +63,7 @@ fn range(settings: &Settings, path: &str) -> Result<Option<[f64; 2]>, Problem> {
     let pair = settings.optional_pair(path)?;
     if pair.is_some_and(|[from, to]| from >= to) {
         let message = "the second length is not larger than the first, expected from where to where";
-        return Err(Problem::new(&settings.origin(path), path, message));
+        return Err(settings.problem(path, message));
     }
     Ok(pair)
 }
@@ -75,11 +75,8 @@ fn repeats(settings: &Settings, key: &str) -> bool {
 
 /// Seed of what has the statistics of a patch or a picture that is smaller than the body, if that is asked for.
 fn extension(settings: &Settings, key: &impl Fn(&str) -> String) -> Result<Option<u64>, Problem> {
-    if settings.get(&key("extend")).is_none() {
-        return Ok(None);
-    }
-    settings.choice(&key("extend"), &choices::EXTEND)?;
-    settings.integer(&key("extend_seed")).map(Some)
+    let extends = settings.optional_choice(&key("extend"), &choices::EXTEND)?;
+    extends.map(|()| settings.integer(&key("extend_seed"))).transpose()
 }
 
 /// The settings of synthetic heights in this inline table.
@@ -94,7 +91,7 @@ fn synthesis(settings: &Settings, table: &str) -> Result<HeightSynthesis, Proble
             let roll_off = settings.number(&path("roll_off"))?;
             let hurst = settings.optional_number(&path("hurst"))?.ok_or_else(|| {
                 let message = "a power law needs its Hurst exponent too: give hurst, from 0 (rough) to 1 (smooth)";
-                Problem::new(&settings.origin(&path("roll_off")), &path("roll_off"), message)
+                settings.problem(&path("roll_off"), message)
             })?;
             Texture::PowerLaw { hurst, roll_off, short_cutoff: settings.optional_number(&path("short_cutoff"))? }
         }
@@ -127,9 +124,8 @@ pub(super) fn base(settings: &Settings) -> Result<BaseSource, Problem> {
         fibre_width: settings.number("pin.base.synthetic.fibre_width")?,
     };
     if synthesis.fibre_length < synthesis.fibre_width {
-        let key = "pin.base.synthetic.fibre_length";
         let message = "a fibre is shorter than it is wide; expected fibre_length of at least fibre_width";
-        return Err(Problem::new(&settings.origin(key), key, message));
+        return Err(settings.problem("pin.base.synthetic.fibre_length", message));
     }
     Ok(BaseSource::Synthetic(synthesis))
 }
@@ -145,7 +141,7 @@ fn read_options(
         && black == white
     {
         let message = "black and white have the same height, expected two that differ";
-        return Err(Problem::new(&settings.origin(&key("height_range")), &key("height_range"), message));
+        return Err(settings.problem(&key("height_range"), message));
     }
     Ok(ReadOptions {
         dataset,
@@ -154,7 +150,7 @@ fn read_options(
         pitch: settings.optional_pair(&key("pitch"))?,
         height_range,
         decimal: settings.optional_choice(&key("decimal"), &choices::DECIMAL)?,
-        skip: settings.get(&key("skip")).map(|_| settings.integer(&key("skip"))).transpose()?,
+        skip: settings.optional_integer(&key("skip"))?,
         profile_lay: settings.optional_choice(&key("profile_lay"), &choices::LAY)?,
     })
 }
@@ -162,7 +158,7 @@ fn read_options(
 fn micrograph(settings: &Settings) -> Result<Micrograph, Problem> {
     let Some(pixel) = settings.optional_number("pin.base.pixel")? else {
         let message = "an image does not say how large it is: give pixel = \"10 um\", the distance of its pixels";
-        return Err(Problem::new(&settings.origin("pin.base.image"), "pin.base.image", message));
+        return Err(settings.problem("pin.base.image", message));
     };
     Ok(Micrograph {
         pixel,

@@ -32,6 +32,11 @@ impl Key {
         self.section.ends_with(".prepare") && self.need == Need::Optional && !self.name.contains('.')
     }
 
+    /// Tells whether it is a seed of random heights or bases.
+    pub fn is_seed(&self) -> bool {
+        self.name.ends_with(".seed") || self.name == "extend_seed"
+    }
+
     /// Path of the inline table that holds the key, if it is in one.
     pub fn inline_table(&self) -> Option<String> {
         self.name.rsplit_once('.').map(|(table, _)| join(self.section, table))
