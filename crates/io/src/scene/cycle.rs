@@ -9,7 +9,7 @@ use plateau_core::model::mesh::Mesh;
 use plateau_core::model::parameters::Parameters;
 
 use super::contents::OperationCycle;
-use super::cycle_table::{self, Loads, Speeds};
+use super::cycle_table::{self, DiscSpeed, Load};
 use super::error::{Origin, Problem, Warning};
 use super::interpret::Setting;
 use super::schema::{ACCELERATION, CYCLE, CYCLE_COLUMNS, choices, join};
@@ -68,7 +68,8 @@ pub(super) fn operation(
     let has_load = table.loads.is_some();
     // The disc turns as the wheel does.
     let of_road = |road_speeds: &Vec<f64>| {
-        brake.map(|brake| Speeds::Sliding(road_speeds.iter().map(|speed| brake.sliding_speed(*speed)).collect()))
+        let speeds = |brake: &Brake| road_speeds.iter().map(|speed| brake.sliding_speed(*speed)).collect();
+        Some((DiscSpeed::Sliding, speeds(brake?)))
     };
     let speeds = table.speeds.or_else(|| table.road_speeds.as_ref().and_then(of_road));
     let has_speed = speeds.is_some();
@@ -78,16 +79,16 @@ pub(super) fn operation(
     };
     const NO_BRAKE: &str = "there is no [brake]: give it, or the load of the simulated pin";
     let (loads, by_torque) = match table.loads {
-        Some(Loads::Force(loads)) => (loads, false),
-        Some(Loads::BrakingTorque(torques)) => (torques, true),
-        Some(Loads::NominalPressure(pressures)) => {
+        Some((Load::Force, loads)) => (loads, false),
+        Some((Load::BrakingTorque, torques)) => (torques, true),
+        Some((Load::NominalPressure, pressures)) => {
             (pressures.into_iter().map(|pressure| pressure * mesh.pin_area()).collect(), false)
         }
-        Some(Loads::BrakeTorque(torques)) => {
+        Some((Load::BrakeTorque, torques)) => {
             let brake = brake.ok_or_else(|| of_brake("brake_torque", NO_BRAKE))?;
             (torques.into_iter().map(|torque| brake.torque_of_pin(torque, mesh)).collect(), true)
         }
-        Some(Loads::BrakePressure(pressures)) => {
+        Some((Load::BrakePressure, pressures)) => {
             let brake = brake.ok_or_else(|| of_brake("brake_pressure", NO_BRAKE))?;
             let force = |pressure| Some(brake.nominal_pressure(pressure)? * mesh.pin_area());
             let forces: Option<_> = pressures.into_iter().map(force).collect();
@@ -101,8 +102,8 @@ pub(super) fn operation(
         }
     };
     let speeds = match speeds {
-        Some(Speeds::Rotational(speeds)) => speeds,
-        Some(Speeds::Sliding(speeds)) => speeds.into_iter().map(|speed| speed / mesh.mean_radius()).collect(),
+        Some((DiscSpeed::Rotational, speeds)) => speeds,
+        Some((DiscSpeed::Sliding, speeds)) => speeds.into_iter().map(|speed| speed / mesh.mean_radius()).collect(),
         None => vec![speed.ok_or_else(|| missing("speed", "rotational_speed or sliding_speed"))?; rows],
     };
     let has_road = table.road_speeds.is_some();
@@ -143,7 +144,7 @@ fn named(settings: &Settings, problem: Problem) -> Problem {
     match problem.origin {
         Origin::File(file) => {
             let key = format!("{CYCLE}.file");
-            Problem::new(&settings.origin(&key), &key, format!("{}: {}", file.display(), problem.message))
+            settings.problem(&key, format!("{}: {}", file.display(), problem.message))
         }
         _ => problem,
     }
@@ -168,7 +169,7 @@ pub(super) fn refuse_choice(settings: &Settings, cycle: &Cycle, until: f64) -> R
         "a run with a cycle does not choose its acceleration, for every event would need another one; {advice}, and see \
          docs/drive.md for its error"
     );
-    Err(Problem::new(&settings.origin(&tolerance), &tolerance, message))
+    Err(settings.problem(&tolerance, message))
 }
 
 /// A word to a constant load or speed beside a cycle that has its own: where it is set on the command line, varied by a study, or given

@@ -3,6 +3,7 @@
 //! A header has the name of its quantity, or one that the scene says, and its unit in brackets. Times may be those of a clock,
 //! h:mm:ss, and count from the first.
 
+use std::mem::discriminant;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -13,56 +14,51 @@ use crate::limits;
 use crate::text::short;
 use crate::units::{self, Dimension};
 
-/// Quantity of a column.
+/// Load, as it is given.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Load {
+    /// F, N.
+    Force,
+    /// F over the area of the pin's mesh, Pa.
+    NominalPressure,
+    /// T that friction has to give, N m.
+    BrakingTorque,
+    /// The same of the whole brake, N m.
+    BrakeTorque,
+    /// In the brake line, Pa.
+    BrakePressure,
+}
+
+/// Speed of the disc, as it is given.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum DiscSpeed {
+    /// ω, rad/s.
+    Rotational,
+    /// At the mean radius, m/s.
+    Sliding,
+}
+
+/// Quantity of a column; a table has one of each kind.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Quantity {
     Time,
-    NormalForce,
-    NominalPressure,
-    BrakingTorque,
-    BrakeTorque,
-    BrakePressure,
-    RotationalSpeed,
-    SlidingSpeed,
+    Load(Load),
+    DiscSpeed(DiscSpeed),
     RoadSpeed,
 }
 
 /// Name in the header, quantity and dimension of every column there is.
 const COLUMNS: [(&str, Quantity, Dimension); 9] = [
     ("time", Quantity::Time, Dimension::Time),
-    ("normal_force", Quantity::NormalForce, Dimension::Force),
-    ("nominal_pressure", Quantity::NominalPressure, Dimension::Pressure),
-    (BRAKING_TORQUE, Quantity::BrakingTorque, Dimension::Torque),
-    ("brake_torque", Quantity::BrakeTorque, Dimension::Torque),
-    ("brake_pressure", Quantity::BrakePressure, Dimension::Pressure),
-    ("rotational_speed", Quantity::RotationalSpeed, Dimension::RotationalSpeed),
-    ("sliding_speed", Quantity::SlidingSpeed, Dimension::Speed),
+    ("normal_force", Quantity::Load(Load::Force), Dimension::Force),
+    ("nominal_pressure", Quantity::Load(Load::NominalPressure), Dimension::Pressure),
+    (BRAKING_TORQUE, Quantity::Load(Load::BrakingTorque), Dimension::Torque),
+    ("brake_torque", Quantity::Load(Load::BrakeTorque), Dimension::Torque),
+    ("brake_pressure", Quantity::Load(Load::BrakePressure), Dimension::Pressure),
+    ("rotational_speed", Quantity::DiscSpeed(DiscSpeed::Rotational), Dimension::RotationalSpeed),
+    ("sliding_speed", Quantity::DiscSpeed(DiscSpeed::Sliding), Dimension::Speed),
     ("road_speed", Quantity::RoadSpeed, Dimension::Speed),
 ];
-
-/// Load of every row, as it was given.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Loads {
-    /// F, N.
-    Force(Vec<f64>),
-    /// F over the area of the pin's mesh, Pa.
-    NominalPressure(Vec<f64>),
-    /// T that friction has to give, N m.
-    BrakingTorque(Vec<f64>),
-    /// The same of the whole brake, N m.
-    BrakeTorque(Vec<f64>),
-    /// In the brake line, Pa.
-    BrakePressure(Vec<f64>),
-}
-
-/// Speed of every row, as it was given.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Speeds {
-    /// ω, rad/s.
-    Rotational(Vec<f64>),
-    /// At the mean radius, m/s.
-    Sliding(Vec<f64>),
-}
 
 /// A table, in SI units; what it has no column of is constant.
 #[derive(Debug, Clone, PartialEq)]
@@ -71,10 +67,10 @@ pub struct CycleTable {
     pub times: Vec<f64>,
     /// Time of the first row as the table has it, s.
     pub start: f64,
-    /// Load.
-    pub loads: Option<Loads>,
-    /// Speed of the disc.
-    pub speeds: Option<Speeds>,
+    /// Load of every row.
+    pub loads: Option<(Load, Vec<f64>)>,
+    /// Speed of the disc in every row.
+    pub speeds: Option<(DiscSpeed, Vec<f64>)>,
     /// Speed of the vehicle, m/s.
     pub road_speeds: Option<Vec<f64>>,
     /// Origin of every row.
@@ -173,7 +169,7 @@ fn header(line: &Line<'_>, headers: &[(&str, &str)]) -> Result<Vec<Column>, Wron
         if let (false, Err(error)) = (is_clock, units::parse(&format!("1 {unit}"), *dimension)) {
             return wrong(format!("{error}; give the unit in brackets, such as {name} [{}]", dimension.si_unit()));
         }
-        if let Some(other) = columns.iter().find(|other| excludes(other.quantity, *quantity)) {
+        if let Some(other) = columns.iter().find(|other| discriminant(&other.quantity) == discriminant(quantity)) {
             return wrong(format!("stands beside {}, expected one of the two", other.header));
         }
         let (header, unit) = (header.to_owned(), unit.to_owned());
@@ -238,17 +234,6 @@ fn take(row: &Line<'_>, fields: usize, columns: &mut [Column]) -> Result<(), Wro
     Ok(())
 }
 
-/// Tells whether two columns say the same thing.
-fn excludes(one: Quantity, other: Quantity) -> bool {
-    use Quantity::{
-        BrakePressure, BrakeTorque, BrakingTorque, NominalPressure, NormalForce, RotationalSpeed, SlidingSpeed,
-    };
-    let both = |kind: &[Quantity]| kind.contains(&one) && kind.contains(&other);
-    one == other
-        || both(&[NormalForce, NominalPressure, BrakingTorque, BrakeTorque, BrakePressure])
-        || both(&[RotationalSpeed, SlidingSpeed])
-}
-
 fn table(columns: Vec<Column>, places: Vec<Origin>) -> CycleTable {
     let mut table = CycleTable { times: Vec::new(), start: 0.0, loads: None, speeds: None, road_speeds: None, places };
     for Column { quantity, values, .. } in columns {
@@ -257,13 +242,8 @@ fn table(columns: Vec<Column>, places: Vec<Origin>) -> CycleTable {
                 table.start = values.first().copied().unwrap_or_default();
                 table.times = values.into_iter().map(|time| time - table.start).collect();
             }
-            Quantity::NormalForce => table.loads = Some(Loads::Force(values)),
-            Quantity::NominalPressure => table.loads = Some(Loads::NominalPressure(values)),
-            Quantity::BrakingTorque => table.loads = Some(Loads::BrakingTorque(values)),
-            Quantity::BrakeTorque => table.loads = Some(Loads::BrakeTorque(values)),
-            Quantity::BrakePressure => table.loads = Some(Loads::BrakePressure(values)),
-            Quantity::RotationalSpeed => table.speeds = Some(Speeds::Rotational(values)),
-            Quantity::SlidingSpeed => table.speeds = Some(Speeds::Sliding(values)),
+            Quantity::Load(load) => table.loads = Some((load, values)),
+            Quantity::DiscSpeed(speed) => table.speeds = Some((speed, values)),
             Quantity::RoadSpeed => table.road_speeds = Some(values),
         }
     }

@@ -5,7 +5,7 @@ use std::path::Path;
 use plateau_core::model::heat::thermal::{Factor, FactorError};
 use plateau_core::observe::Map;
 
-use super::cycle_table::{CycleTable, Loads, Speeds};
+use super::cycle_table::{CycleTable, DiscSpeed, Load};
 use super::error::{Origin, Problem};
 use super::schema::{Kind, Range};
 use crate::scene::layers::{Entry, Value};
@@ -49,9 +49,8 @@ pub(super) fn number(value: &Value, range: Range) -> Result<f64, String> {
 
 /// Rows of time, load and speed as a scene gives them.
 fn cycle_rows(list: &[Entry]) -> Result<CycleTable, (Origin, String)> {
-    let (mut forces, mut pressures, mut torques) = (Vec::new(), Vec::new(), Vec::new());
-    let (mut rotations, mut slides) = (Vec::new(), Vec::new());
-    let (mut times, mut places) = (Vec::new(), Vec::new());
+    let (mut times, mut loads, mut speeds, mut places) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+    let mut kinds = None;
     for entry in list {
         let fail = |message: String| (entry.origin.clone(), message);
         let Value::Array(row) = &entry.value else {
@@ -62,35 +61,32 @@ fn cycle_rows(list: &[Entry]) -> Result<CycleTable, (Origin, String)> {
         };
         let value = |entry: &Entry, dimension| quantity(&entry.value, dimension, Range::NOT_NEGATIVE);
         times.push(value(time, Time).map_err(at(time))?);
-        match (value(load, Force), value(load, Pressure), value(load, Torque)) {
-            (_, Ok(pressure), _) => pressures.push(pressure),
-            (_, _, Ok(torque)) => torques.push(torque),
+        let (kind_of_load, load_value) = match (value(load, Force), value(load, Pressure), value(load, Torque)) {
+            (_, Ok(pressure), _) => (Load::NominalPressure, pressure),
+            (_, _, Ok(torque)) => (Load::BrakingTorque, torque),
             // A torque, but none that can be.
             (_, _, Err(error)) if quantity(&load.value, Torque, Range::ANY).is_ok() => return Err(at(load)(error)),
-            (force, ..) => forces.push(force.map_err(at(load))?),
-        }
-        match (value(speed, RotationalSpeed), value(speed, Speed)) {
-            (_, Ok(slide)) => slides.push(slide),
-            (rotation, Err(_)) => rotations.push(rotation.map_err(at(speed))?),
-        }
-        let mixed = |kinds: &[usize]| kinds.iter().filter(|count| **count > 0).count() > 1;
-        if mixed(&[forces.len(), pressures.len(), torques.len()]) {
+            (force, ..) => (Load::Force, force.map_err(at(load))?),
+        };
+        let (kind_of_speed, speed_value) = match (value(speed, RotationalSpeed), value(speed, Speed)) {
+            (_, Ok(slide)) => (DiscSpeed::Sliding, slide),
+            (rotation, Err(_)) => (DiscSpeed::Rotational, rotation.map_err(at(speed))?),
+        };
+        let (above_load, above_speed) = *kinds.get_or_insert((kind_of_load, kind_of_speed));
+        if kind_of_load != above_load {
             let message = "a load of another kind than in the rows above: give forces, pressures or braking torques";
             return Err(at(load)(message.to_owned()));
         }
-        if mixed(&[rotations.len(), slides.len()]) {
+        if kind_of_speed != above_speed {
             let message = "a speed of another kind than in the rows above: give rotational speeds or sliding speeds";
             return Err(at(speed)(message.to_owned()));
         }
+        loads.push(load_value);
+        speeds.push(speed_value);
         places.push(entry.origin.clone());
     }
-    let loads = match (pressures.is_empty(), torques.is_empty()) {
-        (false, _) => Loads::NominalPressure(pressures),
-        (_, false) => Loads::BrakingTorque(torques),
-        _ => Loads::Force(forces),
-    };
-    let speeds = if rotations.is_empty() { Speeds::Sliding(slides) } else { Speeds::Rotational(rotations) };
-    Ok(CycleTable { times, start: 0.0, loads: Some(loads), speeds: Some(speeds), road_speeds: None, places })
+    let (loads, speeds) = kinds.map(|(load, speed)| ((load, loads), (speed, speeds))).unzip();
+    Ok(CycleTable { times, start: 0.0, loads, speeds, road_speeds: None, places })
 }
 
 /// Rows of temperature and factor.

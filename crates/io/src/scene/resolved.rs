@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use plateau_core::observe::Map;
 use toml::{Table, Value};
 
-use super::cycle_table::{CycleTable, Loads, Speeds};
+use super::cycle_table::{CycleTable, DiscSpeed, Load};
 use super::interpret::Setting;
 use super::schema::{self, Key, Kind};
 use super::settings::Settings;
@@ -54,16 +54,15 @@ fn value(key: &Key, setting: &Setting) -> String {
 /// Rows of a cycle, in SI units.
 fn rows(table: &CycleTable) -> String {
     let load = |row: usize| match &table.loads {
-        Some(Loads::NominalPressure(pressures)) => units::format(pressures[row], "Pa", Dimension::Pressure),
-        Some(Loads::BrakingTorque(torques)) => units::format(torques[row], "N m", Dimension::Torque),
-        // Rows of a scene have none of the whole brake.
-        Some(Loads::BrakeTorque(_) | Loads::BrakePressure(_)) => String::new(),
-        Some(Loads::Force(forces)) => units::format(forces[row], "N", Dimension::Force),
-        None => String::new(),
+        Some((Load::NominalPressure, pressures)) => units::format(pressures[row], "Pa", Dimension::Pressure),
+        Some((Load::BrakingTorque, torques)) => units::format(torques[row], "N m", Dimension::Torque),
+        Some((Load::Force, forces)) => units::format(forces[row], "N", Dimension::Force),
+        // Rows of a scene have a load, and none of the whole brake.
+        Some((Load::BrakeTorque | Load::BrakePressure, _)) | None => String::new(),
     };
     let speed = |row: usize| match &table.speeds {
-        Some(Speeds::Sliding(speeds)) => units::format(speeds[row], "m/s", Dimension::Speed),
-        Some(Speeds::Rotational(speeds)) => units::format(speeds[row], "rpm", Dimension::RotationalSpeed),
+        Some((DiscSpeed::Sliding, speeds)) => units::format(speeds[row], "m/s", Dimension::Speed),
+        Some((DiscSpeed::Rotational, speeds)) => units::format(speeds[row], "rpm", Dimension::RotationalSpeed),
         None => String::new(),
     };
     let row = |row: usize| {

@@ -21,8 +21,8 @@ fn columns_have_units_of_their_own() {
     let table =
         read_text("# a stop\nTime [min], Nominal pressure [MPa], sliding_speed [km/h]\n0,1.5,36\n1,0,0\n").unwrap();
     assert_eq!(table.times, [0.0, 60.0]);
-    assert_eq!(table.loads, Some(Loads::NominalPressure(vec![1.5e6, 0.0])));
-    assert_eq!(table.speeds, Some(Speeds::Sliding(vec![10.0, 0.0])));
+    assert_eq!(table.loads, Some((Load::NominalPressure, vec![1.5e6, 0.0])));
+    assert_eq!(table.speeds, Some((DiscSpeed::Sliding, vec![10.0, 0.0])));
     assert_eq!((table.road_speeds.as_ref(), lines(&table)), (None, vec![3, 4]));
 }
 
@@ -30,7 +30,7 @@ fn columns_have_units_of_their_own() {
 fn a_spreadsheet_may_write_decimal_commas() {
     let table = read_text("\u{feff}\"time [s]\";\"normal_force [N]\"\r\n\r\n0;47,5\r\n0,25;1e1\r\n").unwrap();
     assert_eq!((&table.times, lines(&table)), (&vec![0.0, 0.25], vec![3, 4]));
-    assert_eq!(table.loads, Some(Loads::Force(vec![47.5, 10.0])));
+    assert_eq!(table.loads, Some((Load::Force, vec![47.5, 10.0])));
     assert_eq!(table.speeds, None);
 }
 
@@ -45,7 +45,7 @@ fn the_table_is_the_same_in_every_encoding() {
         std::fs::write(&path, content).unwrap();
         let table = read(&path, &[]).unwrap();
         assert_eq!((&table.times, lines(&table)), (&vec![0.0, 0.25], vec![4, 5]));
-        assert_eq!(table.loads, Some(Loads::Force(vec![47.5, 10.0])));
+        assert_eq!(table.loads, Some((Load::Force, vec![47.5, 10.0])));
     }
 }
 
@@ -72,7 +72,7 @@ fn a_logger_has_headers_and_times_of_its_own() {
     let table = read_with(text, &headers).unwrap();
     assert_eq!((&table.times, table.start), (&vec![0.0, 54.5], 43_205.5));
     assert_eq!(table.road_speeds, Some(vec![10.0, 5.0]));
-    assert_eq!(table.loads, Some(Loads::BrakePressure(vec![5e4, 1e6])));
+    assert_eq!(table.loads, Some((Load::BrakePressure, vec![5e4, 1e6])));
     assert_eq!(table.speeds, None);
 
     // Of two columns of a name the whole header chooses.
