@@ -5,13 +5,16 @@ use super::key::{Choose, Key, Need, join};
 use super::keys::{self, BRAKING_TORQUE, CYCLE, CYCLE_COLUMNS, DEBRIS_IS_LOCAL};
 use super::lookup::find;
 
+/// Alternatives, each with the keys that have a meaning only beside it.
+type Members = &'static [(&'static str, &'static [&'static str])];
+
 /// Keys of which a scene gives exactly one, or at most one.
 #[derive(Debug, Clone, Copy)]
 pub struct Group {
     /// Table they belong to.
     pub section: &'static str,
-    /// The alternatives, each with the keys that have a meaning only beside it.
-    pub members: &'static [(&'static str, &'static [&'static str])],
+    /// The alternatives.
+    pub members: Members,
     /// Tells whether one must be given.
     pub required: bool,
     /// Full path of a table beside which none must be given all the same.
@@ -42,60 +45,48 @@ impl Group {
     }
 }
 
-const HEIGHT_SOURCES: &[(&str, &[&str])] = &[("file", FILE), ("synthetic", &[]), ("flat", &[])];
+const HEIGHT_SOURCES: Members = &[("file", FILE), ("synthetic", &[]), ("flat", &[])];
 const FILE: &[&str] = &["dataset", "at", "unit", "pitch", "height_range", "decimal", "skip", "profile_lay"];
 const IMAGE: &[&str] =
     &["threshold", "pixel", "smooth", "despeckle", "rotate", "fibres", "repeat", "extend", "extend_seed"];
 
-const TEXTURES: &[(&str, &[&str])] = &[
+const TEXTURES: Members = &[
     ("synthetic.correlation_length", &["synthetic.correlation_length_across"]),
     ("synthetic.roll_off", &["synthetic.hurst", "synthetic.short_cutoff"]),
 ];
 
 /// Alternatives where a patch or a picture is smaller than ring or pin.
-const BEYOND_THE_PATCH: &[(&str, &[&str])] = &[("repeat", &[]), ("extend", &["extend_seed"])];
+const BEYOND_THE_PATCH: Members = &[("repeat", &[]), ("extend", &["extend_seed"])];
+
+const fn one_of(section: &'static str, members: Members) -> Group {
+    Group { section, members, required: true, unless: None }
+}
+
+const fn at_most_one_of(section: &'static str, members: Members) -> Group {
+    Group { required: false, ..one_of(section, members) }
+}
+
+/// Keys of the operation of which one is given where there is no cycle.
+const fn without_cycle(members: Members) -> Group {
+    Group { unless: Some(CYCLE), ..one_of("operation", members) }
+}
 
 /// Keys that exclude each other.
 pub const GROUPS: &[Group] = &[
-    Group {
-        section: "operation",
-        members: &[("normal_force", &[]), (BRAKING_TORQUE, &[])],
-        required: true,
-        unless: Some(CYCLE),
-    },
-    Group {
-        section: "operation",
-        members: &[("rotational_speed", &[]), ("sliding_speed", &[])],
-        required: true,
-        unless: Some(CYCLE),
-    },
-    Group { section: "operation", members: &[("duration", &[]), ("steps", &[])], required: true, unless: Some(CYCLE) },
-    Group {
-        section: "operation",
-        members: &[("cycle.file", CYCLE_COLUMNS), ("cycle.points", &[])],
-        required: true,
-        unless: None,
-    },
-    Group { section: "disc.surface", members: HEIGHT_SOURCES, required: true, unless: None },
-    Group { section: "disc.surface", members: TEXTURES, required: true, unless: None },
-    Group { section: "disc.prepare", members: BEYOND_THE_PATCH, required: false, unless: None },
-    Group {
-        section: "pin.base",
-        members: &[("synthetic", &[]), ("image", IMAGE), ("file", &["dataset"]), ("uniform", &[])],
-        required: true,
-        unless: None,
-    },
-    Group { section: "pin.base", members: BEYOND_THE_PATCH, required: false, unless: None },
-    Group { section: "pin.surface", members: HEIGHT_SOURCES, required: true, unless: None },
-    Group { section: "pin.surface", members: TEXTURES, required: true, unless: None },
-    Group { section: "pin.prepare", members: BEYOND_THE_PATCH, required: false, unless: None },
-    Group {
-        section: "output",
-        members: &[("sample_every", &[]), ("sample_every_steps", &[])],
-        required: false,
-        unless: None,
-    },
-    Group { section: "plateaus", members: &[("debris", &[]), ("debris_pool", &[])], required: false, unless: None },
+    without_cycle(&[("normal_force", &[]), (BRAKING_TORQUE, &[])]),
+    without_cycle(&[("rotational_speed", &[]), ("sliding_speed", &[])]),
+    without_cycle(&[("duration", &[]), ("steps", &[])]),
+    one_of("operation", &[("cycle.file", CYCLE_COLUMNS), ("cycle.points", &[])]),
+    one_of("disc.surface", HEIGHT_SOURCES),
+    one_of("disc.surface", TEXTURES),
+    at_most_one_of("disc.prepare", BEYOND_THE_PATCH),
+    one_of("pin.base", &[("synthetic", &[]), ("image", IMAGE), ("file", &["dataset"]), ("uniform", &[])]),
+    at_most_one_of("pin.base", BEYOND_THE_PATCH),
+    one_of("pin.surface", HEIGHT_SOURCES),
+    one_of("pin.surface", TEXTURES),
+    at_most_one_of("pin.prepare", BEYOND_THE_PATCH),
+    at_most_one_of("output", &[("sample_every", &[]), ("sample_every_steps", &[])]),
+    at_most_one_of("plateaus", &[("debris", &[]), ("debris_pool", &[])]),
 ];
 
 impl Key {

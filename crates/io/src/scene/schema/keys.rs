@@ -8,7 +8,7 @@ use plateau_core::observe::EXTRAS;
 use super::choices::{self, words};
 use super::key::{Choose, Key, Kind, Need, Range, Role};
 use crate::units::Dimension::{
-    Angle, Area, Cooling, CoolingPerSpeed, Density, Force, Length, NumberPerMass, Pressure, RotationalSpeed,
+    self, Angle, Area, Cooling, CoolingPerSpeed, Density, Force, Length, NumberPerMass, Pressure, RotationalSpeed,
     SpecificHeat, SpecificWearRate, Speed, Temperature, ThermalConductivity, Time, Torque,
 };
 use Kind::{Bool, Choice, CountOr, InputFile, Integer, LengthUnit, Maps, Number, NumberOr, Rows, Text, Times, True};
@@ -35,9 +35,17 @@ impl Table {
     }
 }
 
-/// A length that the resolved scene has in this unit.
-pub(super) const fn length(unit: &'static str, range: Range) -> Kind {
-    Kind::Quantity { dimension: Length, unit, range }
+/// A quantity that the resolved scene has in this unit.
+const fn quantity(dimension: Dimension, unit: &'static str, range: Range) -> Kind {
+    Kind::Quantity { dimension, unit, range }
+}
+
+const fn positive(dimension: Dimension, unit: &'static str) -> Kind {
+    quantity(dimension, unit, Range::POSITIVE)
+}
+
+const fn not_negative(dimension: Dimension, unit: &'static str) -> Kind {
+    quantity(dimension, unit, Range::NOT_NEGATIVE)
 }
 
 /// Full path of the key of m: a number, or a table with how the run chooses it.
@@ -64,15 +72,15 @@ pub(crate) const CYCLE_COLUMNS: &[&str] = &[
 
 /// Debris goes into the gap behind the cell that wears, and there is no pool.
 pub(super) const DEBRIS_IS_LOCAL: Choose = Choose { key: "plateaus.debris", value: "local" };
+pub(super) const PIN_IS_ROUND: Choose = Choose { key: "mesh.shape", value: "disc" };
+/// A pin that covers all its rows and columns.
+pub(super) const PIN_IS_A_RECTANGLE: Choose = Choose { key: "mesh.shape", value: "rectangle" };
 
 const POISSON_RATIO: Range = Range::new(-1.0, false, 0.5, true);
 const ABOVE_0_TO_1: Range = Range::new(0.0, false, 1.0, true);
 const BETWEEN_0_AND_1: Range = Range::new(0.0, false, 1.0, false);
+const ABOVE_1: Range = Range::new(1.0, false, f64::INFINITY, false);
 const AT_LEAST_1: Range = Range::new(1.0, true, f64::INFINITY, false);
-
-const fn time(range: Range) -> Kind {
-    Kind::Quantity { dimension: Time, unit: "s", range }
-}
 
 /// Every key, in the order of docs/scenes.md.
 pub(super) fn all() -> Vec<Key> {
@@ -82,23 +90,19 @@ pub(super) fn all() -> Vec<Key> {
     table.key("extends", Text, Optional, "scene that this one takes as its base, relative to this file");
 
     table.role = Role::Physics;
-    add_mesh(&mut table);
+    table.mesh();
 
     table.section = "operation";
-    let force = Kind::Quantity { dimension: Force, unit: "N", range: Range::POSITIVE };
-    table.key("normal_force", force, OneOf, "force that presses the pin on the disc");
-    let torque = Kind::Quantity { dimension: Torque, unit: "N m", range: Range::POSITIVE };
+    table.key("normal_force", positive(Force, "N"), OneOf, "force that presses the pin on the disc");
     table.key(
         BRAKING_TORQUE,
-        torque,
+        positive(Torque, "N m"),
         OneOf,
         "torque of friction on the pin, for which it is pressed as hard as it takes",
     );
-    let rotation = Kind::Quantity { dimension: RotationalSpeed, unit: "rpm", range: Range::POSITIVE };
-    table.key("rotational_speed", rotation, OneOf, "rotational speed of the disc");
-    let speed = Kind::Quantity { dimension: Speed, unit: "m/s", range: Range::POSITIVE };
-    table.key("sliding_speed", speed, OneOf, "sliding speed at the mean radius");
-    table.key("duration", time(Range::POSITIVE), OneOf, "physical time to simulate").role = Role::Length;
+    table.key("rotational_speed", positive(RotationalSpeed, "rpm"), OneOf, "rotational speed of the disc");
+    table.key("sliding_speed", positive(Speed, "m/s"), OneOf, "sliding speed at the mean radius");
+    table.key("duration", positive(Time, "s"), OneOf, "physical time to simulate").role = Role::Length;
     table.key("steps", Integer(1), OneOf, "steps to simulate, each by one column of cells").role = Role::Length;
     table.key(
         "cycle.file",
@@ -123,7 +127,7 @@ pub(super) fn all() -> Vec<Key> {
     table.section = "contact";
     table.key(
         "foundation_height",
-        length("um", Range::POSITIVE),
+        positive(Length, "um"),
         Required,
         "height h of the elastic foundation, which is E*/h stiff per area",
     );
@@ -136,11 +140,10 @@ pub(super) fn all() -> Vec<Key> {
     table.wear_by_counterface();
     table.material("materials.pin_secondary", Some("materials.pin_primary"));
     table.wear_by_counterface();
-    let strength = Kind::Quantity { dimension: Pressure, unit: "Pa", range: Range::POSITIVE };
-    table.key("strength", strength, Optional, "pressure above which build-up on resin breaks away");
+    table.key("strength", positive(Pressure, "Pa"), Optional, "pressure above which build-up on resin breaks away");
     table.section = "materials.pin_resin";
     table.elasticity(Required);
-    let wear_height = length("um", Range::NOT_NEGATIVE);
+    let wear_height = not_negative(Length, "um");
     table.key("wear_height", wear_height, Required, "height that resin loses in a step in which it touches");
 
     table.section = "plateaus";
@@ -168,14 +171,17 @@ pub(super) fn all() -> Vec<Key> {
     table.key("pad_share", Number(Range::FRACTION), Default("0.5"), pad_share);
     table.key(
         "transport_length",
-        length("um", Range::POSITIVE),
+        positive(Length, "um"),
         Optional,
         "how far local debris is gathered and spread, so that results do not depend on the cell; without it one cell",
     );
     table.key("formation", Bool, Default("true"), "whether plateaus form at all");
     table.key("destruction", Bool, Default("true"), "whether unsupported plateaus of the pin break up, with a pool");
 
-    add_optional_parts(&mut table);
+    table.brake();
+    table.friction();
+    table.thermal();
+    table.emission();
 
     table.section = "disc.surface";
     table.heights();
@@ -185,23 +191,22 @@ pub(super) fn all() -> Vec<Key> {
     table.section = "pin.base";
     table.key("synthetic.seed", Integer(0), Default("0"), "seed of the random fibres");
     table.key("synthetic.fibre_fraction", Number(Range::FRACTION), Required, "area fraction that is fibre");
-    table.key("synthetic.fibre_length", length("um", Range::POSITIVE), Required, "length of a fibre from end to end");
-    table.key("synthetic.fibre_width", length("um", Range::POSITIVE), Required, "width of a fibre");
+    table.key("synthetic.fibre_length", positive(Length, "um"), Required, "length of a fibre from end to end");
+    table.key("synthetic.fibre_width", positive(Length, "um"), Required, "width of a fibre");
     table.key("image", InputFile, OneOf, "micrograph of the pin: PNG, TIFF, JPEG");
-    table.key("pixel", length("um", Range::POSITIVE), Optional, "distance of the image's pixels; required beside it");
+    table.key("pixel", positive(Length, "um"), Optional, "distance of the image's pixels; required beside it");
     let rotations = Choice(&const { words(&choices::ROTATE) });
     table.key("rotate", rotations, Computed("`\"0 deg\"`"), "how far the image is turned, counterclockwise");
-    table.key("smooth", length("um", Range::NOT_NEGATIVE), Optional, "standard deviation of a Gaussian over the image");
-    let threshold = NumberOr(Range::FRACTION, "otsu");
+    table.key("smooth", not_negative(Length, "um"), Optional, "standard deviation of a Gaussian over the image");
     table.key(
         "threshold",
-        threshold,
+        NumberOr(Range::FRACTION, "otsu"),
         Computed("`\"otsu\"`"),
         "grey level, black 0 to white 1, that parts fibre and resin",
     );
     let fibres = Choice(&const { words(&choices::FIBRES) });
     table.key("fibres", fibres, Computed("`\"bright\"`"), "which side of the threshold is fibre");
-    let area = Kind::Quantity { dimension: Area, unit: "um^2", range: Range::NOT_NEGATIVE };
+    let area = not_negative(Area, "um^2");
     table.key("despeckle", area, Optional, "area below which specks of fibre, then holes in it, are removed");
     table.key(
         "repeat",
@@ -214,15 +219,14 @@ pub(super) fn all() -> Vec<Key> {
     table.key("extend_seed", Integer(0), Computed("`0`"), "seed of the random fibres of `extend`");
     table.key("file", InputFile, OneOf, "HDF5 file with the fibre map");
     table.key("dataset", Text, Optional, "dataset in the file: integers, 0 none, 1 primary, shape (pin_columns, rows)");
-    let uniform = Choice(&const { words(&choices::UNIFORM) });
-    table.key("uniform", uniform, OneOf, "all cells alike: fibre or resin");
+    table.key("uniform", Choice(&const { words(&choices::UNIFORM) }), OneOf, "all cells alike: fibre or resin");
     table.key("mirror", Bool, Default("false"), "whether the map is a view of the pin's face, to be mirrored");
 
     table.section = "pin.surface";
     table.heights();
     table.key(
         "resin_recess",
-        length("um", Range::ANY),
+        quantity(Length, "um", Range::ANY),
         Default("\"0 um\""),
         "added to the height of cells without fibre",
     );
@@ -259,7 +263,7 @@ pub(super) fn all() -> Vec<Key> {
     table.section = "output";
     let file = "run file, relative to the working directory";
     table.key("file", Text, Computed("the scene file's name with .h5"), file).role = Role::Nothing;
-    table.key("sample_every", time(Range::POSITIVE), OneOf, "physical time between samples");
+    table.key("sample_every", positive(Time, "s"), OneOf, "physical time between samples");
     table.key(
         "sample_every_steps",
         Integer(1),
@@ -276,14 +280,13 @@ pub(super) fn all() -> Vec<Key> {
     }
     let checkpoint_every = "wall time between two checkpoints, from which a run that was stopped or killed goes on";
     let usual = Default("\"60 s\"");
-    table.key("checkpoint_every", time(Range::POSITIVE), usual, checkpoint_every).role = Role::Nothing;
+    table.key("checkpoint_every", positive(Time, "s"), usual, checkpoint_every).role = Role::Nothing;
     table.keys
 }
 
 impl Table {
     fn elasticity(&mut self, need: Need) {
-        let modulus = Kind::Quantity { dimension: Pressure, unit: "Pa", range: Range::POSITIVE };
-        self.key("youngs_modulus", modulus, need, "Young's modulus");
+        self.key("youngs_modulus", positive(Pressure, "Pa"), need, "Young's modulus");
         self.key("poisson_ratio", Number(POISSON_RATIO), need, "Poisson's ratio");
     }
 
@@ -291,55 +294,40 @@ impl Table {
         self.section = section;
         let need = like.map_or(Required, SameAs);
         self.elasticity(need);
-        let rate = Kind::Quantity { dimension: SpecificWearRate, unit: "1/Pa", range: Range::NOT_NEGATIVE };
+        let rate = not_negative(SpecificWearRate, "1/Pa");
         self.key("specific_wear_rate", rate, need, "worn volume per force and sliding distance");
     }
 
     fn wear_by_counterface(&mut self) {
-        let rate = Kind::Quantity { dimension: SpecificWearRate, unit: "1/Pa", range: Range::NOT_NEGATIVE };
+        let rate = not_negative(SpecificWearRate, "1/Pa");
         self.key(AGAINST_SECONDARY, rate, Optional, "the same on build-up of the disc, where that is another");
     }
-}
 
-pub(super) const PIN_IS_ROUND: Choose = Choose { key: "mesh.shape", value: "disc" };
-/// A pin that covers all its rows and columns.
-pub(super) const PIN_IS_A_RECTANGLE: Choose = Choose { key: "mesh.shape", value: "rectangle" };
+    fn mesh(&mut self) {
+        self.section = "mesh";
+        let millimetres = positive(Length, "mm");
+        let needed = OfWay(None);
+        self.key("inner_radius", millimetres, needed, "inner radius of the ring");
+        self.key("outer_radius", millimetres, needed, "outer radius of the ring");
+        self.key("rows", Integer(1), needed, "cells along the radius");
+        self.key("disc_columns", Integer(1), needed, "cells around the ring");
+        self.key("pin_columns", Integer(1), needed, "cells that the pin covers along the ring, at most disc_columns");
+        let diameter =
+            "diameter of a round pin in the middle of these rows and columns; required there with shape = \"disc\"";
+        self.key("pin_diameter", millimetres, Optional, diameter);
+        self.key("pin_width", millimetres, needed, "width of the pin along the radius; of a round pin its diameter");
+        let of_rectangle = OfWay(Some(PIN_IS_ROUND));
+        self.key("pin_length", millimetres, of_rectangle, "length of the pin along sliding, at the mean radius");
+        self.key("cell_size", positive(Length, "um"), needed, "about how large a cell is, in both directions");
+        self.key("mean_radius", millimetres, needed, "radius of the middle of the track");
+        let shapes = Choice(&const { words(&choices::SHAPE) });
+        self.key("shape", shapes, Computed("`\"rectangle\"`"), "outline of the pin seen from above");
+    }
 
-/// Adds them.
-fn add_mesh(table: &mut Table) {
-    table.section = "mesh";
-    let millimetres = length("mm", Range::POSITIVE);
-    let needed = OfWay(None);
-    table.key("inner_radius", millimetres, needed, "inner radius of the ring");
-    table.key("outer_radius", millimetres, needed, "outer radius of the ring");
-    table.key("rows", Integer(1), needed, "cells along the radius");
-    table.key("disc_columns", Integer(1), needed, "cells around the ring");
-    table.key("pin_columns", Integer(1), needed, "cells that the pin covers along the ring, at most disc_columns");
-    let diameter =
-        "diameter of a round pin in the middle of these rows and columns; required there with shape = \"disc\"";
-    table.key("pin_diameter", millimetres, Optional, diameter);
-    table.key("pin_width", millimetres, needed, "width of the pin along the radius; of a round pin its diameter");
-    let of_rectangle = OfWay(Some(PIN_IS_ROUND));
-    table.key("pin_length", millimetres, of_rectangle, "length of the pin along sliding, at the mean radius");
-    table.key("cell_size", length("um", Range::POSITIVE), needed, "about how large a cell is, in both directions");
-    table.key("mean_radius", millimetres, needed, "radius of the middle of the track");
-    let shapes = Choice(&const { words(&choices::SHAPE) });
-    table.key("shape", shapes, Computed("`\"rectangle\"`"), "outline of the pin seen from above");
-}
-
-/// Adds them all.
-fn add_optional_parts(table: &mut Table) {
-    table.brake();
-    table.friction();
-    table.thermal();
-    table.emission();
-}
-
-impl Table {
     fn brake(&mut self) {
         self.section = "brake";
-        let millimetres = length("mm", Range::POSITIVE);
-        let area = Kind::Quantity { dimension: Area, unit: "cm^2", range: Range::POSITIVE };
+        let millimetres = positive(Length, "mm");
+        let area = positive(Area, "cm^2");
         self.key("pad_area", area, Required, "area of friction material of one pad");
         self.key("pads", Integer(1), Default("2"), "pads of the brake");
         self.key("pad_thickness", millimetres, Required, "thickness of the friction material that may wear");
@@ -357,7 +345,7 @@ impl Table {
     fn friction(&mut self) {
         self.section = "friction";
         let coefficient = Number(Range::NOT_NEGATIVE);
-        let strength = Kind::Quantity { dimension: Pressure, unit: "MPa", range: Range::NOT_NEGATIVE };
+        let strength = not_negative(Pressure, "MPa");
         let (of_pressure, of_area) =
             ("shear stress per pressure: the coefficient at high pressure", "shear stress without pressure");
         self.key("pressure_coefficient", coefficient, Default("0"), of_pressure);
@@ -372,44 +360,41 @@ impl Table {
 
     /// λ, ρ and c, under these names.
     fn substance(&mut self, names: [&'static str; 3]) {
-        let quantity = |dimension, unit| Kind::Quantity { dimension, unit, range: Range::POSITIVE };
-        self.key(names[0], quantity(ThermalConductivity, "W/(m K)"), Required, "thermal conductivity");
-        self.key(names[1], quantity(Density, "kg/m^3"), Required, "density");
-        self.key(names[2], quantity(SpecificHeat, "J/(kg K)"), Required, "specific heat");
+        self.key(names[0], positive(ThermalConductivity, "W/(m K)"), Required, "thermal conductivity");
+        self.key(names[1], positive(Density, "kg/m^3"), Required, "density");
+        self.key(names[2], positive(SpecificHeat, "J/(kg K)"), Required, "specific heat");
     }
 
     fn thermal(&mut self) {
         self.section = "thermal";
-        let temperature = Kind::Quantity { dimension: Temperature, unit: "degC", range: Range::POSITIVE };
-        self.key("ambient", temperature, Required, "temperature of the air, and of all at the start");
+        self.key("ambient", positive(Temperature, "degC"), Required, "temperature of the air, and of all at the start");
         let wear = "factor of the wear rates of the pin's plateaus over the temperature of the contact";
         self.key("wear_rate_factor", Kind::Factor, Optional, wear);
         let friction = "factor of the coefficient of friction over the temperature of the contact";
         self.key("friction_factor", Kind::Factor, Optional, friction);
 
-        let area = Kind::Quantity { dimension: Area, unit: "cm^2", range: Range::POSITIVE };
-        let cooling = Kind::Quantity { dimension: Cooling, unit: "W/K", range: Range::NOT_NEGATIVE };
+        let area = positive(Area, "cm^2");
+        let cooling = not_negative(Cooling, "W/K");
         let substance = ["conductivity", "density", "specific_heat"];
         self.section = "thermal.disc";
         self.substance(substance);
         self.key("area", area, Required, "area of the disc that takes heat and is cooled");
-        self.key("thickness", length("mm", Range::POSITIVE), Required, "thickness of the disc");
+        self.key("thickness", positive(Length, "mm"), Required, "thickness of the disc");
         self.key("cooling", cooling, Default("\"0 W/K\""), "heat lost to the air per temperature above the ambient");
-        let per_speed = Kind::Quantity { dimension: CoolingPerSpeed, unit: "J/(K rad)", range: Range::NOT_NEGATIVE };
         self.key(
             "cooling_per_speed",
-            per_speed,
+            not_negative(CoolingPerSpeed, "J/(K rad)"),
             Default("\"0 J/(K rad)\""),
             "the same per rotational speed, added to it",
         );
         let thickness = "thickness of the coating";
-        self.key("coating.thickness", length("um", Range::NOT_NEGATIVE), Required, thickness);
+        self.key("coating.thickness", not_negative(Length, "um"), Required, thickness);
         self.substance(["coating.conductivity", "coating.density", "coating.specific_heat"]);
 
         self.section = "thermal.pin";
         self.substance(substance);
         self.key("area", area, Required, "cross-section of the pin");
-        self.key("length", length("mm", Range::POSITIVE), Required, "length of the pin up to its holder");
+        self.key("length", positive(Length, "mm"), Required, "length of the pin up to its holder");
         self.key("cooling", cooling, Default("\"0 W/K\""), "heat lost to the holder per temperature above the ambient");
     }
 
@@ -418,19 +403,15 @@ impl Table {
         let fraction = Number(Range::FRACTION);
         self.key("pm10_fraction", fraction, Default("0"), "fraction of the emitted mass that is airborne as PM10");
         self.key("pm25_fraction", fraction, Default("0"), "fraction of the emitted mass that is airborne as PM2.5");
-        let number = Kind::Quantity { dimension: NumberPerMass, unit: "1/kg", range: Range::NOT_NEGATIVE };
+        let number = not_negative(NumberPerMass, "1/kg");
         self.key("number_per_mass", number, Default("\"0 1/kg\""), "particles per mass of PM10");
-        let density = Kind::Quantity { dimension: Density, unit: "kg/m^3", range: Range::POSITIVE };
+        let density = positive(Density, "kg/m^3");
         self.key("pin_density", density, Required, "density of what wears off the pin");
         self.key("disc_density", density, Required, "density of what wears off the disc");
         let factor = "factor of the number of particles over the temperature of the contact; needs [thermal]";
         self.key("number_factor", Kind::Factor, Optional, factor);
     }
-}
 
-const ABOVE_1: Range = Range::new(1.0, false, f64::INFINITY, false);
-
-impl Table {
     /// Sources of the heights of a body: a file, random numbers or nothing.
     pub(super) fn heights(&mut self) {
         self.key("file", InputFile, OneOf, "measured heights: .sdf .h5 .nc .txt .xyz .csv .npy .npz .png .tif");
@@ -440,13 +421,12 @@ impl Table {
             Optional,
             "dataset in an HDF5 file, array in an .npz: metres, shape (columns, rows); number of a table in a text",
         );
-        let time = Kind::Quantity { dimension: Time, unit: "s", range: Range::NOT_NEGATIVE };
+        let time = not_negative(Time, "s");
         self.key("at", time, Optional, "time of the map of a run file that is taken; without it the last one is");
         self.key("unit", LengthUnit, Optional, "what the number 1 stands for, for text, .npy and decimal images");
-        let pitch = Kind::Lengths { count: 2, single: true, unit: "um", range: Range::POSITIVE };
         self.key(
             "pitch",
-            pitch,
+            Kind::Lengths { count: 2, single: true, unit: "um", range: Range::POSITIVE },
             Optional,
             "distance of points, or those along x and y, for files that do not state it",
         );
@@ -455,28 +435,32 @@ impl Table {
         let decimal = Choice(&const { words(&choices::DECIMAL) });
         self.key("decimal", decimal, Optional, "decimal mark of a text file, where its content does not tell it");
         self.key("skip", Integer(0), Optional, "lines of a text file before the table that are not read");
-        let lay = Choice(&const { words(&choices::LAY) });
         self.key(
             "profile_lay",
-            lay,
+            Choice(&const { words(&choices::LAY) }),
             Optional,
             "the file is a profile: whether its surface has grooves along or across sliding, or no direction",
         );
         self.key("synthetic.seed", Integer(0), Default("0"), "seed of the random heights");
-        self.key("synthetic.rms_height", length("um", Range::NOT_NEGATIVE), Required, "realised rms height");
-        let positive = length("um", Range::POSITIVE);
-        self.key("synthetic.correlation_length", positive, OneOf, "length l of the autocorrelation exp(-(r/l)^2)");
+        self.key("synthetic.rms_height", not_negative(Length, "um"), Required, "realised rms height");
+        let micrometres = positive(Length, "um");
+        self.key("synthetic.correlation_length", micrometres, OneOf, "length l of the autocorrelation exp(-(r/l)^2)");
         let across = "another length l across the sliding direction: a lay";
-        self.key("synthetic.correlation_length_across", positive, Optional, across);
-        self.key("synthetic.roll_off", positive, OneOf, "wavelength from which down the spectrum falls as a power law");
+        self.key("synthetic.correlation_length_across", micrometres, Optional, across);
+        self.key(
+            "synthetic.roll_off",
+            micrometres,
+            OneOf,
+            "wavelength from which down the spectrum falls as a power law",
+        );
         self.key(
             "synthetic.hurst",
             Number(Range::FRACTION),
             Optional,
             "Hurst exponent of the power law, 0 rough to 1 smooth; required beside roll_off",
         );
-        self.key("synthetic.short_cutoff", positive, Optional, "wavelength at which the power law ends");
-        self.key("synthetic.patch", length("mm", Range::POSITIVE), Optional, "length after which the heights repeat");
+        self.key("synthetic.short_cutoff", micrometres, Optional, "wavelength at which the power law ends");
+        self.key("synthetic.patch", positive(Length, "mm"), Optional, "length after which the heights repeat");
         self.key("synthetic.skewness", Number(Range::ANY), Default("0"), "skewness of the heights");
         self.key("synthetic.kurtosis", Number(ABOVE_1), Default("3"), "kurtosis of the heights, 3 for normal ones");
         self.key("flat", True, OneOf, "all heights zero");
@@ -486,10 +470,9 @@ impl Table {
     /// Preparation of the heights before the first step.
     pub(super) fn preparation(&mut self) {
         self.straightening();
-        let levels = Choice(&const { words(&choices::LEVEL) });
         self.key(
             "level",
-            levels,
+            Choice(&const { words(&choices::LEVEL) }),
             Default("\"none\""),
             "form that is taken out: none, the mean, the plane, second order",
         );
@@ -499,8 +482,8 @@ impl Table {
         self.key("outliers", Number(Range::POSITIVE), Optional, outliers);
         let fills = Choice(&const { words(&choices::FILL) });
         self.key("fill", fills, Optional, "what missing points and outliers get; without it they are an error");
-        self.key("pixel", length("um", Range::POSITIVE), Optional, "pixel pitch in place of the file's own");
-        let nesting_index = length("um", Range::POSITIVE);
+        self.key("pixel", positive(Length, "um"), Optional, "pixel pitch in place of the file's own");
+        let nesting_index = positive(Length, "um");
         self.key(
             "s_filter",
             nesting_index,
@@ -508,7 +491,7 @@ impl Table {
             "nesting index of a Gaussian filter that takes out shorter waves",
         );
         self.key("l_filter", nesting_index, Optional, "nesting index of a Gaussian filter that takes out longer waves");
-        self.key("cutoff", length("um", Range::NOT_NEGATIVE), Optional, "height above the mean at which peaks are cut");
+        self.key("cutoff", not_negative(Length, "um"), Optional, "height above the mean at which peaks are cut");
         let repeat = "whether the patch is tiled over the ring or pin, mirrored from tile to tile";
         self.key("repeat", Bool, Computed("`false`"), repeat);
         let extend = "random heights with the statistics of the patch in place of the patch itself";
@@ -516,10 +499,7 @@ impl Table {
         self.key("extend_seed", Integer(0), Computed("`0`"), "seed of the random heights of `extend`");
         self.key("scale", Number(Range::ANY), Default("1"), "factor of the heights");
     }
-}
 
-impl Table {
-    /// Adds them.
     fn straightening(&mut self) {
         let range = |range| Kind::Lengths { count: 2, single: false, unit: "mm", range };
         let along = "part that is kept along the sliding direction: from, to, from the first corner";
@@ -530,9 +510,8 @@ impl Table {
         self.key("unroll.centre", range(Range::ANY), Required, centre);
         let radii = "inner and outer radius that are kept; without them the largest rectangle that was measured";
         self.key("unroll.radii", range(Range::NOT_NEGATIVE), Optional, radii);
-        let angle = Kind::Quantity { dimension: Angle, unit: "deg", range: Range::ANY };
         let turn = "how far the heights are turned, counterclockwise; interpolated between quarters of a turn";
-        self.key("rotate", angle, Optional, turn);
+        self.key("rotate", quantity(Angle, "deg", Range::ANY), Optional, turn);
         let flips = Choice(&const { words(&choices::FLIP) });
         self.key("flip", flips, Optional, "reverses the heights along or across the sliding direction");
     }
