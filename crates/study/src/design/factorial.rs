@@ -25,7 +25,7 @@ pub(super) fn fractional_factorial(fraction: &Fraction, factors: &[Factor]) -> R
 }
 
 /// Generators of the smallest fraction of at least this resolution; none where only all combinations have it.
-pub(super) fn of_resolution(resolution: u32, factors: usize) -> Result<Vec<Generator>, DesignError> {
+pub(super) fn of_resolution(resolution: u32, factors: usize) -> Result<Vec<Product>, DesignError> {
     if resolution < 3 {
         return Err(DesignError(format!(
             "a fraction of resolution {resolution} cannot tell main effects from each other; the least is 3"
@@ -43,7 +43,7 @@ pub(super) fn of_resolution(resolution: u32, factors: usize) -> Result<Vec<Gener
 }
 
 /// The coded settings of all combinations of the base factors, the first changing fastest, and of the added factors.
-pub(super) fn combinations(factors: usize, generators: &[Generator]) -> Result<Vec<Setting>, DesignError> {
+pub(super) fn combinations(factors: usize, generators: &[Product]) -> Result<Vec<Setting>, DesignError> {
     let columns = columns(factors, generators);
     let points = u32::try_from(factors - generators.len()).ok().and_then(|base| 1_usize.checked_shl(base));
     let points = room(points, factors)?;
@@ -124,29 +124,33 @@ fn signs(row: &str) -> Vec<i8> {
 /// The names of the factors, in their order.
 const LETTERS: &str = "ABCDEFGHJKLMNOPQRSTUVWXYZ";
 
-/// An added factor is the product of some base factors, or its negative.
+/// A product of factors, or its negative: what an added factor is of base factors, or a word, which is 1 at every point.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Generator {
-    /// Base factors of the product, as bits.
-    base: u32,
+pub(super) struct Product {
+    /// The factors, as bits.
+    factors: u32,
     /// Tells whether it is the negative.
     negative: bool,
 }
 
-impl Generator {
-    /// The base factor of this index itself.
-    fn of_base(factor: usize) -> Self {
-        Self { base: 1 << factor, negative: false }
+impl Product {
+    /// The factor of this index itself.
+    fn of_factor(factor: usize) -> Self {
+        Self { factors: 1 << factor, negative: false }
     }
 
     /// The product of both.
     fn times(self, other: Self) -> Self {
-        Self { base: self.base ^ other.base, negative: self.negative != other.negative }
+        Self { factors: self.factors ^ other.factors, negative: self.negative != other.negative }
+    }
+
+    fn length(self) -> usize {
+        self.factors.count_ones() as usize
     }
 
     /// −1 or 1 in a run whose bits are set where a base factor is 1, clear where it is −1.
     fn sign(self, run: u32) -> f64 {
-        let odd = (self.base & !run).count_ones() % 2 == 1;
+        let odd = (self.factors & !run).count_ones() % 2 == 1;
         if odd == self.negative { 1.0 } else { -1.0 }
     }
 }
@@ -169,13 +173,13 @@ fn letters(factors: u32) -> String {
 ///
 /// A text is a word of letters of base factors, with a minus before it where meant, alone or after the letter of the
 /// added factor and `=`. A word alone is for the first added factor that no other text names.
-fn parse(factors: usize, texts: &[String]) -> Result<Vec<Generator>, DesignError> {
+fn parse(factors: usize, texts: &[String]) -> Result<Vec<Product>, DesignError> {
     can_be_named(factors)?;
     let Some(base) = factors.checked_sub(texts.len()).filter(|base| *base > 0) else {
         let (given, most) = (texts.len(), factors.saturating_sub(1));
         return error(format!("too many generators for {}: {given}, but {most} at most", counted(factors)));
     };
-    let mut added: Vec<Option<Generator>> = vec![None; texts.len()];
+    let mut added: Vec<Option<Product>> = vec![None; texts.len()];
     let mut unnamed = Vec::new();
     for text in texts {
         match text.split_once('=') {
@@ -190,10 +194,10 @@ fn parse(factors: usize, texts: &[String]) -> Result<Vec<Generator>, DesignError
         }
     }
     let mut unnamed = unnamed.into_iter();
-    let generators: Vec<Generator> = added.into_iter().filter_map(|place| place.or_else(|| unnamed.next())).collect();
+    let generators: Vec<Product> = added.into_iter().filter_map(|place| place.or_else(|| unnamed.next())).collect();
     for (index, generator) in generators.iter().enumerate() {
-        if let Some(first) = generators[..index].iter().position(|other| other.base == generator.base) {
-            let (one, other, word) = (letter(base + first), letter(base + index), letters(generator.base));
+        if let Some(first) = generators[..index].iter().position(|other| other.factors == generator.factors) {
+            let (one, other, word) = (letter(base + first), letter(base + index), letters(generator.factors));
             return error(format!(
                 "factors {one} and {other} have the same generator {word}, so could not be told from each other"
             ));
@@ -215,7 +219,7 @@ fn named(name: &str, text: &str, base: usize, factors: usize) -> Result<usize, D
     }
 }
 
-fn word_of(word: &str, text: &str, base: usize, factors: usize) -> Result<Generator, DesignError> {
+fn word_of(word: &str, text: &str, base: usize, factors: usize) -> Result<Product, DesignError> {
     let (negative, product) = match word.strip_prefix(['-', '−']) {
         Some(product) => (true, product.trim_start()),
         None => (false, word.strip_prefix('+').unwrap_or(word).trim_start()),
@@ -247,7 +251,7 @@ fn word_of(word: &str, text: &str, base: usize, factors: usize) -> Result<Genera
         1 => error(format!(
             "generator `{text}` equals base factor {product}, so the two could not be told from each other"
         )),
-        _ => Ok(Generator { base: set, negative }),
+        _ => Ok(Product { factors: set, negative }),
     }
 }
 
@@ -270,23 +274,19 @@ fn error<T>(message: String) -> Result<T, DesignError> {
 }
 
 /// Every factor as a product of base factors.
-fn columns(factors: usize, generators: &[Generator]) -> Vec<Generator> {
+fn columns(factors: usize, generators: &[Product]) -> Vec<Product> {
     let base = factors - generators.len();
-    (0..base.min(u32::BITS as usize)).map(Generator::of_base).chain(generators.iter().copied()).collect()
+    (0..base.min(u32::BITS as usize)).map(Product::of_factor).chain(generators.iter().copied()).collect()
 }
 
 /// Most words that are listed, unless the shortest alone are more. All of twelve generators, of 2¹² − 1 words.
 const MOST_WORDS: usize = 4095;
 
 /// Aliases that the generators make; none where there are no generators.
-fn aliases(factors: usize, generators: &[Generator]) -> Option<Aliases> {
+fn aliases(factors: usize, generators: &[Product]) -> Option<Aliases> {
     let base = factors - generators.len();
-    let added = (base..).map(|factor| 1 << factor);
-    let relations: Vec<Word> = generators
-        .iter()
-        .zip(added)
-        .map(|(generator, added)| Word { factors: generator.base | added, negative: generator.negative })
-        .collect();
+    let relations: Vec<Product> =
+        (base..).zip(generators).map(|(added, generator)| generator.times(Product::of_factor(added))).collect();
     let mut word_lengths = vec![0; factors + 1];
     words(&relations).for_each(|word| word_lengths[word.length()] += 1);
     let shortest = word_lengths.iter().position(|count| *count > 0)?;
@@ -307,33 +307,18 @@ fn aliases(factors: usize, generators: &[Generator]) -> Option<Aliases> {
     })
 }
 
-/// A product of factors that is 1 at every point, or −1.
-#[derive(Debug, Clone, Copy)]
-struct Word {
-    factors: u32,
-    negative: bool,
-}
-
-impl Word {
-    fn length(&self) -> usize {
-        self.factors.count_ones() as usize
-    }
-}
-
 /// All products of the words, each once.
-fn words(relations: &[Word]) -> impl Iterator<Item = Word> + '_ {
-    let mut word = Word { factors: 0, negative: false };
+fn words(relations: &[Product]) -> impl Iterator<Item = Product> + '_ {
+    let mut word = Product { factors: 0, negative: false };
     // In the order of the Gray code, so that each product differs from the one before by one word.
     (1_u64..1 << relations.len()).map(move |number| {
-        let relation = relations[number.trailing_zeros() as usize];
-        word.factors ^= relation.factors;
-        word.negative ^= relation.negative;
+        word = word.times(relations[number.trailing_zeros() as usize]);
         word
     })
 }
 
 /// Main effects and two-factor interactions that cannot be told from each other.
-fn chains(columns: &[Generator]) -> Vec<Vec<String>> {
+fn chains(columns: &[Product]) -> Vec<Vec<String>> {
     let main = columns.iter().enumerate().map(|(factor, column)| (1 << factor, *column));
     let pairs = columns.iter().enumerate().flat_map(|(one, first)| {
         let others = columns.iter().enumerate().skip(one + 1);
@@ -342,9 +327,9 @@ fn chains(columns: &[Generator]) -> Vec<Vec<String>> {
     let mut sets: BTreeMap<u32, Vec<(u32, bool)>> = BTreeMap::new();
     let mut order = Vec::new();
     for (effect, column) in main.chain(pairs) {
-        let set = sets.entry(column.base).or_default();
+        let set = sets.entry(column.factors).or_default();
         if set.is_empty() {
-            order.push(column.base);
+            order.push(column.factors);
         }
         set.push((effect, column.negative));
     }

@@ -50,23 +50,23 @@ fn any_number_of_factors_up_to_23_has_the_next_multiple_of_four() {
     assert!(plackett_burman(&[Factor::Range; 24]).unwrap_err().0.contains("at most 23"));
 }
 
-fn parsed(factors: usize, texts: &[&str]) -> Result<Vec<Generator>, DesignError> {
+fn parsed(factors: usize, texts: &[&str]) -> Result<Vec<Product>, DesignError> {
     parse(factors, &texts.iter().map(ToString::to_string).collect::<Vec<_>>())
 }
 
 #[test]
 fn all_ways_of_writing_mean_the_same() {
-    let minus = Generator { base: 0b1111, negative: true };
+    let minus = Product { factors: 0b1111, negative: true };
     for text in ["E = -ABCD", "E=-ABCD", "-ABCD", " - DCBA ", "e = −abcd"] {
         assert_eq!(parsed(5, &[text]), Ok(vec![minus]), "{text}");
     }
-    let plus = Generator { negative: false, ..minus };
+    let plus = Product { negative: false, ..minus };
     assert_eq!(parsed(5, &["E=+ABCD"]), Ok(vec![plus]));
     // E is named, so that the word alone is for D.
     let mixed = parsed(5, &["E = AC", "AB"]).unwrap();
-    assert_eq!(mixed.iter().map(|each| each.base).collect::<Vec<_>>(), [0b11, 0b101]);
+    assert_eq!(mixed.iter().map(|each| each.factors).collect::<Vec<_>>(), [0b11, 0b101]);
     // J follows H.
-    assert_eq!(parsed(9, &["J = ABCDEFGH"]).unwrap()[0].base, 0xff);
+    assert_eq!(parsed(9, &["J = ABCDEFGH"]).unwrap()[0].factors, 0xff);
 }
 
 #[test]
