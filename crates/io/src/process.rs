@@ -234,11 +234,10 @@ pub fn writer_of(path: &Path) -> Writer {
     };
     let numbers = processes.flatten().filter_map(|process| process.file_name().to_str()?.parse::<u32>().ok());
     for process in numbers.filter(|process| *process != std::process::id()) {
-        match writes(process, &wanted) {
-            Ok(true) => return Writer::Process(process),
-            Ok(false) => {}
+        match written_by(process, (wanted.dev(), wanted.ino())).map(|mut names| names.next()) {
+            Ok(Some(_)) => return Writer::Process(process),
             Err(_) if belongs_to(process, wanted.uid()) => found = Writer::Hidden,
-            Err(_) => {}
+            _ => {}
         }
     }
     found
@@ -246,10 +245,6 @@ pub fn writer_of(path: &Path) -> Writer {
 
 fn belongs_to(process: u32, user: u32) -> bool {
     fs::metadata(format!("/proc/{process}")).is_ok_and(|process| process.uid() == user)
-}
-
-fn writes(process: u32, wanted: &fs::Metadata) -> io::Result<bool> {
-    Ok(written_by(process, (wanted.dev(), wanted.ino()))?.next().is_some())
 }
 
 /// Numbers of the open files with which this process writes a file, given by device and inode.

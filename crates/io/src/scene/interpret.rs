@@ -34,17 +34,14 @@ pub(super) fn quantity(value: &Value, dimension: Dimension, range: Range) -> Res
     }
 }
 
-fn in_range(number: f64, value: &Value, range: Range) -> Result<f64, String> {
-    if range.contains(number) { Ok(number) } else { Err(format!("{} is out of range, expected {range}", value.text())) }
-}
-
 /// A plain number, in range.
 pub(super) fn number(value: &Value, range: Range) -> Result<f64, String> {
-    match value {
-        Value::Integer(integer) => in_range(*integer as f64, value, range),
-        Value::Float(float) => in_range(*float, value, range),
-        _ => Err(format!("{value}, expected a number, {range}")),
-    }
+    let number = match value {
+        Value::Integer(integer) => *integer as f64,
+        Value::Float(float) => *float,
+        _ => return Err(format!("{value}, expected a number, {range}")),
+    };
+    if range.contains(number) { Ok(number) } else { Err(format!("{} is out of range, expected {range}", value.text())) }
 }
 
 /// Rows of time, load and speed as a scene gives them.
@@ -52,12 +49,11 @@ fn cycle_rows(list: &[Entry]) -> Result<CycleTable, (Origin, String)> {
     let (mut times, mut loads, mut speeds, mut places) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
     let mut kinds = None;
     for entry in list {
-        let fail = |message: String| (entry.origin.clone(), message);
         let Value::Array(row) = &entry.value else {
-            return Err(fail(format!("{}, expected a row such as [\"0 s\", \"47 N\", \"850 rpm\"]", entry.value)));
+            return Err(at(entry)(format!("{}, expected a row such as [\"0 s\", \"47 N\", \"850 rpm\"]", entry.value)));
         };
         let [time, load, speed] = row.as_slice() else {
-            return Err(fail(format!("a row of {} values, expected three: time, load, speed", row.len())));
+            return Err(at(entry)(format!("a row of {} values, expected three: time, load, speed", row.len())));
         };
         let value = |entry: &Entry, dimension| quantity(&entry.value, dimension, Range::NOT_NEGATIVE);
         times.push(value(time, Time).map_err(at(time))?);
@@ -125,12 +121,10 @@ pub(super) enum Setting {
 /// Reads the value of the key `path`; input files named by no scene file are relative to the one at `scene`.
 pub(super) fn interpret(path: &str, kind: Kind, entry: &Entry, scene: &Path) -> Result<Setting, Problem> {
     match (kind, &entry.value) {
-        (Kind::Times, Value::Array(list)) => list.iter().map(time).collect::<Result<_, _>>().map(Setting::Numbers),
-        (Kind::Lengths { count, range, .. }, Value::Array(list)) if list.len() == count => list
-            .iter()
-            .map(|entry| quantity(&entry.value, Dimension::Length, range).map_err(at(entry)))
-            .collect::<Result<_, _>>()
-            .map(Setting::Numbers),
+        (Kind::Times, Value::Array(list)) => quantities(list, Time, Range::NOT_NEGATIVE),
+        (Kind::Lengths { count, range, .. }, Value::Array(list)) if list.len() == count => {
+            quantities(list, Dimension::Length, range)
+        }
         (Kind::Maps, Value::Array(list)) => list.iter().map(map).collect::<Result<_, _>>().map(Setting::Maps),
         (Kind::Rows, Value::Array(list)) if list.len() >= 2 => cycle_rows(list).map(Setting::Rows),
         (Kind::Factor, Value::Array(list)) if !list.is_empty() => factor_rows(list).map(Setting::Factor),
@@ -153,13 +147,14 @@ fn plain(kind: Kind, value: &Value) -> Result<Setting, String> {
             quantity(value, Dimension::Length, range).map(|length| Setting::Numbers(vec![length; count]))
         }
         (Kind::LengthUnit, Value::Text(text)) => length_unit(text, value).map(Setting::Number),
-        (Kind::NumberOr(_, word), Value::Text(text)) if text == word => Ok(Setting::Text(text.clone())),
+        (Kind::NumberOr(_, word) | Kind::CountOr(word), Value::Text(text)) if text == word => {
+            Ok(Setting::Text(text.clone()))
+        }
         (Kind::Number(range) | Kind::NumberOr(range, _), Value::Integer(_) | Value::Float(_)) => {
             number(value, range).map(Setting::Number)
         }
         (Kind::Integer(least), Value::Integer(integer)) => count(*integer, least),
         (Kind::CountOr(_), Value::Integer(integer)) => count(*integer, 1),
-        (Kind::CountOr(word), Value::Text(text)) if text == word => Ok(Setting::Text(text.clone())),
         (Kind::Bool, Value::Bool(value)) => Ok(Setting::Bool(*value)),
         (Kind::True, Value::Bool(true)) => Ok(Setting::Bool(true)),
         (Kind::Choice(words), Value::Text(text)) => {
@@ -228,8 +223,9 @@ fn one_of<'a, T>(text: &str, choices: &'a [T], name: impl Fn(&T) -> &'static str
     })
 }
 
-fn time(entry: &Entry) -> Result<f64, (Origin, String)> {
-    quantity(&entry.value, Dimension::Time, Range::NOT_NEGATIVE).map_err(at(entry))
+fn quantities(list: &[Entry], dimension: Dimension, range: Range) -> Result<Setting, (Origin, String)> {
+    let values = list.iter().map(|entry| quantity(&entry.value, dimension, range).map_err(at(entry)));
+    values.collect::<Result<_, _>>().map(Setting::Numbers)
 }
 
 fn map(entry: &Entry) -> Result<Map, (Origin, String)> {
