@@ -76,19 +76,14 @@ fn build(document: Document, path: &Path, locator: &Locator<'_>) -> Result<Study
             }
         }
     }
-    let order = match document.order.as_ref().map(|order| (order, order.get_ref().as_str())) {
+    let orders = [("random", Order::Random), ("standard", Order::Standard)];
+    let order = match &document.order {
         // What was done elsewhere was done in the order of its table, as far as anybody knows.
         None if document.base.is_none() && document.file.is_some() => Order::Standard,
-        None | Some((_, "random")) => Order::Random,
-        Some((_, "standard")) => Order::Standard,
-        Some((order, found)) => {
-            problems.push(locator.problem(
-                order,
-                "order",
-                format!("\"{}\", expected \"random\" or \"standard\"", short(found)),
-            ));
+        given => locator.choice(given.as_ref(), "order", &orders).unwrap_or_else(|problem| {
+            problems.push(problem);
             Order::Standard
-        }
+        }),
     };
     let replicates = document
         .replicates
@@ -148,7 +143,7 @@ fn replicates(
 ) -> Replicates {
     let keys = given.keys.as_ref().map_or(&[][..], |keys| keys.get_ref());
     for key in keys {
-        if !is_seed(key.get_ref()) {
+        if !schema::find(key.get_ref()).is_some_and(schema::Key::is_seed) {
             let message = format!(
                 "\"{}\" is not a seed; expected keys such as disc.surface.synthetic.seed, or disc.prepare.extend_seed of a \
                      measured patch",
@@ -172,11 +167,6 @@ fn replicates(
         problems.push(locator.problem(seed, "replicates.seeds", format!("{} {message}", seed.get_ref())));
     }
     Replicates { keys: keys.iter().map(|key| key.get_ref().clone()).collect(), seeds }
-}
-
-/// Tells whether a key of a scene is a seed of random heights or bases.
-fn is_seed(key: &str) -> bool {
-    (key.ends_with(".seed") || key.ends_with(".extend_seed")) && schema::find(key).is_some()
 }
 
 /// Designs by their name in a study.
@@ -217,6 +207,9 @@ pub(super) fn source(
     fn start<T>(found: &Option<Spanned<T>>) -> Option<usize> {
         found.as_ref().map(|found| found.span().start)
     }
+    fn value<T: Clone>(found: &Option<Spanned<T>>) -> Option<T> {
+        found.as_ref().map(|found| found.get_ref().clone())
+    }
     only("resolution", start(&document.resolution), &["fractional-factorial"])?;
     only("generators", start(&document.generators), &["fractional-factorial"])?;
     only("points", start(&document.points), &["latin-hypercube", "sobol"])?;
@@ -227,45 +220,36 @@ pub(super) fn source(
     only("centre_points", start(&document.centre_points), &with_centre)?;
     only("file", start(&document.file), &["csv"])?;
     let missing = |what: &str| Err(locator.problem(&document.design, "design", format!("\"{design}\" needs {what}")));
-    let points = || document.points.as_ref().map(|points| *points.get_ref()).filter(|points| *points > 0);
-    let centre = document.centre_points.as_ref().map(|points| *points.get_ref());
+    let points = value(&document.points).filter(|points| *points > 0);
+    let (centre, seed) = (value(&document.centre_points), value(&document.seed).unwrap_or(0));
     let kind = match design {
         "full-factorial" => Kind::FullFactorial,
-        "fractional-factorial" => match (&document.resolution, &document.generators) {
-            (Some(resolution), None) => Kind::FractionalFactorial(Fraction::Resolution(*resolution.get_ref())),
-            (None, Some(generators)) => Kind::FractionalFactorial(Fraction::Generators(generators.get_ref().clone())),
+        "fractional-factorial" => match (value(&document.resolution), value(&document.generators)) {
+            (Some(resolution), None) => Kind::FractionalFactorial(Fraction::Resolution(resolution)),
+            (None, Some(generators)) => Kind::FractionalFactorial(Fraction::Generators(generators)),
             _ => return missing("either resolution = 4 or generators = [\"D = ABC\"]"),
         },
         "plackett-burman" => Kind::PlackettBurman,
         "central-composite" => {
-            let alpha = match document.alpha.as_ref().map(|alpha| (alpha, alpha.get_ref().as_str())) {
-                None | Some((_, "face")) => Alpha::Face,
-                Some((_, "rotatable")) => Alpha::Rotatable,
-                Some((_, "orthogonal")) => Alpha::Orthogonal,
-                Some((alpha, found)) => {
-                    let message = format!("\"{}\", expected \"face\", \"rotatable\" or \"orthogonal\"", short(found));
-                    return Err(locator.problem(alpha, "alpha", message));
-                }
-            };
+            let alphas = [("face", Alpha::Face), ("rotatable", Alpha::Rotatable), ("orthogonal", Alpha::Orthogonal)];
+            let alpha = locator.choice(document.alpha.as_ref(), "alpha", &alphas)?;
             // Equal points without seeds are equal runs, and tell nothing of the error.
             let centre = centre.unwrap_or(1);
             Kind::CentralComposite { alpha, centre: [centre.div_ceil(2), centre / 2] }
         }
         "box-behnken" => Kind::BoxBehnken { centre: centre.unwrap_or(1) },
-        "latin-hypercube" => match points() {
-            Some(points) => {
-                Kind::LatinHypercube { points, seed: document.seed.as_ref().map_or(0, |seed| *seed.get_ref()) }
-            }
+        "latin-hypercube" => match points {
+            Some(points) => Kind::LatinHypercube { points, seed },
             None => return missing("points = 20, at least 1"),
         },
-        "sobol" => match points() {
+        "sobol" => match points {
             Some(points) => Kind::Sobol { points },
             None => return missing("points = 32, at least 1"),
         },
         "morris" => Kind::Morris {
-            trajectories: document.trajectories.as_ref().map_or(TRAJECTORIES, |count| *count.get_ref()),
-            levels: document.levels.as_ref().map_or(GRID_LEVELS, |count| *count.get_ref()),
-            seed: document.seed.as_ref().map_or(0, |seed| *seed.get_ref()),
+            trajectories: value(&document.trajectories).unwrap_or(TRAJECTORIES),
+            levels: value(&document.levels).unwrap_or(GRID_LEVELS),
+            seed,
         },
         "csv" => {
             let Some(file) = &document.file else { return missing("file = \"points.csv\"") };

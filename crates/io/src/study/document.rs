@@ -191,6 +191,23 @@ impl Locator<'_> {
         Problem::new(&self.origin(found.span()), key, message)
     }
 
+    /// Meaning of a word that is one of some; where none is given, that of the first.
+    pub(super) fn choice<T: Copy>(
+        &self,
+        found: Option<&Spanned<String>>,
+        key: &str,
+        choices: &[(&str, T)],
+    ) -> Result<T, Problem> {
+        let Some(found) = found else { return Ok(choices[0].1) };
+        if let Some((_, meaning)) = choices.iter().find(|(word, _)| word == found.get_ref()) {
+            return Ok(*meaning);
+        }
+        let words: Vec<String> = choices.iter().map(|(word, _)| format!("\"{word}\"")).collect();
+        let (others, last) = words.split_at(words.len() - 1);
+        let message = format!("\"{}\", expected {} or {}", short(found.get_ref()), others.join(", "), last.concat());
+        Err(self.problem(found, key, message))
+    }
+
     /// As [`check_name`](Self::check_name), of what is told by its name alone, so that it may not be empty.
     pub(super) fn check_label(&self, name: &str, at: impl FnOnce() -> Origin, key: &str, problems: &mut Vec<Problem>) {
         if name.trim().is_empty() {

@@ -32,9 +32,16 @@ pub(super) fn factors(document: &Document, locator: &Locator<'_>, problems: &mut
                 let message = format!("\"{}\": {}{without}", short(unknown), schema::unknown(section, name));
                 problems.push(locator.problem(key, "factor.key", message));
             }
-        } else if let Some((at, message)) = without_key(table, document) {
-            let locator = at.map_or_else(|| Origin::File(locator.file.clone()), |at| locator.origin(at..at));
-            problems.push(Problem::new(&locator, "factor.key", message));
+        } else if document.base.is_some() || table.name.is_none() {
+            let message = if document.base.is_some() {
+                "missing, expected a key of the scene such as \"operation.normal_force\"; factors that are set \
+                elsewhere, as on a rig, belong into a study without base"
+            } else {
+                "a factor has neither key nor name"
+            };
+            let file = || Origin::File(locator.file.clone());
+            let origin = table.name.as_ref().map_or_else(file, |name| locator.origin(name.span()));
+            problems.push(Problem::new(&origin, "factor.key", message));
             continue;
         }
         let name = table.name.as_ref().map_or_else(|| keys[0].clone(), |name| name.get_ref().clone());
@@ -71,20 +78,6 @@ pub(super) fn factors(document: &Document, locator: &Locator<'_>, problems: &mut
         problems.push(Problem::new(&Origin::File(locator.file.clone()), "factor", message));
     }
     factors
-}
-
-/// Problem with a factor that has no key, and where.
-fn without_key(table: &document::Factor, document: &Document) -> Option<(Option<usize>, &'static str)> {
-    let at = table.name.as_ref().map(|name| name.span().start);
-    match (&document.base, at) {
-        (Some(_), _) => Some((
-            at,
-            "missing, expected a key of the scene such as \"operation.normal_force\"; factors that are set \
-            elsewhere, as on a rig, belong into a study without base",
-        )),
-        (None, None) => Some((None, "a factor has neither key nor name")),
-        (None, Some(_)) => None,
-    }
 }
 
 /// The unit of a level; empty for plain numbers and words.
@@ -134,21 +127,19 @@ fn levels(levels: &Spanned<Vec<Spanned<toml::Value>>>, key: &str, locator: &Loca
         return Err(locator.problem(levels, "factor.levels", format!("{}: expected all in the same unit", other.text)));
     }
     let mut unfit = levels.get_ref().iter().enumerate();
-    if let Some((at, why)) = unfit.find_map(|(at, level)| Some((at, Level::unfit(key, level.get_ref())?))) {
-        return refuse(at, why);
+    let unfit = unfit.find_map(|(at, level)| Some((at, Level::unfit(key, level.get_ref())?)));
+    let first = |wrong: &dyn Fn(&Level) -> Option<String>| {
+        list.iter().enumerate().find_map(|(at, level)| Some((at, wrong(level)?)))
+    };
+    let odd = |level: &Level| {
+        odd_character(&level.label).map(|found| format!("{} has {found}; take it out", level.text.escape_debug()))
+    };
+    let unseen_word = |level: &Level| if level.number.is_none() { unseen(&level.label) } else { None };
+    let wrong = unfit.or_else(|| first(&odd)).or_else(|| first(&unseen_word));
+    match wrong.or_else(|| first(&|level| too_long(&level.label))) {
+        Some((at, message)) => refuse(at, message),
+        None => Ok(Values::Levels(list)),
     }
-    let odd = list.iter().enumerate().find_map(|(at, level)| Some((at, odd_character(&level.label)?)));
-    if let Some((at, found)) = odd {
-        return refuse(at, format!("{} has {found}; take it out", list[at].text.escape_debug()));
-    }
-    let words = || list.iter().enumerate().filter(|(_, level)| level.number.is_none());
-    if let Some((at, unseen)) = words().find_map(|(at, level)| Some((at, unseen(&level.label)?))) {
-        return refuse(at, unseen);
-    }
-    if let Some((at, long)) = list.iter().enumerate().find_map(|(at, level)| Some((at, too_long(&level.label)?))) {
-        return refuse(at, long);
-    }
-    Ok(Values::Levels(list))
 }
 
 /// A range, whose ends are numbers in one unit.
@@ -158,14 +149,7 @@ fn range(
     key: &str,
     locator: &Locator<'_>,
 ) -> Result<Values, Problem> {
-    let logarithmic = match scale.map(|scale| (scale, scale.get_ref().as_str())) {
-        None | Some((_, "linear")) => false,
-        Some((_, "logarithmic")) => true,
-        Some((scale, found)) => {
-            let message = format!("\"{}\", expected \"linear\" or \"logarithmic\"", short(found));
-            return Err(locator.problem(scale, "factor.scale", message));
-        }
-    };
+    let logarithmic = locator.choice(scale, "factor.scale", &[("linear", false), ("logarithmic", true)])?;
     let [low, high] = range.get_ref().each_ref().map(|end| Level::new(key, end.get_ref()));
     let number = |end: &Spanned<toml::Value>| {
         let refused = |why: String| locator.problem(end, "factor.range", why);
@@ -203,43 +187,43 @@ pub(super) fn responses(tables: &[Table], locator: &Locator<'_>, problems: &mut 
         if problems.len() >= MOST_PROBLEMS {
             break;
         }
-        let name = table.name.get_ref().clone();
-        locator.check_label(&name, || locator.origin(table.name.span()), "response.name", problems);
-        if !names.insert(name.clone()) {
-            problems.push(locator.problem(
-                &table.name,
-                "response.name",
-                format!("\"{}\" is the name of two", short(&name)),
-            ));
+        let name = table.name.get_ref();
+        locator.check_label(name, || locator.origin(table.name.span()), "response.name", problems);
+        if !names.insert(name) {
+            let message = format!("\"{}\" is the name of two", short(name));
+            problems.push(locator.problem(&table.name, "response.name", message));
         }
-        let asked = match is_imported(table, locator) {
-            Ok(true) => imported(table, locator).map(|question| (String::new(), question)),
-            Ok(false) => dataset(table, locator).and_then(|dataset| {
-                let series = match &table.event {
-                    Some(_) => event_name(dataset, locator, problems),
-                    None => series_name(dataset, "response.dataset", locator, problems),
-                };
-                let series = series.unwrap_or_default();
-                let question = match &table.measured_file {
-                    Some(file) => of_file(table, file, locator)?,
-                    None => question(table, &series, locator)?,
-                };
-                Ok((series, question))
-            }),
-            Err(problem) => Err(problem),
-        };
-        let response = asked.and_then(|(series, question)| {
-            let stated_unit = table.unit.as_ref().map(|unit| unit.get_ref().clone());
-            let response = Response { name, series, question, transform: TRANSFORMS[0], stated_unit };
-            let transform = transform(table, &response, locator)?;
-            Ok(Response { transform, ..response })
-        });
-        match response {
+        match response(table, locator, problems) {
             Ok(response) => responses.push(response),
             Err(problem) => problems.push(problem),
         }
     }
     responses
+}
+
+fn response(table: &Table, locator: &Locator<'_>, problems: &mut Vec<Problem>) -> Result<Response, Problem> {
+    let (series, question) = if is_imported(table, locator)? {
+        (String::new(), imported(table, locator)?)
+    } else {
+        let dataset = table.dataset.as_ref().ok_or_else(|| {
+            let message = "expected dataset = \"/series/...\", or imported = true for values that come from a table";
+            locator.problem(&table.name, "response", message)
+        })?;
+        let series = match &table.event {
+            Some(_) => event_name(dataset, locator, problems),
+            None => series_name(dataset, "response.dataset", locator, problems),
+        };
+        let series = series.unwrap_or_default();
+        let question = match &table.measured_file {
+            Some(file) => of_file(table, file, locator)?,
+            None => question(table, &series, locator)?,
+        };
+        (series, question)
+    };
+    let (name, stated_unit) = (table.name.get_ref().clone(), table.unit.as_ref().map(|unit| unit.get_ref().clone()));
+    let response = Response { name, series, question, transform: TRANSFORMS[0], stated_unit };
+    let transform = transform(table, &response, locator)?;
+    Ok(Response { transform, ..response })
 }
 
 fn question(table: &Table, series: &str, locator: &Locator<'_>) -> Result<Question, Problem> {
@@ -251,29 +235,18 @@ fn question(table: &Table, series: &str, locator: &Locator<'_>) -> Result<Questi
             Err(locator.problem(text, key, format!("\"{}\" is before the run", short(text.get_ref()))))
         }
     };
-    let refused = || {
-        let message = "expected one of at = \"end\", at = \"100 s\", mean = \"last tenth\", mean = [\"50 s\", \"100 s\"], \
-                           reaches = 0.9; of /event/...: event = 3, event = \"last\", event = \"mean\"; for a fit to a whole \
-                           series: measured_file = \"FILE.csv\"";
-        locator.problem(&table.name, "response", message)
-    };
-    if let (Some(event), None, None, None) = (&table.event, &table.at, &table.mean, &table.reaches) {
-        return which_event(event.get_ref()).map(Question::Event).ok_or_else(|| {
+    match (&table.event, &table.at, &table.mean, &table.reaches) {
+        (Some(event), None, None, None) => which_event(event.get_ref()).map(Question::Event).ok_or_else(|| {
             locator.problem(event, "response.event", "expected the number of an event, \"last\" or \"mean\"")
-        });
-    }
-    if table.event.is_some() {
-        return Err(refused());
-    }
-    match (&table.at, &table.mean, &table.reaches) {
-        (Some(at), None, None) if at.get_ref() == "end" => Ok(Question::End),
-        (Some(at), None, None) => match time(at, "response.at") {
+        }),
+        (None, Some(at), None, None) if at.get_ref() == "end" => Ok(Question::End),
+        (None, Some(at), None, None) => match time(at, "response.at") {
             Ok(time) => Ok(Question::At(time)),
             Err(Problem { message, .. }) => {
                 Err(locator.problem(at, "response.at", format!("{message}; \"end\" is the end of the run")))
             }
         },
-        (None, Some(mean), None) => {
+        (None, None, Some(mean), None) => {
             if TOTALS.contains(&series) {
                 let message = format!(
                     "{series} is a total since the start of the run, and its mean says nothing: at = \"end\" is how much it is \
@@ -288,15 +261,20 @@ fn question(table: &Table, series: &str, locator: &Locator<'_>) -> Result<Questi
             }
             Err(locator.problem(mean, "response.mean", "expected two times, the earlier one first"))
         }
-        (None, None, Some(reaches)) if (0.0..1.0).contains(reaches.get_ref()) && *reaches.get_ref() > 0.0 => {
+        (None, None, None, Some(reaches)) if (0.0..1.0).contains(reaches.get_ref()) && *reaches.get_ref() > 0.0 => {
             Ok(Question::Reaches(*reaches.get_ref()))
         }
-        (None, None, Some(reaches)) => Err(locator.problem(
+        (None, None, None, Some(reaches)) => Err(locator.problem(
             reaches,
             "response.reaches",
             format!("{}, expected more than 0 and less than 1", reaches.get_ref()),
         )),
-        _ => Err(refused()),
+        _ => {
+            let message = "expected one of at = \"end\", at = \"100 s\", mean = \"last tenth\", mean = [\"50 s\", \"100 s\"], \
+                           reaches = 0.9; of /event/...: event = 3, event = \"last\", event = \"mean\"; for a fit to a whole \
+                           series: measured_file = \"FILE.csv\"";
+            Err(locator.problem(&table.name, "response", message))
+        }
     }
 }
 
@@ -399,14 +377,6 @@ fn imported(table: &Table, locator: &Locator<'_>) -> Result<Question, Problem> {
         }
         (found, _) => Ok(Question::Imported(found.copied().unwrap_or("1"))),
     }
-}
-
-/// The dataset that is asked.
-fn dataset<'a>(table: &'a Table, locator: &Locator<'_>) -> Result<&'a Spanned<String>, Problem> {
-    table.dataset.as_ref().ok_or_else(|| {
-        let message = "expected dataset = \"/series/...\", or imported = true for values that come from a table";
-        locator.problem(&table.name, "response", message)
-    })
 }
 
 /// On which scale an analysis fits the values.

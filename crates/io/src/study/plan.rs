@@ -108,16 +108,10 @@ impl Study {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Plan {
     study: Study,
-    points: Points,
+    /// None where the points are those of a table.
+    design: Option<Design>,
     /// Runs in the order in which they are made, counted from 0 in that of the design.
     order: Vec<u32>,
-}
-
-/// Where the factors are set to.
-#[derive(Debug, Clone, PartialEq)]
-enum Points {
-    Design(Design),
-    File,
 }
 
 /// One run of a study.
@@ -138,34 +132,34 @@ pub struct Run {
 impl Plan {
     /// Makes the design of a study.
     pub fn new(study: Study) -> Result<Self, StudyError> {
-        let refuse = |message: String| {
+        let refused = |study: &Study, message: String| {
             StudyError(vec![Problem::new(&Origin::File(study.path.as_path().into()), "design", message)])
         };
-        let points = match &study.source {
-            DesignSource::File(_) => Points::File,
+        let design = match &study.source {
+            DesignSource::File(_) => None,
             DesignSource::Kind(kind, centre) => {
-                let kinds: Vec<_> = study.factors.iter().map(super::factor::Factor::kind).collect();
-                let design =
-                    design::design_with_centre(kind, *centre, &kinds).map_err(|error| refuse(error.to_string()))?;
+                let kinds: Vec<_> = study.factors.iter().map(Factor::kind).collect();
+                let design = design::design_with_centre(kind, *centre, &kinds);
+                let design = design.map_err(|error| refused(&study, error.to_string()))?;
                 let tests: Vec<_> = study.factors.iter().map(|factor| (factor, factor.has_value())).collect();
                 for point in 0..design.points() {
                     let mut pairs = tests.iter().zip(design.point(point));
                     if let Some(((factor, _), setting)) = pairs.find(|((_, has_value), setting)| !has_value(**setting))
                     {
                         let message = format!("\"{}\" has no value at {}", factor.name, place(*setting));
-                        return Err(refuse(message));
+                        return Err(refused(&study, message));
                     }
                 }
-                drop(tests);
-                Points::Design(design)
+                Some(design)
             }
         };
-        let mut plan = Self { study, points, order: Vec::new() };
-        let runs = u32::try_from(plan.runs()).map_err(|_| {
-            let message = format!("{} runs, expected at most {}", plan.runs(), u32::MAX);
-            StudyError(vec![Problem::new(&Origin::File(plan.study.path.as_path().into()), "design", message)])
-        })?;
-        plan.order = order(plan.study.order, plan.study.seed, runs);
+        let mut plan = Self { study, design, order: Vec::new() };
+        let runs = u32::try_from(plan.runs())
+            .map_err(|_| refused(&plan.study, format!("{} runs, expected at most {}", plan.runs(), u32::MAX)))?;
+        plan.order = (0..runs).collect();
+        if plan.study.order == Order::Random {
+            shuffle(&mut plan.order, plan.study.seed);
+        }
         Ok(plan)
     }
 
@@ -176,10 +170,9 @@ impl Plan {
 
     /// Number of points of the design.
     pub fn points(&self) -> usize {
-        match (&self.points, &self.study.source) {
-            (Points::Design(design), _) => design.points(),
-            (Points::File, DesignSource::File(points)) => points.len(),
-            (Points::File, DesignSource::Kind(..)) => 0,
+        match &self.study.source {
+            DesignSource::File(points) => points.len(),
+            DesignSource::Kind(..) => self.design.as_ref().map_or(0, Design::points),
         }
     }
 
@@ -195,10 +188,7 @@ impl Plan {
 
     /// Aliases, for designs that are a fraction.
     pub fn aliases(&self) -> Option<&Aliases> {
-        match &self.points {
-            Points::Design(design) => design.aliases(),
-            Points::File => None,
-        }
+        self.design.as_ref()?.aliases()
     }
 
     /// Numbers of the runs (from 1), in the order in which they are made.
@@ -211,13 +201,13 @@ impl Plan {
         let replicates = self.replicates();
         let (point, replicate) = ((number - 1) / replicates, (number - 1) % replicates);
         let factors = &self.study.factors;
-        let levels: Vec<Level> = match (&self.points, &self.study.source) {
-            (Points::Design(design), _) => {
+        let levels: Vec<Level> = match &self.study.source {
+            DesignSource::File(points) => points[point].clone(),
+            DesignSource::Kind(..) => {
+                let settings = self.design.iter().flat_map(|design| design.point(point));
                 // That every factor has a value at every point was seen when the plan was made.
-                factors.iter().zip(design.point(point)).filter_map(|(factor, setting)| factor.at(*setting)).collect()
+                factors.iter().zip(settings).filter_map(|(factor, setting)| factor.at(*setting)).collect()
             }
-            (Points::File, DesignSource::File(points)) => points[point].clone(),
-            (Points::File, DesignSource::Kind(..)) => Vec::new(),
         };
         let mut sets = self.study.sets.clone();
         for (factor, level) in factors.iter().zip(&levels) {
@@ -243,13 +233,4 @@ fn place(setting: Setting) -> String {
         Setting::Level(level) => format!("level {}", level + 1),
         Setting::Coded(coded) => format!("{coded} (where −1 and 1 are its ends)"),
     }
-}
-
-/// Runs in the order in which they are made.
-fn order(order: Order, seed: u64, runs: u32) -> Vec<u32> {
-    let mut numbers: Vec<u32> = (0..runs).collect();
-    if order == Order::Random {
-        shuffle(&mut numbers, seed);
-    }
-    numbers
 }

@@ -202,11 +202,10 @@ impl Outcome {
     /// The series of a run that has finished; none of one that failed, and none where it does not hold what it says.
     pub fn series(&self) -> Option<Series> {
         let Self::Finished { until, series, events, pulse_time, .. } = self else { return None };
-        let series = Series { pulse_time: *pulse_time, ..series.unpack()?.that_ended(*until) };
-        match events {
-            Some(events) => Some(series.with_events(events.unpack()?)),
-            None => Some(series),
-        }
+        let series = Series { until: *until, pulse_time: *pulse_time, ..series.unpack()? };
+        let Some(events) = events else { return Some(series) };
+        let Series { names, columns, .. } = events.unpack()?;
+        Some(Series { events: names.into_iter().zip(columns).collect(), ..series })
     }
 }
 
@@ -219,14 +218,14 @@ pub const CONTACT_TIME: &str = "contact_time";
 /// The series of a run: equally long columns, time being the first.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Series {
-    names: Vec<String>,
-    columns: Vec<Vec<f64>>,
-    /// Quantities of the events of the run, by their names.
-    events: Vec<(String, Vec<f64>)>,
+    pub(super) names: Vec<String>,
+    pub(super) columns: Vec<Vec<f64>>,
+    /// Quantities of the events of the run, by their names: equally long columns of another length.
+    pub(super) events: Vec<(String, Vec<f64>)>,
     /// The time, s, until which the run was to go on; 0 where nobody has said.
-    until: f64,
+    pub(super) until: f64,
     /// Time of a pulse of its contact area, s, at least, if that is known.
-    pulse_time: Option<f64>,
+    pub(super) pulse_time: Option<f64>,
 }
 
 /// Beginning of the dataset of a quantity of events, as against that of a series.
@@ -260,26 +259,6 @@ impl Series {
     pub fn values(&self, name: &str) -> Option<&[f64]> {
         let column = self.names.iter().position(|known| known == name)?;
         self.columns.get(column).map(Vec::as_slice)
-    }
-
-    /// The same with what is reported of the events of the run: equally long columns of another length.
-    pub fn with_events(self, events: Self) -> Self {
-        Self { events: events.names.into_iter().zip(events.columns).collect(), ..self }
-    }
-
-    /// The same of a run that was to go on until a time, s.
-    pub fn that_ended(self, until: f64) -> Self {
-        Self { until, ..self }
-    }
-
-    /// The time, s, until which the run was to go on; 0 where nobody has said.
-    pub fn until(&self) -> f64 {
-        self.until
-    }
-
-    /// Time of a pulse of its contact area, s, at least, if that is known.
-    pub fn pulse_time(&self) -> Option<f64> {
-        self.pulse_time
     }
 
     /// A quantity of the events, one value for each.

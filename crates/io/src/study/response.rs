@@ -102,15 +102,12 @@ impl Response {
         let (time, values) = (run.time(), run.values(&self.series).ok_or(NoAnswer::NotKept)?);
         match self.question {
             Question::At(at) => value_at(time, values, reached(run, at)?),
-            Question::Mean(..) | Question::MeanOfLastTenth
-                if self.is_of_contact_area() && self.integral(run).is_some() =>
-            {
-                let (from, to) = self.window(run)?;
-                Some(self.mean_of_contact_area(run, from, to).ok_or(NoAnswer::NoNumber)?.mean)
-            }
             Question::Mean(..) | Question::MeanOfLastTenth => {
                 let (from, to) = self.window(run)?;
-                mean(time, values, from, to)
+                match self.integral(run) {
+                    Some(integral) => mean_of_contact_area(run, integral, from, to).map(|found| found.mean),
+                    None => mean(time, values, from, to),
+                }
             }
             Question::Reaches(fraction) => return self.time_to(fraction, run, values),
             Question::End | Question::Event(_) | Question::Imported(_) | Question::Measured => values.last().copied(),
@@ -123,17 +120,17 @@ impl Response {
     fn time_to(&self, fraction: f64, run: &Series, values: &[f64]) -> Result<f64, NoAnswer> {
         let time = run.time();
         let samples = |integral| Cumulative { time, integral, revolutions: revolutions(run) };
-        if let Some(integral) = self.integral(run).filter(|_| self.is_of_contact_area()) {
+        if let Some(integral) = self.integral(run) {
             return Ok(match run.values(CONTACT_TIME) {
                 Some(contact_time) => time_to_in_contact(fraction, &samples(integral), contact_time)?,
-                None => time_to(fraction, &samples(integral), run.pulse_time())?,
+                None => time_to(fraction, &samples(integral), run.pulse_time)?,
             });
         }
         let (integral, known) = integral(time, values);
         if known.last().is_none_or(|known| *known == 0.0) {
             return Err(NoAnswer::NoNumber);
         }
-        let pulse_time = run.pulse_time().filter(|_| self.is_of_contact_area());
+        let pulse_time = run.pulse_time.filter(|_| self.is_of_contact_area());
         Ok(match values.iter().all(|value| value.is_finite()) {
             true => time_to(fraction, &samples(&integral), pulse_time)?,
             false => time_to_in_contact(fraction, &samples(&integral), &known)?,
@@ -159,24 +156,16 @@ impl Response {
     /// Standard error of the answer of a run, in the same unit, where it is known.
     pub fn error_of(&self, run: &Series) -> Option<f64> {
         let (from, to) = self.window(run).ok()?;
-        if self.has_error() { self.mean_of_contact_area(run, from, to)?.standard_error } else { None }
-    }
-
-    /// The integral knows every step, the samples only some. Of a run with a cycle it is the mean over the time in contact.
-    fn mean_of_contact_area(&self, run: &Series, from: f64, to: f64) -> Option<WindowMean> {
-        let samples = Cumulative { time: run.time(), integral: self.integral(run)?, revolutions: revolutions(run) };
-        match run.values(CONTACT_TIME) {
-            Some(contact_time) => samples.mean_in_contact(contact_time, from, to),
-            None => Some(samples.mean(from, to)?.of_pulses(run.pulse_time())),
-        }
+        mean_of_contact_area(run, self.integral(run)?, from, to)?.standard_error
     }
 
     fn is_of_contact_area(&self) -> bool {
         self.series == "contact_area" || self.series == "contact_area_mean"
     }
 
+    /// The integral of the contact area, if that is asked.
     fn integral<'a>(&self, run: &'a Series) -> Option<&'a [f64]> {
-        run.values(INTEGRAL)
+        run.values(INTEGRAL).filter(|_| self.is_of_contact_area())
     }
 
     /// From when to when a mean is taken, s.
@@ -216,6 +205,15 @@ impl Response {
     }
 }
 
+/// The integral knows every step, the samples only some. Of a run with a cycle it is the mean over the time in contact.
+fn mean_of_contact_area(run: &Series, integral: &[f64], from: f64, to: f64) -> Option<WindowMean> {
+    let samples = Cumulative { time: run.time(), integral, revolutions: revolutions(run) };
+    match run.values(CONTACT_TIME) {
+        Some(contact_time) => samples.mean_in_contact(contact_time, from, to),
+        None => Some(samples.mean(from, to)?.of_pulses(run.pulse_time)),
+    }
+}
+
 /// The SI units that responses have, each once: those of series and events, and what is measured besides.
 pub fn units() -> Vec<&'static str> {
     let series = quantities(EXTRAS).map(|quantity| quantity.unit);
@@ -250,7 +248,7 @@ fn of_event(values: &[f64], which: WhichEvent) -> Option<f64> {
 /// a step.
 fn reached(run: &Series, asked: f64) -> Result<f64, NoAnswer> {
     let last = *run.time().last().ok_or(NoAnswer::NotKept)?;
-    let end = run.until().max(last);
+    let end = run.until.max(last);
     // A number of steps may end one rounding before the time that is meant.
     if asked > end * (1.0 + 1e-9) { Err(NoAnswer::Ended { asked, end }) } else { Ok(asked.min(last)) }
 }

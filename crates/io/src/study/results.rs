@@ -179,37 +179,22 @@ pub fn table(plan: &Plan, collected: &Collected) -> Vec<Vec<String>> {
         State::Finished | State::Missing => String::new(),
     });
     for (at, factor) in study.factors.iter().enumerate() {
-        let levels: Option<Vec<&Level>> = collected.runs.iter().map(|run| run.run.levels.get(at)).collect();
-        let levels = levels.filter(|levels| levels.iter().all(|level| level.number.is_some()));
-        let is_quantity = !["", "1"].contains(&factor.unit()) && levels.is_some();
-        let stated = levels.and_then(|levels| stated_unit(&levels)).filter(|_| is_quantity);
+        let levels: Vec<&Level> = collected.runs.iter().map(|run| &run.run.levels[at]).collect();
+        let is_quantity = !["", "1"].contains(&factor.unit()) && levels.iter().all(|level| level.number.is_some());
+        let stated = stated_unit(&levels).filter(|_| is_quantity);
         let unit = stated.unwrap_or(if is_quantity { factor.unit() } else { "" });
         columns.push(column(&factor.name, "factor", unit, &|run| {
-            let level = run.run.levels.get(at);
-            let number = |level: &Level| if stated.is_some() { Some(level.split()?.0) } else { level.number };
-            level
-                .and_then(number)
-                .filter(|_| is_quantity)
-                .map_or_else(|| level.map_or_else(String::new, |level| level.label.clone()), exactly)
+            let level = &run.run.levels[at];
+            let number = if stated.is_some() { level.split().map(|(number, _)| number) } else { level.number };
+            number.filter(|_| is_quantity).map_or_else(|| level.label.clone(), exactly)
         }));
     }
     for (at, response) in study.responses.iter().enumerate().filter(|(_, response)| response.is_of_one_run()) {
-        let unit = response.unit(unit_of(&response.series));
-        columns.push(column(&response.name, "response", if unit == "1" { "" } else { unit }, &|run| {
-            run.responses
-                .get(at)
-                .filter(|response| !response.is_nan())
-                .map_or_else(String::new, |value| exactly(*value))
-        }));
+        let unit = Some(response.unit(unit_of(&response.series))).filter(|unit| *unit != "1").unwrap_or_default();
+        let number = |number: f64| if number.is_nan() { String::new() } else { exactly(number) };
+        columns.push(column(&response.name, "response", unit, &|run| number(run.responses[at])));
         if response.has_error() {
-            columns.push(column(
-                &error_name(&response.name),
-                "response",
-                if unit == "1" { "" } else { unit },
-                &|run| {
-                    run.errors.get(at).filter(|error| !error.is_nan()).map_or_else(String::new, |error| exactly(*error))
-                },
-            ));
+            columns.push(column(&error_name(&response.name), "response", unit, &|run| number(run.errors[at])));
         }
     }
     columns.push(error);

@@ -13,7 +13,7 @@ use crate::text::{odd_character, short, text_of_cell, too_long};
 const SHOWN: usize = 12;
 
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct ValueTable {
+struct ValueTable {
     path: PathBuf,
     heads: Vec<String>,
     rows: Vec<Row>,
@@ -21,15 +21,15 @@ pub(super) struct ValueTable {
 
 /// A line of it.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(super) struct Row {
+struct Row {
     /// Its number in the file, from 1.
-    pub(super) line: u64,
+    line: usize,
     cells: Vec<String>,
 }
 
 impl ValueTable {
     /// Reads a CSV file. Lines that begin with # are passed over.
-    pub(super) fn read(path: &Path) -> Result<Self, String> {
+    fn read(path: &Path) -> Result<Self, String> {
         Self::read_rows(path, limits::ROWS)
     }
 
@@ -63,17 +63,12 @@ impl ValueTable {
             if let Some((head, found)) = odd {
                 return Err(format!("{shown}:{line}: \"{head}\" has {found}; take it out"));
             }
-            rows.push(Row { line: line as u64, cells });
+            rows.push(Row { line, cells });
         }
         if rows.is_empty() {
             return Err(no_points());
         }
         Ok(Self { path: path.to_owned(), heads, rows })
-    }
-
-    /// Heads of the columns.
-    pub(super) fn heads(&self) -> &[String] {
-        &self.heads
     }
 
     /// Heads of the columns, in words; of many the first.
@@ -84,13 +79,8 @@ impl ValueTable {
         format!("{}{more}", shown.join(", "))
     }
 
-    /// The lines.
-    pub(super) fn rows(&self) -> &[Row] {
-        &self.rows
-    }
-
     /// Name and unit of a column: `load [N]` is `load` in `N`.
-    pub(super) fn named(&self, column: usize) -> (&str, &str) {
+    fn named(&self, column: usize) -> (&str, &str) {
         let head = self.heads[column].as_str();
         let with_unit = head.strip_suffix(']').and_then(|head| head.rsplit_once(" ["));
         with_unit.map_or((head, ""), |(name, unit)| (name.trim(), unit.trim()))
@@ -126,8 +116,8 @@ impl ValueTable {
     }
 
     /// Level of a factor in a line.
-    pub(super) fn level(&self, row: &Row, column: usize, factor: &Factor) -> Result<Level, String> {
-        let cell = self.cell(row, column);
+    fn level(&self, row: &Row, column: usize, factor: &Factor) -> Result<Level, String> {
+        let cell = row.cells[column].as_str();
         if cell.is_empty() {
             return Err(format!("{}: \"{}\" is empty", self.place(row), factor.name));
         }
@@ -140,13 +130,8 @@ impl ValueTable {
     }
 
     /// File and line of a row.
-    pub(super) fn place(&self, row: &Row) -> String {
+    fn place(&self, row: &Row) -> String {
         format!("{}:{}", self.path.display(), row.line)
-    }
-
-    /// The text of a cell.
-    pub(super) fn cell<'a>(&self, row: &'a Row, column: usize) -> &'a str {
-        row.cells.get(column).map_or("", String::as_str)
     }
 }
 
@@ -165,9 +150,9 @@ pub(super) fn read_points(path: &Path, factors: &[Factor], others: &[&str]) -> R
     let columns: Vec<usize> = factors.iter().zip(&columns).map(column).collect::<Result<_, _>>()?;
     let (known, others): (HashSet<usize>, HashSet<&str>) =
         (columns.iter().copied().collect(), others.iter().copied().collect());
-    let is_other = |at: usize| others.contains(table.heads()[at].as_str()) || others.contains(table.named(at).0);
-    if let Some(unknown) = (0..table.heads().len()).find(|at| !known.contains(at) && !is_other(*at)) {
-        return Err(format!("{shown}: column \"{}\" is not a factor of the study", short(&table.heads()[unknown])));
+    let is_other = |at: usize| others.contains(table.heads[at].as_str()) || others.contains(table.named(at).0);
+    if let Some(unknown) = (0..table.heads.len()).find(|at| !known.contains(at) && !is_other(*at)) {
+        return Err(format!("{shown}: column \"{}\" is not a factor of the study", short(&table.heads[unknown])));
     }
     let mut known: Vec<Spellings> = factors.iter().map(Spellings::of).collect();
     let point = |row: &Row| {
@@ -177,7 +162,7 @@ pub(super) fn read_points(path: &Path, factors: &[Factor], others: &[&str]) -> R
         };
         factors.iter().zip(&columns).zip(&mut known).map(level).collect::<Result<Vec<Level>, String>>()
     };
-    let points = table.rows().iter().map(point).collect::<Result<Points, String>>()?;
+    let points = table.rows.iter().map(point).collect::<Result<Points, String>>()?;
     for (at, factor) in factors.iter().enumerate().filter(|(_, factor)| factor.keys.is_empty()) {
         refuse_words(&table, factor, points.iter().map(|point| &point[at]))?;
     }
@@ -191,7 +176,7 @@ fn refuse_words<'a>(
     levels: impl Iterator<Item = &'a Level> + Clone,
 ) -> Result<(), String> {
     let is_number = |level: &Level| level.number.is_some_and(f64::is_finite);
-    let mut lines = table.rows().iter().zip(levels);
+    let mut lines = table.rows.iter().zip(levels);
     let number = lines.clone().find(|(_, level)| is_number(level));
     match (number, lines.find(|(_, level)| !is_number(level))) {
         (Some((beside, number)), Some((row, word))) => Err(format!(

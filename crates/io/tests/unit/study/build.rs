@@ -17,6 +17,7 @@ fn a_scene_is_told_from_a_study() {
 
 #[test]
 fn seeds_of_synthetic_and_of_extended_surfaces_are_seeds() {
+    let is_seed = |key: &str| schema::find(key).is_some_and(schema::Key::is_seed);
     assert!(
         ["disc.surface.synthetic.seed", "disc.prepare.extend_seed", "pin.prepare.extend_seed"]
             .iter()

@@ -28,7 +28,7 @@ fn a_record_tells_the_time_of_a_pulse() {
     let series = Series::new(vec!["time".into()], vec![vec![1.0]]).pack();
     let outcome = Outcome::Finished { steps: 1, until: 1.0, series, events: None, pulse_time: Some(24.9) };
     let back: Outcome = serde_json::from_str(&serde_json::to_string(&outcome).unwrap()).unwrap();
-    assert_eq!(back.series().unwrap().pulse_time(), Some(24.9));
+    assert_eq!(back.series().unwrap().pulse_time, Some(24.9));
 }
 
 #[test]

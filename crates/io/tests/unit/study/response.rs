@@ -9,7 +9,8 @@ use crate::study::record::Outcome;
 
 fn of_pool(question: Question, values: &[f64], until: f64) -> Result<f64, NoAnswer> {
     let time: Vec<f64> = (1..=values.len()).map(|at| at as f64).collect();
-    let run = Series::new(vec!["time".into(), "pool".into()], vec![time, values.to_vec()]).that_ended(until);
+    let pool = Series::new(vec!["time".into(), "pool".into()], vec![time, values.to_vec()]);
+    let run = Series { until, ..pool };
     Response { name: "r".into(), series: "pool".into(), question, transform: "none", stated_unit: None }.of(&run)
 }
 
@@ -132,8 +133,7 @@ fn means_of_the_contact_area_of_a_cycle_are_over_the_time_in_contact() {
 
 #[test]
 fn events_are_asked_by_number_and_in_the_mean() {
-    let columns = vec![vec![3.0, f64::NAN, 5.0]];
-    let run = Series::default().with_events(Series::new(vec!["worn".into()], columns));
+    let run = Series { events: vec![("worn".into(), vec![3.0, f64::NAN, 5.0])], ..Series::default() };
     let ask = |which| {
         let question = Question::Event(which);
         Response { name: "w".into(), series: "event/worn".into(), question, transform: "none", stated_unit: None }

@@ -21,7 +21,7 @@ fn columns_have_names_and_units() {
         table("load [kN],y [m2],pin.base.synthetic.fibre_fraction\n# measured\n0.005,1e-6,0.2\n,,0.3\n").unwrap();
     assert_eq!(table.factor_columns(&factors).unwrap(), [Some(0), Some(2)]);
     assert_eq!((table.named(1), table.named(2).1), (("y", "m2"), ""));
-    let [first, second] = table.rows() else { panic!("two lines") };
+    let [first, second] = table.rows.as_slice() else { panic!("two lines") };
     assert_eq!((first.line, second.line), (3, 4));
     assert_eq!(table.level(first, 0, &factors[0]).unwrap().number, Some(5.0));
     assert_eq!(table.level(first, 2, &factors[1]).unwrap().number, Some(0.2));
