@@ -12,121 +12,88 @@ use plateau_core::observe::running_in::pulse_time;
 use plateau_core::observe::{Quantity, Sample, Snapshot, quantities};
 use plateau_core::simulation::{Execution, Simulation};
 use plateau_io::scene::Scene;
-use plateau_io::study::Study;
 use plateau_io::study::record::{CONTACT_TIME, Identity, Outcome, REVOLUTIONS, Series};
 use plateau_io::study::response::Response;
 use plateau_io::surface::{self, Loaded, SurfaceError};
 
 use super::kept_file::KeptFile;
 use super::resolved::file_of;
-use super::shared_surfaces::SharedSurfaces;
+use super::runner::Runner;
 use super::under_way::{Ended, State, UnderWay};
 use crate::assembly::{Assembly, Sink};
-use crate::options::Program;
 use crate::recorder::header;
 
-/// Observer of one run of a study.
-pub trait Watcher: Sync {
-    /// Told how many steps were taken since the last time, about ten times a second; tells whether a signal ends the run.
-    fn steps(&self, count: u64) -> bool;
-
-    /// Told of the surfaces of a run before its first step.
-    fn surfaces(&self, scene: &Scene, loaded: &Loaded);
-
-    /// Told when a run does not begin at its beginning.
-    fn goes_on(&self, steps: u64);
-}
-
-/// A run that has ended.
-pub struct MadeRun {
-    /// How.
-    pub outcome: Outcome,
-    /// Identity of the run, by what was read of its files; none if it failed before that was known.
-    pub of: Option<Identity>,
-}
-
-/// Makes a run, unless a signal comes or its run file cannot be kept.
-pub fn make(request: &Request<'_>, watcher: &dyn Watcher, under_way: &mut UnderWay<'_>) -> Result<MadeRun, Ended> {
+/// Makes a run, unless a signal comes or its run file cannot be kept: how it ended, and its identity by what was read of its files; none if it
+/// failed before that was known.
+pub fn make(request: &Request<'_>, under_way: &mut UnderWay<'_>) -> Result<(Outcome, Option<Identity>), Ended> {
     let mut of = None;
     // A panic is a mistake of this program; it ends the run, not the study.
-    let made = catch_unwind(AssertUnwindSafe(|| request.finish(watcher, under_way, &mut of)));
+    let made = catch_unwind(AssertUnwindSafe(|| request.finish(under_way, &mut of)));
     let outcome = match made {
         Ok(Ok(outcome)) => outcome,
         Ok(Err(Ended::Failed(error))) => Outcome::Failed { error },
         Ok(Err(ended)) => return Err(ended),
         Err(_) => Outcome::Failed { error: "the program panicked: this is a mistake of the program".into() },
     };
-    Ok(MadeRun { outcome, of })
+    Ok((outcome, of))
 }
 
 /// A run that is to be made.
 pub struct Request<'a> {
-    /// Of which study.
-    pub study: &'a Study,
+    /// Who makes the runs of the study.
+    pub runner: &'a Runner<'a>,
+    /// Its number in the study.
+    pub number: usize,
     /// Its scene.
     pub scene: &'a Scene,
     /// Identity that the run is expected to have.
     pub expected: &'a Identity,
     /// Series that are kept besides those that the study wants.
     pub besides: &'a BTreeSet<String>,
-    /// Threads.
-    pub workers: usize,
-    /// The program.
-    pub program: &'a Program,
-    /// Its number in the study.
-    pub number: usize,
-    /// Tells whether its run file is kept.
-    pub keeps_file: bool,
-    /// Surfaces of other runs.
-    pub shared: &'a SharedSurfaces,
 }
 
 impl Request<'_> {
-    fn finish(
-        &self,
-        watcher: &dyn Watcher,
-        under_way: &mut UnderWay<'_>,
-        of: &mut Option<Identity>,
-    ) -> Result<Outcome, Ended> {
-        let found = self.shared.find(self.scene);
+    fn finish(&self, under_way: &mut UnderWay<'_>, of: &mut Option<Identity>) -> Result<Outcome, Ended> {
+        let Runner { plan, options, surfaces: shared, .. } = self.runner;
+        let found = shared.find(self.scene);
         let is_found = found.is_some();
-        let loaded = found.map_or_else(|| surfaces(self.scene, watcher, under_way).map(Arc::new), Ok)?;
-        watcher.surfaces(self.scene, &loaded);
+        let loaded = found.map_or_else(|| surfaces(self.scene, self.runner, under_way).map(Arc::new), Ok)?;
+        self.runner.look_at_surfaces(self.scene, &loaded);
         let read = of.insert(Identity::of(self.scene, &loaded.inputs));
         if !is_found {
-            self.shared.keep(self.scene, &loaded);
+            shared.keep(self.scene, &loaded);
         }
         if read != self.expected {
             under_way.is_another();
         }
         // Of what was read, which may not be what was expected.
-        let file = self.keeps_file.then(|| file_of(self.study, read, self.number, self.scene));
+        let file = options.keep_files.then(|| file_of(plan.study(), read, self.number, self.scene));
         let Loaded { surfaces, inputs, report, .. } = Arc::unwrap_or_clone(loaded);
         let mut scene = self.scene.clone();
         if file.is_none() {
             // A journal keeps no maps.
             scene.output.maps.clear();
         }
-        let execution = Execution { workers: self.workers, ..Execution::default() };
+        let execution = Execution { workers: options.workers, ..Execution::default() };
         let pulse_time = pulse_time(&scene.parameters, &surfaces.pin_base);
         let mut assembly = Assembly::new(&scene, surfaces, execution)?;
-        let mut recorder = Recorder::new(self, &scene, watcher, under_way);
+        let mut recorder = Recorder::new(self, &scene, under_way);
         let mut state = recorder.under_way.find(&scene.parameters.mesh, &recorder.program, &recorder.names());
         if let Some(path) = file {
-            let header = header(&scene, &assembly, self.program, &inputs, report);
+            let header = header(&scene, &assembly, &options.program, &inputs, report);
             recorder.file = Some(KeptFile::open(&path, &header, &mut state, recorder.under_way)?);
         }
         if let Some(state) = state {
             assembly.restore(&state.simulation)?;
             let steps = state.simulation.run.steps();
-            watcher.goes_on(steps);
+            self.runner.goes_on(steps);
             (recorder.columns, recorder.told) = (state.columns, steps);
         }
         let result = assembly.run_to_end(&mut recorder);
         recorder.file.take().map_or(Ok(()), |file| file.close(&result, &assembly))?;
         result?;
         let steps = assembly.simulation.steps_done();
-        recorder.watcher.steps(steps - recorder.told);
+        self.runner.steps(steps - recorder.told);
         let events = (!assembly.events().is_empty()).then(|| {
             let extras = scene.extras(false);
             let quantities = || event_quantities(&extras);
@@ -143,8 +110,8 @@ struct Recorder<'a, 'o> {
     disc_columns: usize,
     /// Time and simulated revolutions, then the series.
     columns: Vec<Vec<f64>>,
-    watcher: &'a dyn Watcher,
-    /// Steps that the watcher was told of.
+    runner: &'a Runner<'a>,
+    /// Steps that the runner was told of.
     told: u64,
     under_way: &'a mut UnderWay<'o>,
     program: String,
@@ -154,8 +121,8 @@ struct Recorder<'a, 'o> {
 }
 
 impl<'a, 'o> Recorder<'a, 'o> {
-    fn new(request: &Request<'_>, scene: &Scene, watcher: &'a dyn Watcher, under_way: &'a mut UnderWay<'o>) -> Self {
-        let study = request.study;
+    fn new(request: &'a Request<'_>, scene: &Scene, under_way: &'a mut UnderWay<'o>) -> Self {
+        let (runner, study) = (request.runner, request.runner.plan.study());
         let asked: BTreeSet<&str> = study.responses.iter().flat_map(Response::needs).collect();
         let is_kept = |name: &str| {
             let is_wanted = study.series.as_ref().is_none_or(|series| series.iter().any(|wanted| wanted == name));
@@ -171,10 +138,10 @@ impl<'a, 'o> Recorder<'a, 'o> {
             columns: vec![Vec::new(); 2 + kept.len()],
             kept,
             disc_columns,
-            watcher,
+            runner,
             told: 0,
             under_way,
-            program: request.program.build(),
+            program: runner.options.program.build(),
             file: None,
             is_stopped: false,
         }
@@ -208,7 +175,7 @@ impl Sink for Recorder<'_, '_> {
     fn look(&mut self, simulation: &Simulation, steps: u64) -> Result<u64, Ended> {
         self.under_way.touch();
         let done = simulation.steps_done();
-        self.is_stopped = self.watcher.steps(done - self.told);
+        self.is_stopped = self.runner.steps(done - self.told);
         self.told = done;
         self.file.as_mut().map_or(Ok(()), |file| file.writer.check())?;
         Ok(steps)
@@ -229,7 +196,7 @@ const SIGNAL_LOOK: Duration = Duration::from_millis(50);
 
 /// Reads or makes the surfaces of a scene. Nothing is written meanwhile, so after a signal nobody waits for them: the thread that makes
 /// them ends with the program. Other runs that are made at the same time keep what they have.
-fn surfaces(scene: &Scene, watcher: &dyn Watcher, under_way: &mut UnderWay<'_>) -> Result<Loaded, Ended> {
+fn surfaces(scene: &Scene, runner: &Runner<'_>, under_way: &mut UnderWay<'_>) -> Result<Loaded, Ended> {
     let (give, take) = channel();
     let its_own = scene.clone();
     let load = move || drop(give.send(surface::load(&its_own)));
@@ -239,7 +206,7 @@ fn surfaces(scene: &Scene, watcher: &dyn Watcher, under_way: &mut UnderWay<'_>) 
                 Ok(loaded) => break loaded,
                 Err(RecvTimeoutError::Timeout) => {
                     under_way.touch();
-                    if watcher.steps(0) {
+                    if runner.steps(0) {
                         return Err(Ended::Stopped);
                     }
                 }

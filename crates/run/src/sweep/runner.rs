@@ -26,7 +26,7 @@ use crate::job::{Agreement, Job, PieceEnd};
 use crate::options::Program;
 use crate::sweep::earlier::{is_whole, journal, journal_folder, refuse_unwritable, say_left_out, say_unkept};
 use crate::sweep::kept_file;
-use crate::sweep::make::{MadeRun, Request, Watcher, make};
+use crate::sweep::make::{Request, make};
 use crate::sweep::resolved::{Resolved, file_of, needed, note_short_tenths};
 use crate::sweep::shared_surfaces::SharedSurfaces;
 use crate::sweep::under_way::{self, Ended, Others, UnderWay};
@@ -86,21 +86,13 @@ pub struct Sweep<'a> {
     /// None in a process that decides nothing.
     resolved: Option<Resolved>,
     journal: Journal,
-    before: Before,
+    /// As far as it is known before runs are made.
+    summary: SweepSummary,
     pending: Vec<usize>,
 }
 
-/// Runs that ended before this process began.
-#[derive(Debug, Clone, Copy, Default)]
-struct Before {
-    finished: usize,
-    failed: usize,
-    /// Not made, for they repeat another run.
-    repeats: usize,
-}
-
 /// Result of a sweep: how many runs ended, when and where.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub struct SweepSummary {
     /// Title of the study.
     pub study: String,
@@ -162,14 +154,14 @@ impl<'a> Sweep<'a> {
         observer: &dyn SweepObserver,
     ) -> Result<Self, SweepError> {
         let study = plan.study();
-        let mut sweep = Self {
-            plan,
-            options,
-            resolved: None,
-            journal: Journal::default(),
-            before: Before::default(),
-            pending: Vec::new(),
+        let summary = SweepSummary {
+            study: study.title.clone(),
+            runs: plan.runs(),
+            results: study.directory.display().to_string(),
+            ..SweepSummary::default()
         };
+        let mut sweep =
+            Self { plan, options, resolved: None, journal: Journal::default(), summary, pending: Vec::new() };
         // The first rank decides what is to be done: another one may see the journal a moment later.
         if !job.leads() {
             return Ok(sweep);
@@ -193,18 +185,18 @@ impl<'a> Sweep<'a> {
         for number in sweep.numbers() {
             // It has the result of the run that it repeats.
             if resolved.is_repeat(number) {
-                sweep.before.repeats += 1;
+                sweep.summary.repeats += 1;
                 continue;
             }
             let run = &resolved.runs[&number];
             let retry = sweep.options.retry;
             match journal.get(&run.identity) {
-                Some(entry) if entry.failure.is_some() && !retry => sweep.before.failed += 1,
+                Some(entry) if entry.failure.is_some() && !retry => sweep.summary.failed_before += 1,
                 Some(entry)
                     if (is_whole(entry, &run.needed) || !retry)
                         && (!sweep.options.keep_files || kept_file::is_finished(&run.file)) =>
                 {
-                    sweep.before.finished += 1;
+                    sweep.summary.finished_before += 1;
                 }
                 _ => pending.push(number),
             }
@@ -242,8 +234,7 @@ impl<'a> Sweep<'a> {
     /// Makes the runs, together with the other processes of the job if there are any. A run that fails ends by itself; a signal leaves
     /// the state of each run, and the rest to the next sweep.
     pub fn run(self, job: &mut Job, observer: &dyn SweepObserver) -> Result<SweepSummary, SweepError> {
-        let Self { plan, options, resolved, journal, before, pending } = self;
-        let study = plan.study();
+        let Self { plan, options, resolved, journal, summary, pending } = self;
         let jobs = options.jobs.min(pending.len().max(1));
         let start = Instant::now();
         let runner = Runner::new(plan, resolved.as_ref(), journal, &options, observer);
@@ -257,20 +248,15 @@ impl<'a> Sweep<'a> {
         let own = Agreement { signal: runner.signal(), ..Agreement::default() };
         let signal = job.agree(own).map_err(SweepError::failed)?.signal;
         Ok(SweepSummary {
-            study: study.title.clone(),
-            runs: plan.runs(),
-            finished_before: before.finished,
-            failed_before: before.failed,
-            repeats: before.repeats,
             finished,
             failed,
             finished_elsewhere: elsewhere.0,
             failed_elsewhere: elsewhere.1,
             left: pending.len() - ended.min(pending.len()),
             wall_time,
-            results: study.directory.display().to_string(),
             jobs: if job.ranks() > 1 { job.ranks() } else { jobs },
             signal,
+            ..summary
         })
     }
 }
@@ -310,15 +296,16 @@ const LOOK: Duration = Duration::from_millis(200);
 
 /// State that the runs that are made at the same time share.
 pub struct Runner<'a> {
-    plan: &'a Plan,
-    options: &'a SweepOptions,
+    pub(super) plan: &'a Plan,
+    pub(super) options: &'a SweepOptions,
     observer: &'a dyn SweepObserver,
     /// The runs, when it was decided which of them are to be made; none in a process that decides nothing.
     decided: Option<&'a Resolved>,
     /// Time at which runs ended that failed before, by their identities; as far as is known of a process that decides nothing, none did.
     failed_before: HashMap<String, String>,
     digests: Digests,
-    surfaces: SharedSurfaces,
+    /// Surfaces that runs have in common.
+    pub(super) surfaces: SharedSurfaces,
     /// All results, as far as they were seen.
     journal: Mutex<Journal>,
     /// Locks of other processes.
@@ -357,22 +344,6 @@ fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-impl Watcher for Runner<'_> {
-    fn steps(&self, count: u64) -> bool {
-        self.observer.steps(count);
-        self.observer.asked_to_stop().is_some()
-    }
-
-    fn surfaces(&self, scene: &Scene, loaded: &Loaded) {
-        lock(&self.warnings).add(of_surfaces(scene, loaded));
-    }
-
-    fn goes_on(&self, steps: u64) {
-        self.observer.steps(steps);
-        self.observer.note(&format_args!("a run that was stopped goes on from step {steps}"));
-    }
-}
-
 impl<'a> Runner<'a> {
     /// For runs of a plan; `journal` has the results that are there.
     pub fn new(
@@ -403,6 +374,23 @@ impl<'a> Runner<'a> {
             unanswered: Mutex::default(),
             broken: Mutex::new(None),
         }
+    }
+
+    /// Told how many steps were taken since the last time, about ten times a second in each run; tells whether a signal ends it.
+    pub fn steps(&self, count: u64) -> bool {
+        self.observer.steps(count);
+        self.signal().is_some()
+    }
+
+    /// Told of the surfaces of a run before its first step.
+    pub fn look_at_surfaces(&self, scene: &Scene, loaded: &Loaded) {
+        lock(&self.warnings).add(of_surfaces(scene, loaded));
+    }
+
+    /// Told when a run does not begin at its beginning.
+    pub fn goes_on(&self, steps: u64) {
+        self.observer.steps(steps);
+        self.observer.note(&format_args!("a run that was stopped goes on from step {steps}"));
     }
 
     /// The signal that ended the runs, if there was one.
@@ -489,18 +477,8 @@ impl<'a> Runner<'a> {
         under_way.keep_every(scene.output.checkpoint_every);
         let start = Instant::now();
         let before = lock(&self.journal).get(&identity).map(|entry| entry.kept.clone()).unwrap_or_default();
-        let request = Request {
-            study,
-            scene: &scene,
-            expected: &expected,
-            besides: &before,
-            workers: self.options.workers,
-            program: &self.options.program,
-            number,
-            keeps_file: self.options.keep_files,
-            shared: &self.surfaces,
-        };
-        let MadeRun { outcome, of } = match make(&request, self, &mut under_way) {
+        let request = Request { runner: self, number, scene: &scene, expected: &expected, besides: &before };
+        let (outcome, of) = match make(&request, &mut under_way) {
             Ok(made) => made,
             Err(Ended::Unkept(error)) => {
                 return self.break_off(format_args!("{error}; what was finished before is safe"));
@@ -538,16 +516,14 @@ impl<'a> Runner<'a> {
         if record.identity != *expected.map_or(&identity, |run| &run.identity) {
             lock(&self.changed).insert(number);
         }
-        let mut made = lock(&self.made);
-        match failure {
-            None => made.finished += 1,
-            Some(_) => made.failed += 1,
-        }
-        drop(made);
         self.observer.run_ended(failure.is_some());
         match failure {
-            None => PieceEnd::Done,
+            None => {
+                lock(&self.made).finished += 1;
+                PieceEnd::Done
+            }
             Some(error) => {
+                lock(&self.made).failed += 1;
                 self.observer.warning(&format_args!("run {number} failed: {error}"));
                 PieceEnd::Failed
             }
