@@ -228,17 +228,11 @@ fn word_of(word: &str, text: &str, base: usize, factors: usize) -> Result<Produc
     for character in product.chars() {
         let bit = match index_of(character) {
             Some(index) if index < base => 1 << index,
-            Some(index) if index < factors => {
+            index => {
+                let is_added = index.is_some_and(|index| index < factors);
+                let why = if is_added { "an added factor itself" } else { "not a factor" };
                 let range = span(0, base);
-                return error(format!(
-                    "generator `{text}`: {character} is an added factor itself; expected base factors, {range}"
-                ));
-            }
-            _ => {
-                let range = span(0, base);
-                return error(format!(
-                    "generator `{text}`: {character} is not a factor; expected base factors, {range}"
-                ));
+                return error(format!("generator `{text}`: {character} is {why}; expected base factors, {range}"));
             }
         };
         if set & bit != 0 {
