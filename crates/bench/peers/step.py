@@ -1,12 +1,8 @@
 """The model (docs/model.md) as it is written in Python: loops that Numba compiles (loops.py).
 
-    step.py DIRECTORY
-
-reads scene.json and the surfaces from DIRECTORY, tells its versions, then answers requests, one JSON text a line:
-
-    {"do": "trace", "steps": N}     displacement, contact area and volume deposited so far after each of the next N steps
-    {"do": "write"}                 writes the heights to DIRECTORY
-    {"do": "advance", "steps": N}   makes N steps; the seconds that they took, the load evaluations of all steps so far
+Reads lines of JSON and answers each with one. The first is a case: a scene with its surfaces, and what our program found in its first
+steps, as pairs of a name and values. The answer has the versions, and how far what these loops find is from that. Each further line is
+a number of steps to make; the answer has the seconds that they took, and the load evaluations of a step, mean over all so far.
 
 For scenes with local debris and formation, explicit wear, a disc that does not wear, and build-ups with the properties of
 what they lie on. Fields are arrays (column, row); z grows from the disc
@@ -17,12 +13,16 @@ import math
 import platform
 import sys
 import time
-from pathlib import Path
 from typing import NamedTuple
 
 import numba
 import numpy as np
 from loops import step
+
+# Largest accepted difference over the largest value.
+TOLERANCE = 1e-10
+# What is compared after every step: names, and those of the fields of a simulation.
+TRACED = {"displacement": "displacement", "contact area": "contact_area", "deposited volume": "deposited"}
 
 
 class Fields(NamedTuple):
@@ -50,15 +50,14 @@ class Rules(NamedTuple):
 class Simulation:
     """A pin on a disc, and the step that advances them."""
 
-    def __init__(self, step, directory):
-        scene = json.loads((directory / "scene.json").read_text())
+    def __init__(self, scene):
         rows, columns, ring = scene["rows"], scene["pin_columns"], scene["disc_columns"]
-        z_p = np.fromfile(directory / "pin_height.f64", "<f8").reshape(columns, rows)
+        z_p = np.array(scene["pin_height"]).reshape(columns, rows)
         self.fields = Fields(
             z_p=z_p,
             b_p=z_p.copy(),
-            fibre=np.fromfile(directory / "pin_base.u8", "u1").reshape(columns, rows) == 1,
-            z_d=np.fromfile(directory / "disc_height.f64", "<f8").reshape(ring, rows),
+            fibre=np.array(scene["pin_is_fibre"]).reshape(columns, rows),
+            z_d=np.array(scene["disc_height"]).reshape(ring, rows),
             gap=np.empty_like(z_p),
             stiffness=np.empty_like(z_p),
         )
@@ -84,7 +83,6 @@ class Simulation:
             captured=scene["captured_fraction"],
             reference_height=float(self.fields.z_d.max()),
         )
-        self.step = step
         self.turned = 0
         self.displacement = math.nan
         self.contact_area = 0.0
@@ -93,7 +91,7 @@ class Simulation:
 
     def advance(self, steps):
         for _ in range(steps):
-            self.displacement, self.contact_area, deposited, evaluations = self.step(
+            self.displacement, self.contact_area, deposited, evaluations = step(
                 self.fields, self.rules, self.turned, self.displacement
             )
             self.turned += 1
@@ -101,32 +99,41 @@ class Simulation:
             self.evaluations += evaluations
 
 
-def answer(simulation, directory, request):
-    if request["do"] == "advance":
-        start = time.perf_counter()
-        simulation.advance(request["steps"])
-        return {"seconds": time.perf_counter() - start, "evaluations": simulation.evaluations}
-    if request["do"] == "trace":
-        trace = {"displacement": [], "contact_area": [], "deposited": []}
-        for _ in range(request["steps"]):
-            simulation.advance(1)
-            for name, values in trace.items():
-                values.append(float(getattr(simulation, name)))
-        return trace
-    if request["do"] == "write":
-        simulation.fields.z_d.tofile(directory / "disc_height_after.f64")
-        simulation.fields.z_p.tofile(directory / "pin_height_after.f64")
-        return {}
-    raise ValueError(f"unknown request {request}")
+def differences(simulation, ours):
+    """Makes the steps that ours are of: the largest difference over the largest value of each quantity, unless all its values are 0."""
+    theirs = {name: [] for name in TRACED}
+    for _ in range(len(dict(ours)["displacement"]) if ours else 0):
+        simulation.advance(1)
+        for name, field in TRACED.items():
+            theirs[name].append(getattr(simulation, field))
+    theirs["heights"] = np.concatenate([simulation.fields.z_d, simulation.fields.z_p]).ravel()
+
+    found = []
+    for quantity, expected in ours:
+        expected = np.array(expected)
+        difference = np.abs(theirs[quantity] - expected) / max(np.abs(expected).max(), sys.float_info.min)
+        # What is not a number is the largest, and no agreement either
+        worst = difference.argmax()
+        if not difference[worst] <= TOLERANCE:
+            sys.exit(
+                f"Numba loops: {quantity} {worst} is {theirs[quantity][worst]} and ours {expected[worst]}, which differ by more than "
+                f"{TOLERANCE} of the largest value; their times cannot be compared"
+            )
+        if expected.any():
+            found.append([quantity, difference[worst]])
+    return found
 
 
 def main():
-    directory = Path(sys.argv[1])
+    case = json.loads(sys.stdin.readline())
+    simulation = Simulation(case["scene"])
     versions = f"Python {platform.python_version()}, NumPy {np.__version__}, Numba {numba.__version__}"
-    simulation = Simulation(step, directory)
-    print(json.dumps({"versions": versions}), flush=True)
+    print(json.dumps({"versions": versions, "differences": differences(simulation, case["ours"])}), flush=True)
     for line in sys.stdin:
-        print(json.dumps(answer(simulation, directory, json.loads(line))), flush=True)
+        start = time.perf_counter()
+        simulation.advance(int(line))
+        seconds = time.perf_counter() - start
+        print(json.dumps({"seconds": seconds, "evaluations": simulation.evaluations / simulation.turned}), flush=True)
 
 
 if __name__ == "__main__":

@@ -1,9 +1,8 @@
 //! The same step in Python, as loops that Numba compiles, in a process that is told what to do line by line: timed beside ours after it has
-//! been found to compute the same.
+//! found that it computes the same.
 
 use std::error::Error;
 use std::fmt::Display;
-use std::fs;
 use std::io::{BufRead, BufReader, Write};
 use std::path::{Path, PathBuf};
 use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
@@ -12,12 +11,12 @@ use std::time::Duration;
 use plateau_core::engine::parts::Needs;
 use plateau_core::model::material::Material;
 use plateau_core::model::parameters::{DebrisRule, Integrator, Parameters};
-use plateau_core::observe::{Map, MapValues};
+use plateau_core::model::state::Base;
+use plateau_core::observe::Map;
 use plateau_core::simulation::Simulation;
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
 use serde_json::{Value, json};
-use tempfile::TempDir;
 
 use crate::case::{Case, repository};
 use crate::race::{Entry, Runner, race};
@@ -26,8 +25,6 @@ use crate::{Outcome, Session, of_file};
 
 /// Name of the peer.
 const PEER: &str = "Numba loops";
-/// Largest accepted difference over the largest value.
-const TOLERANCE: f64 = 1e-10;
 
 /// Time acceleration of a second comparison: build-ups are worn through in a step, which hardly happens at 1.
 const FAST: &str = "numerics.time_acceleration=1000";
@@ -47,20 +44,14 @@ pub fn peers(session: &Session) -> Outcome<Found> {
         );
     }
     // A scene that the peer does not compute is refused before anything is installed for it.
-    let fast = Reference::new(session.source.with([FAST.to_owned()]).case()?, EXACT)?;
-    let case = session.source.case()?;
-    let exact = Reference::new(case.clone(), EXACT)?;
-    let scene = Reference::new(case, TIMED)?;
+    let fast = Reference::new(session.source.with([FAST.to_owned()]).case()?)?;
+    let scene = Reference::new(session.source.case()?)?;
     let python = python()?;
-    let start = |reference: &Reference| Peer::start(&python, reference.folder.path());
 
-    let mut agreements = Vec::new();
-    for reference in [&fast, &exact] {
-        agreements.push(reference.agreement(&mut start(reference)?)?);
-    }
+    let agreements = vec![fast.agreement(&python)?, scene.agreement(&python)?];
+    let (mut peer, _) = Peer::start(&python, &json!({"scene": exported(&scene.case, TIMED), "ours": []}))?;
     // What is timed has made as many steps as ours.
-    let mut peer = start(&scene)?;
-    peer.trace(scene.steps)?;
+    peer.advance(scene.steps)?;
     let ours = Entry { name: "Plateau".into(), against: 0, mesh, workers: 1, runner: Box::new(scene.simulation) };
     let theirs = Entry { name: PEER.into(), against: 0, mesh, workers: 1, runner: Box::new(peer) };
     Ok((race(vec![ours, theirs], session.pace)?, agreements))
@@ -68,167 +59,94 @@ pub fn peers(session: &Session) -> Outcome<Found> {
 
 /// Our simulation from the start on, with which the peer is compared.
 struct Reference {
-    /// Folder where the peer finds the surfaces, and puts its own.
-    folder: TempDir,
     case: Case,
-    steps: usize,
-    trace: Trace,
-    /// Of disc and pin after the last step.
-    heights: Vec<f64>,
+    steps: u64,
+    /// What it was like after every step, and the heights of disc and pin after the last, each with its name.
+    found: Value,
     /// It, after the last step.
     simulation: Simulation,
 }
 
 impl Reference {
-    fn new(case: Case, load_tolerance: f64) -> Outcome<Self> {
-        let folder = tempfile::tempdir()?;
-        export(&case, load_tolerance, folder.path())?;
+    fn new(case: Case) -> Outcome<Self> {
+        refuse_unsupported(&case.parameters)?;
         let mut simulation = alone(&case)?;
         // More than a revolution, so that the pin meets columns that it has been on before.
-        let steps = case.parameters.mesh.disc_columns() + case.parameters.mesh.pin_columns();
-        let mut trace = Trace::default();
-        for step in 1..=steps as u64 {
+        let steps = (case.parameters.mesh.disc_columns() + case.parameters.mesh.pin_columns()) as u64;
+        let (mut displacement, mut contact_area, mut deposited) = (Vec::new(), Vec::new(), Vec::new());
+        for step in 1..=steps {
             simulation.advance_to(step)?;
             let sample = simulation.sample()?;
-            trace.displacement.push(sample.displacement);
-            trace.contact_area.push(sample.contact_area);
-            trace.deposited.push(sample.deposited_pin + sample.deposited_disc);
+            displacement.push(sample.displacement);
+            contact_area.push(sample.contact_area);
+            deposited.push(sample.deposited_pin + sample.deposited_disc);
         }
         let maps = simulation.snapshot(&[Map::DiscHeight, Map::PinHeight])?.maps;
-        let heights = maps.into_iter().filter_map(|(_, values)| match values {
-            MapValues::Float(heights) => Some(heights),
-            MapValues::Status(_) => None,
-        });
-        let heights = heights.flatten().collect();
-        Ok(Self { folder, case, steps, trace, heights, simulation })
+        let heights: Vec<f64> = maps.into_iter().flat_map(|(_, values)| values.into_numbers()).collect();
+        let found = json!([
+            ["displacement", displacement],
+            ["contact area", contact_area],
+            ["deposited volume", deposited],
+            ["heights", heights],
+        ]);
+        Ok(Self { case, steps, found, simulation })
     }
 
-    /// Compares the peer's first steps with ours, in a sentence.
-    fn agreement(&self, peer: &mut Peer) -> Outcome<String> {
+    /// Has the peer compare its first steps with ours, in a sentence.
+    fn agreement(&self, python: &Path) -> Outcome<String> {
         let (steps, acceleration) = (self.steps, self.case.parameters.time_acceleration);
         eprintln!("comparing {steps} steps with time acceleration {acceleration}: {PEER}");
-        let (ours, theirs) = (&self.trace, peer.trace(steps)?);
-        let heights = peer.heights(self.folder.path())?.concat();
-        let pairs = [
-            ("displacement", &ours.displacement, &theirs.displacement),
-            ("contact area", &ours.contact_area, &theirs.contact_area),
-            ("deposited volume", &ours.deposited, &theirs.deposited),
-            ("heights", &self.heights, &heights),
-        ];
-        let mut differences = Vec::new();
-        for (quantity, ours, theirs) in pairs {
-            let difference = compare(quantity, ours, theirs)?;
-            if ours.iter().any(|value| *value != 0.0) {
-                differences.push(format!("{quantity} {difference:.0e}"));
-            }
-        }
-        let differences = differences.join(", ");
+        let document = json!({"scene": exported(&self.case, EXACT), "ours": self.found});
+        let (_, Agreement { versions, differences }) = Peer::start(python, &document)?;
+        let differences = differences.iter().map(|(quantity, difference)| format!("{quantity} {difference:.0e}"));
         Ok(format!(
-            "{PEER} ({}) over {steps} steps at time acceleration {acceleration}: largest difference from ours over the largest value: \
-             {differences}.",
-            peer.versions
+            "{PEER} ({versions}) over {steps} steps at time acceleration {acceleration}: largest difference from ours over the largest \
+             value: {}.",
+            differences.collect::<Vec<_>>().join(", ")
         ))
     }
 }
 
-/// Largest difference over the largest value.
-fn compare(quantity: &str, ours: &[f64], theirs: &[f64]) -> Outcome<f64> {
-    if ours.len() != theirs.len() {
-        return Err(format!("{PEER}: found {} values of {quantity}, expected {}", theirs.len(), ours.len()).into());
-    }
-    let largest = ours.iter().fold(f64::MIN_POSITIVE, |largest, value| largest.max(value.abs()));
-    let mut difference = 0.0_f64;
-    for (index, (ours, theirs)) in ours.iter().zip(theirs).enumerate() {
-        let relative = (ours - theirs).abs() / largest;
-        // Not a number is no agreement either.
-        if relative.is_nan() || relative > TOLERANCE {
-            let differ = format!(
-                "{PEER}: {quantity} {index} is {theirs:e} and ours {ours:e}, which differ by more than {TOLERANCE:e} of the largest \
-                 value; their times cannot be compared"
-            );
-            return Err(differ.into());
-        }
-        difference = difference.max(relative);
-    }
-    Ok(difference)
-}
-
 /// The process.
-#[derive(Debug)]
-pub struct Peer {
-    /// Versions of Python and its packages.
-    pub versions: String,
+struct Peer {
     child: Child,
     requests: Option<ChildStdin>,
     answers: BufReader<ChildStdout>,
     load_evaluations_per_step: Option<f64>,
-    steps: u64,
 }
 
+/// How far the peer's steps are from ours.
 #[derive(Deserialize)]
-struct Greeting {
+struct Agreement {
+    /// Versions of Python and its packages.
     versions: String,
+    /// Largest difference over the largest value of each quantity.
+    differences: Vec<(String, f64)>,
 }
 
 #[derive(Deserialize)]
 struct Advanced {
     seconds: f64,
-    evaluations: u64,
+    evaluations: f64,
 }
-
-/// What a simulation did, step by step.
-#[derive(Debug, Default, Deserialize)]
-pub struct Trace {
-    /// δ after every step, m.
-    pub displacement: Vec<f64>,
-    /// Contact area of every step, m².
-    pub contact_area: Vec<f64>,
-    /// Debris compacted until after every step, m³.
-    pub deposited: Vec<f64>,
-}
-
-#[derive(Deserialize)]
-struct Nothing {}
 
 impl Peer {
-    /// Starts `python step.py DIRECTORY`.
-    pub fn start(python: &Path, directory: &Path) -> Outcome<Self> {
+    /// Starts `python step.py` with a case, of which it makes as many steps as it is given results of ours.
+    fn start(python: &Path, case: &Value) -> Outcome<(Self, Agreement)> {
         let program = repository().join("crates/bench/peers/step.py");
         let mut command = Command::new(python);
-        command.arg("-B").arg(program).arg(directory).stdin(Stdio::piped()).stdout(Stdio::piped());
+        command.arg("-B").arg(program).stdin(Stdio::piped()).stdout(Stdio::piped());
         let mut child = command.spawn().map_err(of_file(python))?;
         let (requests, answers) = (child.stdin.take(), child.stdout.take());
-        let answers = answers.ok_or_else(|| problem("it has no standard output"))?;
-        let (versions, answers) = (String::new(), BufReader::new(answers));
-        let mut peer = Self { versions, child, requests, answers, load_evaluations_per_step: None, steps: 0 };
-        peer.versions = peer.answer::<Greeting>()?.versions;
-        Ok(peer)
+        let answers = BufReader::new(answers.ok_or_else(|| problem("it has no standard output"))?);
+        let mut peer = Self { child, requests, answers, load_evaluations_per_step: None };
+        let agreement = peer.ask(case)?;
+        Ok((peer, agreement))
     }
 
-    /// What happens in the next steps.
-    pub fn trace(&mut self, steps: usize) -> Outcome<Trace> {
-        self.steps += steps as u64;
-        self.ask(&json!({"do": "trace", "steps": steps}))
-    }
-
-    /// Heights of disc and pin as they are now.
-    pub fn heights(&mut self, directory: &Path) -> Outcome<[Vec<f64>; 2]> {
-        self.ask::<Nothing>(&json!({"do": "write"}))?;
-        let read = |name| -> Outcome<Vec<f64>> {
-            let path = directory.join(name);
-            let bytes = fs::read(&path).map_err(of_file(&path))?;
-            Ok(bytes.as_chunks::<8>().0.iter().map(|bytes| f64::from_le_bytes(*bytes)).collect())
-        };
-        Ok([read("disc_height_after.f64")?, read("pin_height_after.f64")?])
-    }
-
-    fn ask<A: DeserializeOwned>(&mut self, request: &Value) -> Outcome<A> {
+    fn ask<A: DeserializeOwned>(&mut self, request: impl Display) -> Outcome<A> {
         let requests = self.requests.as_mut().ok_or_else(|| problem("it has no standard input"))?;
         writeln!(requests, "{request}").map_err(problem)?;
-        self.answer()
-    }
-
-    fn answer<A: DeserializeOwned>(&mut self) -> Outcome<A> {
         let mut line = String::new();
         match self.answers.read_line(&mut line) {
             Ok(0) => Err(problem("it ended, see above")),
@@ -240,10 +158,9 @@ impl Peer {
 
 impl Runner for Peer {
     fn advance(&mut self, steps: u64) -> Outcome<Duration> {
-        let advanced: Advanced = self.ask(&json!({"do": "advance", "steps": steps}))?;
-        self.steps += steps;
-        self.load_evaluations_per_step = Some(advanced.evaluations as f64 / self.steps as f64);
-        Ok(Duration::from_secs_f64(advanced.seconds))
+        let Advanced { seconds, evaluations } = self.ask(steps)?;
+        self.load_evaluations_per_step = Some(evaluations);
+        Ok(Duration::from_secs_f64(seconds))
     }
 
     fn load_evaluations_per_step(&self) -> Option<f64> {
@@ -264,7 +181,7 @@ fn problem(problem: impl Display) -> Box<dyn Error> {
 }
 
 /// A Python with Numba; installs it if need be.
-pub fn python() -> Outcome<PathBuf> {
+fn python() -> Outcome<PathBuf> {
     let script = repository().join("scripts/peers.sh");
     let output = Command::new("sh").arg(&script).stderr(Stdio::inherit()).output().map_err(of_file(&script))?;
     if !output.status.success() {
@@ -273,14 +190,12 @@ pub fn python() -> Outcome<PathBuf> {
     Ok(String::from_utf8_lossy(&output.stdout).trim_end().into())
 }
 
-/// Writes a case as step.py reads it, with the load tolerance of its solver.
-pub fn export(case: &Case, load_tolerance: f64, directory: &Path) -> Outcome<()> {
-    let Case { parameters, surfaces, .. } = case;
-    supported(parameters)?;
+/// A case as step.py reads it, with the load tolerance of its solver.
+fn exported(Case { parameters, surfaces, .. }: &Case, load_tolerance: f64) -> Value {
     let Parameters { mesh, materials, plateaus, .. } = parameters;
     let body = |material: &Material| json!({"youngs_modulus": material.youngs_modulus, "poisson_ratio": material.poisson_ratio});
     let half_width = 0.5 * mesh.row_height() * mesh.rows() as f64;
-    let scene = json!({
+    json!({
         "rows": mesh.rows(),
         "pin_columns": mesh.pin_columns(),
         "disc_columns": mesh.disc_columns(),
@@ -296,20 +211,14 @@ pub fn export(case: &Case, load_tolerance: f64, directory: &Path) -> Outcome<()>
         "load_tolerance": load_tolerance,
         "time_acceleration": parameters.time_acceleration,
         "captured_fraction": plateaus.captured_fraction,
-    });
-    let write = |name: &str, bytes: &[u8]| {
-        let path = directory.join(name);
-        fs::write(&path, bytes).map_err(of_file(&path))
-    };
-    let raw = |heights: &[f64]| heights.iter().flat_map(|height| height.to_le_bytes()).collect::<Vec<u8>>();
-    write("scene.json", scene.to_string().as_bytes())?;
-    write("disc_height.f64", &raw(&surfaces.disc_height))?;
-    write("pin_height.f64", &raw(&surfaces.pin_height))?;
-    Ok(write("pin_base.u8", &surfaces.pin_base.iter().map(|base| *base as u8).collect::<Vec<_>>())?)
+        "disc_height": surfaces.disc_height,
+        "pin_height": surfaces.pin_height,
+        "pin_is_fibre": surfaces.pin_base.iter().map(|base| *base == Base::Primary).collect::<Vec<_>>(),
+    })
 }
 
 /// The peer does what the paper's scene needs, and nothing else.
-fn supported(parameters: &Parameters) -> Outcome<()> {
+fn refuse_unsupported(parameters: &Parameters) -> Outcome<()> {
     let Needs { distinct, breaks, disc_wears, forms, transport, .. } = Needs::of(parameters);
     let rules = &parameters.plateaus;
     let unsupported = [
