@@ -68,8 +68,6 @@ impl Observer for MessageObserver<'_> {
         self.0.warn(message);
     }
 
-    fn note(&mut self, _message: &dyn Display) {}
-
     fn starts(&mut self, _name: &str, duration: f64) {
         self.0.set_end(duration);
     }
@@ -87,8 +85,6 @@ impl SweepObserver for Messages {
     fn warning(&self, message: &dyn Display) {
         self.warn(message);
     }
-
-    fn note(&self, _message: &dyn Display) {}
 
     fn steps(&self, count: u64) {
         let add = |bits| Some((f64::from_bits(bits) + count as f64).to_bits());

@@ -3,9 +3,6 @@
 use std::error::Error;
 
 use plateau_core::simulation::SimulationError;
-use plateau_io::run_file::checkpoint::CheckpointError;
-use plateau_io::scene::SceneError;
-use plateau_io::surface::SurfaceError;
 use plateau_run::sweep::SweepError;
 use plateau_run::{RunError, lacks_resources};
 use pyo3::prelude::*;
@@ -80,23 +77,5 @@ impl From<SimulationError> for Failure {
             }
             _ => Self::input(error),
         }
-    }
-}
-
-impl From<SceneError> for Failure {
-    fn from(error: SceneError) -> Self {
-        Self::input(error)
-    }
-}
-
-impl From<SurfaceError> for Failure {
-    fn from(error: SurfaceError) -> Self {
-        Self::input(error)
-    }
-}
-
-impl From<CheckpointError> for Failure {
-    fn from(error: CheckpointError) -> Self {
-        Self::input(error)
     }
 }

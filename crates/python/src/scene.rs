@@ -23,7 +23,7 @@ impl Scene {
         // A text is in no file that could be missing.
         let about = if text.is_some() { Vec::new() } else { vec![path.to_string_lossy()] };
         let about: Vec<&str> = about.iter().map(AsRef::as_ref).collect();
-        let mut scene = read.map_err(|error| Failure::from(error).raise(py, &about))?;
+        let mut scene = read.map_err(|error| Failure::input(error).raise(py, &about))?;
         scene.warnings.extend(plausibility::of_scene(&scene));
         Ok(Self(scene))
     }

@@ -55,7 +55,7 @@ impl Inner {
         }
         let mut observer = MessageObserver(messages);
         stiffness_warning(&scene.parameters).iter().for_each(|warning| observer.warning(warning));
-        let loaded = surface::load(&scene)?;
+        let loaded = surface::load(&scene).map_err(Failure::input)?;
         loaded.warnings().for_each(|warning| observer.warning(&warning));
         plausibility::of_surfaces(&scene, &loaded).iter().for_each(|warning| observer.warning(warning));
         let options = ExecutionOptions { engine, ..ExecutionOptions::default() };
@@ -171,7 +171,7 @@ impl Simulation {
         let sets: Vec<_> = workers.iter().map(|workers| format!("numerics.workers={workers}")).collect();
         let work = move |messages: &Messages| {
             let state = State::read(&path)?;
-            let scene = scenes::of_layers(Path::new("scene"), Some(&state.scene), &[&sets])?;
+            let scene = scenes::of_layers(Path::new("scene"), Some(&state.scene), &[&sets]).map_err(Failure::input)?;
             let mut inner = Inner::new(scene, state.simulation.run.engine(), messages)?;
             inner.restore(&state).map(|()| inner)
         };

@@ -41,7 +41,7 @@ impl State {
     /// Reads one that this program wrote.
     pub fn read(path: &Path) -> Result<Self, Failure> {
         let shown = path.display();
-        let found = checkpoint::read::<Self>(path, None)?;
+        let found = checkpoint::read::<Self>(path, None).map_err(Failure::input)?;
         let state = found.ok_or_else(|| Failure::input(format!("{shown}: there is no such state")))?;
         let here = program().build();
         if state.program == here {
