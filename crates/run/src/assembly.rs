@@ -18,7 +18,6 @@ use plateau_io::run_file::checkpoint::SimulationState;
 use plateau_io::scene::{OutputSettings, Scene};
 
 use crate::error::{InputError, RunError};
-use crate::job::Job;
 
 /// A scene ready to be simulated, or on its way between two steps. [`run_to_end`](Self::run_to_end) takes its steps.
 #[derive(Debug)]
@@ -50,22 +49,8 @@ impl Assembly {
         Self::made_by(Simulation::with_execution, scene, surfaces, execution)
     }
 
-    /// The simulation of a scene that all processes of a job carry out together.
-    pub(crate) fn on(
-        job: &Job,
-        scene: &Scene,
-        surfaces: InitialSurfaces,
-        execution: Execution,
-    ) -> Result<Self, RunError> {
-        Self::made_by(
-            |parameters, surfaces, execution| job.simulation(parameters, surfaces, execution),
-            scene,
-            surfaces,
-            execution,
-        )
-    }
-
-    fn made_by(
+    /// The same with simulations that `make` makes.
+    pub(crate) fn made_by(
         make: impl Fn(Parameters, InitialSurfaces, Execution) -> Result<Simulation, SimulationError>,
         scene: &Scene,
         surfaces: InitialSurfaces,

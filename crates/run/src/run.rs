@@ -97,7 +97,8 @@ impl Prepared {
         let Loaded { surfaces, inputs, report, .. } = loaded;
         report.iter().for_each(|step| observer.detail(step));
         let execution = decide(&scene, job.ranks(), &options.execution, &surfaces, observer)?;
-        let assembly = Assembly::on(job, &scene, surfaces, execution)?;
+        let on_job = |parameters, surfaces, execution| job.simulation(parameters, surfaces, execution);
+        let assembly = Assembly::made_by(on_job, &scene, surfaces, execution)?;
         assembly.idle().into_iter().for_each(|idle| observer.warning(&idle_warning(idle)));
         let header = header(&scene, &assembly, &options.program, &inputs, report);
         job.compare(

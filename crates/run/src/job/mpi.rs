@@ -63,7 +63,7 @@ impl Session {
     /// This rank's end of the queue of pieces of independent work.
     #[must_use]
     pub fn work_requests(&self) -> WorkRequests {
-        WorkRequests::new(Rc::clone(&self.job))
+        WorkRequests { job: Rc::clone(&self.job) }
     }
 
     /// Ends this rank's part in good order. Waits for the other ranks to do the same.
@@ -285,10 +285,6 @@ pub struct WorkRequests {
 }
 
 impl WorkRequests {
-    fn new(job: Rc<Job>) -> Self {
-        Self { job }
-    }
-
     /// On rank 0: who asks and with which word, if somebody does.
     pub fn request(&self) -> Option<(usize, u64)> {
         let anybody = self.job.world().any_process();

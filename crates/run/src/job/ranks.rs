@@ -1,18 +1,22 @@
-//! The ranks of an MPI job: all run the same scene, the first one writes the run file and talks to the user.
+//! The ranks of a job: all run the same scene, the first one writes the run file and talks to the user. Without MPI there is one.
 
-use std::thread;
-use std::time::Duration;
+#[cfg(feature = "mpi")]
+use std::{thread, time::Duration};
 
-use plateau_core::engine::comm::{CommError, Communicator as _};
+use plateau_core::engine::comm::{CommError, Communicator};
 use plateau_core::model::parameters::Parameters;
 use plateau_core::model::state::InitialSurfaces;
 use plateau_core::simulation::{Execution, Simulation, SimulationError};
 
 use crate::error::{InputError, RunError, RunFailure};
-use crate::job::mpi::{Mpi, Session};
+#[cfg(not(feature = "mpi"))]
+use crate::job::alone::Session;
+#[cfg(feature = "mpi")]
+use crate::job::mpi::Session;
 use crate::job::{Agreement, PieceEnd, WorkQueue};
 
 /// Between two looks for ranks that want work.
+#[cfg(feature = "mpi")]
 const PAUSE: Duration = Duration::from_millis(1);
 
 /// This process as one of the ranks.
@@ -20,14 +24,14 @@ const PAUSE: Duration = Duration::from_millis(1);
 pub struct Job {
     session: Session,
     /// For what the ranks settle between steps.
-    meeting: Mpi,
+    meeting: Box<dyn Communicator>,
 }
 
 impl Job {
     /// Joins the other ranks.
     pub fn start() -> Result<Self, RunFailure> {
         let session = Session::start()?;
-        let meeting = session.communicator();
+        let meeting = Box::new(session.communicator());
         Ok(Self { session, meeting })
     }
 
@@ -92,8 +96,7 @@ impl Job {
     }
 
     /// Does all pieces of independent work, each on one rank, until so many have failed. A single rank has as many threads
-    /// as there are `jobs`, several have one each; rank 0 hands the pieces out while a thread of its own works. Only its
-    /// `pieces` count: another rank may see what is to be done a moment later, when some of it is done.
+    /// as there are `jobs`, several have one each.
     pub fn share(
         &mut self,
         pieces: &[usize],
@@ -101,9 +104,18 @@ impl Job {
         most_failures: Option<usize>,
         work: &(dyn Fn(usize) -> PieceEnd + Sync),
     ) -> Result<(), RunFailure> {
-        if self.ranks() == 1 {
-            return Ok(WorkQueue::new(pieces, most_failures).share(jobs, work)?);
+        #[cfg(feature = "mpi")]
+        if self.ranks() > 1 {
+            self.share_among_ranks(WorkQueue::new(pieces, most_failures), work);
+            return Ok(());
         }
+        Ok(WorkQueue::new(pieces, most_failures).share(jobs, work)?)
+    }
+
+    /// The same for several ranks: rank 0 hands the pieces out while a thread of its own works. Only its queue counts: another rank may
+    /// see what is to be done a moment later, when some of it is done.
+    #[cfg(feature = "mpi")]
+    fn share_among_ranks(&self, queue: WorkQueue, work: &(dyn Fn(usize) -> PieceEnd + Sync)) {
         let requests = self.session.work_requests();
         if !self.leads() {
             let mut end = PieceEnd::Done;
@@ -116,9 +128,8 @@ impl Job {
             if end == PieceEnd::Stopped {
                 requests.ask(end as u64);
             }
-            return Ok(());
+            return;
         }
-        let queue = WorkQueue::new(pieces, most_failures);
         thread::scope(|scope| {
             let own = scope.spawn(|| queue.work(work));
             let mut given = vec![None; self.ranks()];
@@ -140,7 +151,6 @@ impl Job {
                 requests.answer(rank, piece);
             }
         });
-        Ok(())
     }
 
     /// The sums of two counts over all ranks.
