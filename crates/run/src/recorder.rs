@@ -7,14 +7,13 @@ use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
 use plateau_core::acceleration::scout::Idle;
-use plateau_core::engine::comm::CommError;
 use plateau_core::model::parameters::{Integrator, Parameters};
 use plateau_core::observe::{Sample, Snapshot};
 use plateau_core::simulation::{Engine, Simulation, SimulationError};
 use plateau_io::number;
 use plateau_io::plausibility::Recorded;
 use plateau_io::run_file::checkpoint::{self, RunState};
-use plateau_io::run_file::{Header, InputFile, RunFileError, RunWriter, Synced};
+use plateau_io::run_file::{Header, InputFile, RunWriter, Synced};
 use plateau_io::scene::Scene;
 
 use crate::assembly::{Assembly, Sink};
@@ -68,20 +67,8 @@ pub enum Interruption {
     Stopped(u8),
 }
 
-impl From<SimulationError> for Interruption {
-    fn from(error: SimulationError) -> Self {
-        Self::Failed(error.into())
-    }
-}
-
-impl From<RunFileError> for Interruption {
-    fn from(error: RunFileError) -> Self {
-        Self::Failed(error.into())
-    }
-}
-
-impl From<CommError> for Interruption {
-    fn from(error: CommError) -> Self {
+impl<Error: Into<RunFailure>> From<Error> for Interruption {
+    fn from(error: Error) -> Self {
         Self::Failed(error.into())
     }
 }

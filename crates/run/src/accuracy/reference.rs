@@ -78,10 +78,7 @@ pub fn read(path: &Path, scene: &Scene, inputs: &[(PathBuf, String)]) -> Result<
         return refused(format!("the reference {shown} is {}, expected a run that is finished", run.state().name()));
     }
     refuse_another_scene(&run, scene, inputs)?;
-    let numerics = |key: &str| run.scene().get("numerics").and_then(|numerics| numerics.get(key));
-    let time_acceleration =
-        numerics("time_acceleration").and_then(|value| value.as_float().or(value.as_integer().map(|m| m as f64)));
-    let Some(time_acceleration) = time_acceleration else {
+    let Some(time_acceleration) = run.given_acceleration() else {
         return refused(format!("the scene of the reference {shown} has no numerics.time_acceleration"));
     };
     let mut parameters = scene.parameters.clone();
