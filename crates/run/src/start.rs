@@ -10,7 +10,9 @@ use plateau_io::claim::Claim;
 use plateau_io::number;
 use plateau_io::process::{Writer, writer_of};
 use plateau_io::run_file::checkpoint::{self, RunState};
-use plateau_io::run_file::{Damage, Earlier, Header, ReadError, RunFile, RunFileError, RunWriter, State, keep, verify};
+use plateau_io::run_file::{
+    Damage, Earlier, Header, ReadError, RunFile, RunFileError, RunWriter, State, keep, names_beside, verify,
+};
 use plateau_io::scene::differences;
 use plateau_io::scene::schema::{self, Role};
 use plateau_io::temporary::Temporary;
@@ -255,8 +257,7 @@ impl Kept {
     /// Keeps a run file of so many samples as `RUN.before-resume`. Where a file of an earlier beginning of the same run has that name,
     /// the one with more samples is kept; what else has it stays, and another name is taken.
     pub fn of(path: &Path, samples: usize) -> io::Result<Self> {
-        for count in 1..=MOST {
-            let place = place(path, count);
+        for place in names_beside(path, "before-resume").take(MOST) {
             match samples_of_same(&place, path) {
                 // The name is not new: a file of before holds as much.
                 Some(there) if there >= samples => return Ok(Self { place, moved_from: None, stays: true }),
@@ -295,16 +296,6 @@ impl Drop for Kept {
             None => fs::remove_file(&self.place),
         };
     }
-}
-
-/// `run.h5.before-resume`, then `run.h5.before-resume-2` and so on.
-fn place(path: &Path, count: usize) -> PathBuf {
-    let mut name = path.file_name().unwrap_or_default().to_owned();
-    name.push(".before-resume");
-    if count > 1 {
-        name.push(format!("-{count}"));
-    }
-    path.with_file_name(name)
 }
 
 /// Samples in a file of the same scene, surfaces and program, which are the same as far as they go; none of another file.

@@ -115,12 +115,7 @@ pub fn ample_size(mesh: &Mesh) -> u64 {
 
 /// Paths of the checkpoints of a run file: the last, and the one before.
 pub fn paths(run_file: &Path) -> [PathBuf; 2] {
-    ["checkpoint", "checkpoint-before"].map(|ending| {
-        let mut name = run_file.file_name().unwrap_or_default().to_owned();
-        name.push(".");
-        name.push(ending);
-        run_file.with_file_name(name)
-    })
+    ["checkpoint", "checkpoint-before"].map(|ending| run_file.with_added_extension(ending))
 }
 
 /// Refuses what has the name of a checkpoint of a run file and is none. Such a file, or link, is replaced only where

@@ -35,7 +35,7 @@ pub use error::{ReadError, RunFileError};
 pub use header::{Earlier, End, Header, InputFile, State};
 pub use image::Image;
 pub use layout::{image_estimate, map_path, size_estimate};
-pub use output::{KeepError, check_output, keep, resolve};
+pub use output::{KeepError, check_output, keep, names_beside, resolve};
 pub use reader::{ContactArea, NoDrift};
 pub use reader::{RunFile, Series};
 pub use repair::{LeftOut, Repair, RepairError, is_healthy, last_writer, repair};

@@ -142,14 +142,16 @@ pub struct KeepError {
     pub error: io::Error,
 }
 
+/// Names beside a file: its own with an ending, such as `run.h5.before-repair`, then `run.h5.before-repair-2` and so on.
+pub fn names_beside(path: &Path, ending: &str) -> impl Iterator<Item = PathBuf> {
+    let first = path.with_added_extension(ending);
+    let others = (2..).map(move |number| path.with_added_extension(format!("{ending}-{number}")));
+    std::iter::once(first).chain(others)
+}
+
 /// Gives a file a second name, or where there are no links, copies it.
 pub fn keep(path: &Path) -> Result<PathBuf, KeepError> {
-    let name = path.file_name().unwrap_or_default().to_string_lossy();
-    let names = (1..).map(|number| match number {
-        1 => format!("{name}.before-repair"),
-        number => format!("{name}.before-repair-{number}"),
-    });
-    for copy in names.map(|name| path.with_file_name(name)) {
+    for copy in names_beside(path, "before-repair") {
         match fs::hard_link(path, &copy) {
             Err(error) if error.kind() == ErrorKind::AlreadyExists => {}
             Ok(()) => return Ok(copy),
