@@ -7,7 +7,7 @@ use std::path::Path;
 use std::time::{Duration, SystemTime};
 
 use hdf5::plist::file_create::LinkCreationOrder;
-use hdf5::{Dataset, Datatype, Extent, File, SimpleExtents};
+use hdf5::{Dataset, Datatype, Extent, File, Selection, SimpleExtents};
 use plateau_core::acceleration::Chosen;
 use plateau_core::model::mesh::Mesh;
 use plateau_core::observe::event::{EventRecord, event_quantities};
@@ -193,7 +193,7 @@ impl<'a> Layout<'a> {
         Statuses::of(self.mesh).write_flags(&dataset, false)?;
         self.dimensions.attach(&dataset, &dimensions)?;
         let bytes = stored_base(self.mesh, &header.pin_base);
-        Statuses::of(self.mesh).write_base(&dataset, &bytes, self.mesh.rows())?;
+        Statuses::of(self.mesh).write(&dataset, Selection::All, &bytes, self.mesh.rows())?;
         write_text(&dataset, DIGEST, &sha256_of(&bytes))?;
         self.file.flush()
     }

@@ -29,7 +29,7 @@ use plateau_core::observe::{Map, MapValues};
 use serde::Serialize;
 use sha2::{Digest, Sha256};
 
-use crate::hdf5_file::{self, in_words, text_of, write_text};
+use crate::hdf5_file::{self, in_words, text_of, texts_of, write_text};
 use crate::input::sha256_of;
 use crate::run_file::layout::{EVENT, MAP_TIME, PIN_BASE, TIME, event_path, map_path, series_path};
 use crate::run_file::reader::reason;
@@ -226,11 +226,7 @@ pub(super) fn texts(file: &File, attribute: &Attribute) -> hdf5::Result<Option<V
         return Ok(None);
     }
     let texts = match attribute.dtype()?.to_descriptor()? {
-        TypeDescriptor::VarLenUnicode => {
-            let texts = attribute.read_raw::<VarLenUnicode>()?;
-            // The bytes of a damaged file may be no text.
-            texts.iter().map(|text| String::from_utf8_lossy(text.as_bytes()).into_owned()).collect()
-        }
+        TypeDescriptor::VarLenUnicode => texts_of(attribute)?,
         TypeDescriptor::VarLenArray(_) => {
             let scales = attribute.read_raw::<VarLenArray<ObjectReference1>>()?;
             let scales = scales.iter().flat_map(|scales| scales.iter());

@@ -1,7 +1,7 @@
 //! Layout of a run file: paths, units and long names of its datasets, statuses as an HDF5 enumeration, chunks, and the largest size of
 //! a file.
 
-use hdf5::{Dataset, Datatype, H5Type};
+use hdf5::{Dataset, Datatype, H5Type, Selection};
 use ndarray::{ArrayView2, s};
 use plateau_core::model::material::Status;
 use plateau_core::model::mesh::Mesh;
@@ -250,24 +250,14 @@ impl Statuses {
         self.flags(map.on_disc()).0.last().copied().unwrap_or_default()
     }
 
-    /// Writes one map, given column by column, as a level of its dataset, which has it already.
-    pub(super) fn write_level(self, dataset: &Dataset, level: usize, values: &[u8], rows: usize) -> hdf5::Result<()> {
-        fn write<T: Stored>(dataset: &Dataset, level: usize, values: &[u8], rows: usize) -> hdf5::Result<()> {
+    /// Writes values, given column by column, into a part of a dataset, which has it already.
+    pub(super) fn write(self, dataset: &Dataset, part: Selection, values: &[u8], rows: usize) -> hdf5::Result<()> {
+        fn write<T: Stored>(dataset: &Dataset, part: Selection, values: &[u8], rows: usize) -> hdf5::Result<()> {
             let values = T::all(values)?;
-            dataset.write_slice(ArrayView2::from_shape((values.len() / rows, rows), &values)?, s![level, .., ..])
+            dataset.write_slice(ArrayView2::from_shape((values.len() / rows, rows), &values)?, part)
         }
         let write = if self.outlined { write::<OutlinedStatus> } else { write::<StoredStatus> };
-        write(dataset, level, values, rows)
-    }
-
-    /// Writes the base of a pin, given column by column.
-    pub(super) fn write_base(self, dataset: &Dataset, values: &[u8], rows: usize) -> hdf5::Result<()> {
-        fn write<T: Stored>(dataset: &Dataset, values: &[u8], rows: usize) -> hdf5::Result<()> {
-            let values = T::all(values)?;
-            dataset.write(ArrayView2::from_shape((values.len() / rows, rows), &values)?)
-        }
-        let write = if self.outlined { write::<OutlinedStatus> } else { write::<StoredStatus> };
-        write(dataset, values, rows)
+        write(dataset, part, values, rows)
     }
 
     /// Copies the maps of all moments into a dataset of their shape.

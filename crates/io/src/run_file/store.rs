@@ -146,7 +146,7 @@ impl Datasets {
                 }
                 Some((_, MapValues::Status(values))) => {
                     dataset.resize((level + 1, values.len() / self.rows, self.rows))?;
-                    self.statuses.write_level(dataset, level, values, self.rows)?;
+                    self.statuses.write(dataset, s![level, .., ..].try_into()?, values, self.rows)?;
                     sha256_of(values)
                 }
                 None => return Err(format!("the snapshot lacks {}", map.name()).into()),

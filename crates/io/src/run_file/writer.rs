@@ -54,12 +54,18 @@ impl RunWriter {
         let (give, given) = channel::bounded(1);
         let (sample_sender, samples) = channel::bounded(QUEUED_SAMPLES);
         let (snapshot_sender, snapshots) = channel::bounded(QUEUED_SNAPSHOTS);
-        let (sync_sender, syncs) = channel::bounded(1);
-        let (life, alive) = channel::bounded(0);
+        // A queue with bounds would keep the questions in it when the thread has ended, and who asked would wait for ever.
+        let (sync_sender, syncs) = channel::unbounded();
         let work = move || {
-            let _life: Sender<()> = life;
             // Nobody gives a file that could not be made.
-            append_until_closed(given.recv().map_err(|_| RunFileError::stopped())?, &samples, &snapshots, &syncs)
+            let mut store: Store = given.recv().map_err(|_| RunFileError::stopped())?;
+            match append_until_closed(&mut store, &samples, &snapshots, &syncs) {
+                Ok(()) => Ok(store),
+                Err(error) => {
+                    store.abandon();
+                    Err(error)
+                }
+            }
         };
         let thread = thread::Builder::new().name("run file".into()).spawn(work);
         let thread = thread.map_err(|error| {
@@ -73,7 +79,7 @@ impl RunWriter {
         Ok(Self {
             mesh: header.mesh.clone(),
             maps: header.maps.clone(),
-            queues: Some(Queues { samples: sample_sender, snapshots: snapshot_sender, syncs: sync_sender, alive }),
+            queues: Some(Queues { samples: sample_sender, snapshots: snapshot_sender, syncs: sync_sender }),
             thread: Some(thread),
             failure: None,
             waited: Duration::ZERO,
@@ -105,12 +111,11 @@ impl RunWriter {
     /// Asks for all that was sent so far to be handed to the disk.
     pub fn sync(&self) -> Synced {
         let (answer, answers) = channel::bounded(1);
-        let alive = self.queues.as_ref().map_or_else(|| channel::bounded(0).1, |queues| queues.alive.clone());
         if let Some(queues) = &self.queues {
             // Nobody receives any more where the writer has failed.
             let _ = queues.syncs.send(answer);
         }
-        Synced { answers, alive }
+        Synced { answers }
     }
 
     /// Sends a sample; readers see it within a second. Waits only when the queue is full.
@@ -203,8 +208,6 @@ struct Queues {
     samples: Sender<Sample>,
     snapshots: Sender<Snapshot>,
     syncs: Sender<Sender<Vec<Image>>>,
-    /// See [`Synced`].
-    alive: Receiver<()>,
 }
 
 /// Sends and adds to `waited` how long that took if the queue was full; false when nobody receives any more.
@@ -225,8 +228,6 @@ fn send<T>(queue: &Sender<T>, value: T, waited: &mut Duration) -> bool {
 #[derive(Debug)]
 pub struct Synced {
     answers: Receiver<Vec<Image>>,
-    /// Closed when the writer has ended. A question that it has not taken then stays in its queue, and is never answered.
-    alive: Receiver<()>,
 }
 
 impl Synced {
@@ -235,15 +236,12 @@ impl Synced {
         let (answer, answers) = channel::bounded(1);
         // There is room for it.
         let _ = answer.send(Vec::new());
-        Self { answers, alive: channel::never() }
+        Self { answers }
     }
 
     /// Waits for the answer: the image of the file as it is on the disk, if it is there; none of a file that is closed.
     pub fn wait(&self) -> Option<Vec<Image>> {
-        crossbeam::select! {
-            recv(self.answers) -> answer => answer.ok(),
-            recv(self.alive) -> _ => self.answers.try_recv().ok(),
-        }
+        self.answers.recv().ok()
     }
 }
 
@@ -256,21 +254,6 @@ const PAUSE: Duration = Duration::from_millis(2);
 
 /// Body of the thread: appends what arrives until both queues are closed and empty.
 fn append_until_closed(
-    mut store: Store,
-    samples: &Receiver<Sample>,
-    snapshots: &Receiver<Snapshot>,
-    syncs: &Receiver<Sender<Vec<Image>>>,
-) -> Result<Store, RunFileError> {
-    match append_all(&mut store, samples, snapshots, syncs) {
-        Ok(()) => Ok(store),
-        Err(error) => {
-            store.abandon();
-            Err(error)
-        }
-    }
-}
-
-fn append_all(
     store: &mut Store,
     samples: &Receiver<Sample>,
     snapshots: &Receiver<Snapshot>,
