@@ -178,10 +178,12 @@ fn length(text: &str) -> Result<f64, String> {
     if length.is_finite() { Ok(length) } else { Err("expected a finite length".to_owned()) }
 }
 
-/// The text, if it is a quantity of this dimension above 0.
-fn positive(text: &str, dimension: Dimension) -> Result<String, String> {
-    let value = units::parse(text, dimension)?;
-    if value > 0.0 && value.is_finite() { Ok(text.to_owned()) } else { Err("expected more than 0".to_owned()) }
+/// Gives a text if it is a quantity of this dimension above 0.
+fn positive(dimension: Dimension) -> impl Fn(&str) -> Result<String, String> + Clone {
+    move |text| {
+        let value = units::parse(text, dimension)?;
+        if value > 0.0 && value.is_finite() { Ok(text.to_owned()) } else { Err("expected more than 0".to_owned()) }
+    }
 }
 
 /// Arguments of `plateau run`.
@@ -374,29 +376,29 @@ pub struct NewArguments {
     #[arg(long, value_name = "FILE")]
     pub micrograph: Option<PathBuf>,
     /// Distance of the micrograph's pixels; what the file states unless given
-    #[arg(long, value_name = "LENGTH", allow_hyphen_values = true, requires = "micrograph", value_parser = positive_length)]
+    #[arg(long, value_name = "LENGTH", allow_hyphen_values = true, requires = "micrograph", value_parser = positive(Dimension::Length))]
     pub pixel: Option<String>,
     /// Width of the pin, along the radius
-    #[arg(long, value_name = "LENGTH", allow_hyphen_values = true, default_value = "4 mm", value_parser = positive_length)]
+    #[arg(long, value_name = "LENGTH", allow_hyphen_values = true, default_value = "4 mm", value_parser = positive(Dimension::Length))]
     pub pin_width: String,
     /// Length of the pin, along sliding
-    #[arg(long, value_name = "LENGTH", allow_hyphen_values = true, default_value = "8 mm", value_parser = positive_length)]
+    #[arg(long, value_name = "LENGTH", allow_hyphen_values = true, default_value = "8 mm", value_parser = positive(Dimension::Length))]
     pub pin_length: String,
     /// A round pin of this diameter
     #[arg(long, value_name = "LENGTH", allow_hyphen_values = true, conflicts_with_all = ["pin_width", "pin_length"],
-          value_parser = positive_length)]
+          value_parser = positive(Dimension::Length))]
     pub diameter: Option<String>,
     /// Radius at which the middle of the pin slides
-    #[arg(long, value_name = "LENGTH", allow_hyphen_values = true, default_value = "22 mm", value_parser = positive_length)]
+    #[arg(long, value_name = "LENGTH", allow_hyphen_values = true, default_value = "22 mm", value_parser = positive(Dimension::Length))]
     pub radius: String,
     /// Force on the pin
-    #[arg(long, value_name = "FORCE", allow_hyphen_values = true, default_value = "47 N", value_parser = force)]
+    #[arg(long, value_name = "FORCE", allow_hyphen_values = true, default_value = "47 N", value_parser = positive(Dimension::Force))]
     pub load: String,
     /// Rotational speed of the disc, or the sliding speed ("3 m/s") at --radius
     #[arg(long, value_name = "SPEED", allow_hyphen_values = true, default_value = "850 rpm", value_parser = speed)]
     pub speed: String,
     /// Time to simulate
-    #[arg(long, value_name = "TIME", allow_hyphen_values = true, default_value = "3000 s", value_parser = time)]
+    #[arg(long, value_name = "TIME", allow_hyphen_values = true, default_value = "3000 s", value_parser = positive(Dimension::Time))]
     pub duration: String,
     /// Replace the scene file if it exists
     #[arg(long)]
@@ -410,17 +412,9 @@ impl NewArguments {
     }
 }
 
-fn positive_length(text: &str) -> Result<String, String> {
-    positive(text, Dimension::Length)
-}
-
-fn force(text: &str) -> Result<String, String> {
-    positive(text, Dimension::Force)
-}
-
 fn speed(text: &str) -> Result<String, String> {
     let dimension = if is_sliding_speed(text) { Dimension::Speed } else { Dimension::RotationalSpeed };
-    positive(text, dimension).map_err(|error| match dimension {
+    positive(dimension)(text).map_err(|error| match dimension {
         Dimension::Speed => error,
         _ => format!("{error}, or a sliding speed such as \"3 m/s\""),
     })
@@ -429,10 +423,6 @@ fn speed(text: &str) -> Result<String, String> {
 /// Whether a speed is a length over a time.
 fn is_sliding_speed(text: &str) -> bool {
     units::parse(text, Dimension::Speed).is_ok()
-}
-
-fn time(text: &str) -> Result<String, String> {
-    positive(text, Dimension::Time)
 }
 
 /// Arguments of `plateau accuracy`.

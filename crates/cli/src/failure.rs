@@ -49,19 +49,19 @@ fn marked(text: &str, line: usize, column: usize) -> Option<String> {
     Some(format!("  {number} | {}\n  {blank} | {mark}^", shown.trim_end()))
 }
 
+/// Exit status of a run that failed.
+const RUN: u8 = 1;
+/// Exit status where the command line or an input is wrong.
+const INPUT: u8 = 2;
+/// Exit status of a run that a signal stopped, but for the signal's number, as shells have it.
+const STOPPED: u8 = 128;
+
 /// Reason why a command failed, with the exit status that tells whose fault it is.
 #[derive(Debug)]
-pub enum Failure {
-    /// The command line or an input is wrong: exit status 2.
-    Input(String),
-    /// The run failed: exit status 1.
-    Run(String),
-    /// A signal stopped the run: exit status 128 and the signal's number, as shells have it.
-    Stopped {
-        signal: u8,
-        /// State of the run that is left; a process that wrote nothing does not know.
-        message: Option<String>,
-    },
+pub struct Failure {
+    status: u8,
+    /// None where a signal stopped a process that wrote nothing.
+    message: Option<String>,
 }
 
 impl Failure {
@@ -74,12 +74,18 @@ impl Failure {
 
     /// As [`input`](Self::input), with a message of its own.
     pub fn because(error: &(dyn Error + 'static), message: impl fmt::Display) -> Self {
-        if lacks_resources(error) { Self::Run(message.to_string()) } else { Self::Input(message.to_string()) }
+        let status = if lacks_resources(error) { RUN } else { INPUT };
+        Self { status, message: Some(message.to_string()) }
     }
 
     /// A failed run.
     pub fn run(error: impl fmt::Display) -> Self {
-        Self::Run(error.to_string())
+        Self { status: RUN, message: Some(error.to_string()) }
+    }
+
+    /// A signal stopped the run; with the state that is left of it, which a process that wrote nothing does not know.
+    pub fn stopped(signal: u8, message: Option<String>) -> Self {
+        Self { status: STOPPED.saturating_add(signal), message }
     }
 
     /// A scene that cannot be used, with the lines that are wrong.
@@ -101,7 +107,7 @@ impl Failure {
             RunError::Failed(failure) => Self::run(failure),
             RunError::Stopped(stopped) => {
                 let message = (stopped.progress != Progress::Elsewhere).then(|| stopped.to_string());
-                Self::Stopped { signal: stopped.signal, message }
+                Self::stopped(stopped.signal, message)
             }
         }
     }
@@ -110,52 +116,40 @@ impl Failure {
     pub fn of_sweep(error: SweepError) -> Self {
         match error {
             SweepError::Study(error) => Self::of_study(error),
-            SweepError::Input(message) => Self::Input(message),
-            SweepError::Failed(message) => Self::Run(message),
+            SweepError::Input(message) => Self::input(message),
+            SweepError::Failed(message) => Self::run(message),
         }
     }
 
     /// The same failure, with what holds nevertheless.
     #[must_use]
     pub fn but(self, what: impl fmt::Display) -> Self {
-        match self {
-            Self::Input(message) => Self::Input(format!("{message}; {what}")),
-            Self::Run(message) => Self::Run(format!("{message}; {what}")),
-            stopped @ Self::Stopped { .. } => stopped,
+        match self.message {
+            Some(message) if self.status < STOPPED => Self { message: Some(format!("{message}; {what}")), ..self },
+            message => Self { message, ..self },
         }
     }
 
     /// The exit status.
     pub fn status(&self) -> u8 {
-        match self {
-            Self::Input(_) => 2,
-            Self::Run(_) => 1,
-            Self::Stopped { signal, .. } => 128_u8.saturating_add(*signal),
-        }
+        self.status
     }
 
     /// Says what happened on standard error.
     pub fn say(&self) {
-        if let Self::Input(message) | Self::Run(message) | Self::Stopped { message: Some(message), .. } = self {
-            message::error(message);
-        }
+        self.message.iter().for_each(message::error);
     }
 
     /// Says what happened on standard error and gives the exit status.
     pub fn report(self) -> ExitCode {
         self.say();
-        ExitCode::from(self.status())
+        ExitCode::from(self.status)
     }
 }
 
 impl fmt::Display for Failure {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Input(message) | Self::Run(message) | Self::Stopped { message: Some(message), .. } => {
-                f.write_str(message)
-            }
-            Self::Stopped { message: None, .. } => Ok(()),
-        }
+        f.write_str(self.message.as_deref().unwrap_or_default())
     }
 }
 
@@ -173,13 +167,13 @@ pub fn in_job(work: impl FnOnce(&mut Job) -> Result<(), Failure>) -> Result<(), 
         }
         // All ranks were stopped together. It is said while all are still there: the launcher ends the others as soon as one is
         // gone with a status other than 0.
-        Err(failure @ Failure::Stopped { signal, .. }) => {
+        Err(failure) if failure.status >= STOPPED => {
             failure.say();
             job.finish();
-            Err(Failure::Stopped { signal, message: None })
+            Err(Failure { message: None, ..failure })
         }
         Err(failure) => {
-            job.fail(failure.status(), || failure.say());
+            job.fail(failure.status, || failure.say());
             Err(failure)
         }
     }

@@ -4,7 +4,7 @@ use std::fmt;
 use std::io::{self, Write as _};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
-use console::{Style, StyledObject};
+use console::Style;
 use plateau_io::text::{shown, shown_message};
 
 static WARNINGS: AtomicBool = AtomicBool::new(true);
@@ -48,7 +48,8 @@ pub fn error(message: impl fmt::Display) {
 pub fn warning(message: impl fmt::Display) {
     COUNT.fetch_add(1, Ordering::Relaxed);
     if may_be_said() {
-        say(format_args!("plateau: {}", coloured("warning:", Style::new().yellow().bold())), message);
+        let word = Style::new().yellow().bold().for_stderr().apply_to("warning:");
+        say(format_args!("plateau: {word}"), message);
     }
 }
 
@@ -62,11 +63,6 @@ pub fn note(message: impl fmt::Display) {
     if may_be_said() {
         say("plateau:", message);
     }
-}
-
-/// A text in a style where standard error is a terminal that shows it.
-fn coloured(text: &str, style: Style) -> StyledObject<&str> {
-    style.for_stderr().apply_to(text)
 }
 
 fn may_be_said() -> bool {

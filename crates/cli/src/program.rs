@@ -1,7 +1,6 @@
 //! The program: which it is; its start, with the environment that libraries read when a process starts, and too little memory; and a panic,
 //! told in one line.
 
-use std::any::Any;
 use std::env;
 use std::os::unix::process::CommandExt;
 use std::panic::{self, AssertUnwindSafe};
@@ -90,7 +89,7 @@ pub fn catch_panics(work: impl FnOnce() -> ExitCode) -> ExitCode {
         panic::set_hook(Box::new(|panic| {
             let place =
                 panic.location().map_or_else(String::new, |place| format!(" at {}:{}", place.file(), place.line()));
-            message::error(in_words(&payload_text(panic.payload()), &place));
+            message::error(in_words(panic.payload_as_str().unwrap_or_default(), &place));
         }));
     }
     panic::catch_unwind(AssertUnwindSafe(work)).unwrap_or(ExitCode::FAILURE)
@@ -105,11 +104,6 @@ fn in_words(text: &str, place: &str) -> String {
         return format!("the system gives no more memory: allow more of it ({text})");
     }
     format!("the program panicked{place}: {text}: this is a mistake of the program, please report it with the command")
-}
-
-fn payload_text(payload: &(dyn Any + Send)) -> String {
-    let text = payload.downcast_ref::<&str>().map(|text| (*text).to_owned());
-    text.or_else(|| payload.downcast_ref::<String>().cloned()).unwrap_or_default()
 }
 
 #[cfg(test)]

@@ -28,7 +28,7 @@ const INTERVAL_OF_LINES: Duration = Duration::from_secs(60);
 
 /// Progress on standard error.
 #[derive(Debug)]
-pub struct Progress {
+struct Progress {
     bar: ProgressBar,
     visible: bool,
     /// Simulated time of the whole run, s.
@@ -39,7 +39,7 @@ pub struct Progress {
 
 impl Progress {
     /// That of so much simulated time (s) with the name of what is simulated, if it has one; to be seen or not.
-    pub fn new(duration: f64, name: &str, visible: bool) -> Self {
+    fn new(duration: f64, name: &str, visible: bool) -> Self {
         let visible = visible && !message::is_quiet();
         let bar = if visible { ProgressBar::new(PARTS) } else { ProgressBar::hidden() };
         if let Ok(style) = ProgressStyle::with_template("{prefix}{bar:28} {percent:>3} %  {msg}  {eta} left") {
@@ -53,7 +53,7 @@ impl Progress {
     }
 
     /// Shows how far the simulation is, if the last look was long enough ago.
-    pub fn show(&mut self, simulation: &Simulation) {
+    fn show(&mut self, simulation: &Simulation) {
         let is_line = self.bar.is_hidden();
         if !self.visible || self.looked.elapsed() < if is_line { INTERVAL_OF_LINES } else { INTERVAL } {
             return;
@@ -74,11 +74,6 @@ impl Progress {
             self.bar.set_message(state);
             self.bar.set_position((part * PARTS as f64) as u64);
         }
-    }
-
-    /// Takes the bar away.
-    pub fn finish(&self) {
-        self.bar.finish_and_clear();
     }
 }
 
@@ -177,7 +172,7 @@ impl Observer for Terminal {
     }
 
     fn ends(&mut self) {
-        self.progress.take().iter().for_each(Progress::finish);
+        self.progress.take().iter().for_each(|progress| progress.bar.finish_and_clear());
     }
 
     fn asked_to_stop(&mut self) -> Option<u8> {
@@ -233,7 +228,7 @@ impl Interrupt {
                 }
                 if let Some(signal) = noted(&signal) {
                     let message = || format!("stopped by {} before the first step", signal_in_words(signal));
-                    let stopped = Failure::Stopped { signal, message: speaks.then(message) };
+                    let stopped = Failure::stopped(signal, speaks.then(message));
                     stopped.say();
                     exit(stopped.status().into());
                 }

@@ -6,7 +6,6 @@ use std::path::PathBuf;
 use plateau_core::model::parameters::Integrator;
 use plateau_io::dataset_file::now;
 use plateau_io::number::{self, percent};
-use plateau_io::run_file::InputFile;
 use plateau_io::scene::Scene;
 use plateau_io::surface::{self, Loaded};
 use plateau_run::accuracy::{
@@ -63,14 +62,18 @@ fn measure_into(
     ladders.sort_unstable();
     ladders.dedup();
     let is_asked = |name: &&str| arguments.quantities.is_empty() || arguments.quantities.contains(name);
-    let making = Making {
-        scene: scene.resolved.clone(),
-        inputs: input_files(&scene, &loaded.inputs),
-        workers: execution.workers,
-        instruction_set: execution.instructions.name(),
-        budget: arguments.budget,
-        start_time,
-    };
+    let making = json!({
+        "program": program::name(),
+        "source_revision": program::REVISION,
+        "host": execution::host(),
+        "processor": execution::processor(),
+        "workers": execution.workers,
+        "instruction_set": execution.instructions.name(),
+        "budget": arguments.budget,
+        "start_time": start_time,
+        "inputs": input_files(&scene, &loaded.inputs),
+        "scene": scene.resolved,
+    });
     let wish = Wish {
         base: Base { path: arguments.scene.scene.clone(), sets: sets(&arguments.scene), scene },
         ladders,
@@ -84,7 +87,7 @@ fn measure_into(
     let Found { report, stopped } = measure(wish, &loaded.surfaces, execution, &mut terminal).map_err(failure)?;
 
     let state = if stopped.is_none() { "finished" } else { "interrupted" };
-    let document = json(&report, &making, state);
+    let document = json(&report, making, state);
     let [csv_file, json_file, drawings @ ..] = &places;
     let mut written = vec![csv_file, json_file];
     let force = arguments.force;
@@ -112,7 +115,7 @@ fn measure_into(
             let (runs, folder) = (report.rows.len(), arguments.output.display());
             let message =
                 format!("stopped by {}; {folder} has the {runs} runs that were done", signal_in_words(signal));
-            Err(Failure::Stopped { signal, message: Some(message) })
+            Err(Failure::stopped(signal, Some(message)))
         }
     }
 }
@@ -138,7 +141,7 @@ fn failure(error: AccuracyError) -> Failure {
         AccuracyError::Input(PlanError::Scene(error)) => Failure::of_scene(error),
         AccuracyError::Input(error) => Failure::input(error),
         AccuracyError::Run(error) => Failure::of(error),
-        AccuracyError::Stopped { signal, .. } => Failure::Stopped { signal, message: Some(error.to_string()) },
+        AccuracyError::Stopped { signal, .. } => Failure::stopped(signal, Some(error.to_string())),
         AccuracyError::Failed { .. } => Failure::run(error),
     }
 }
@@ -287,21 +290,6 @@ fn numbers(row: &Row, report: &Report) -> Vec<(String, f64)> {
     numbers
 }
 
-/// How the runs were made.
-#[derive(Debug, Clone)]
-struct Making {
-    /// The whole resolved scene.
-    scene: String,
-    /// Files that the scene reads.
-    inputs: Vec<InputFile>,
-    workers: usize,
-    instruction_set: &'static str,
-    /// Budget, s.
-    budget: f64,
-    /// When it was started.
-    start_time: String,
-}
-
 /// A line of names and one line for each row; what is not known is empty.
 fn csv(report: &Report) -> String {
     let lines = report.rows.iter().map(|row| {
@@ -317,8 +305,9 @@ fn number(value: f64) -> String {
     if value.is_nan() { String::new() } else { format!("{value:?}") }
 }
 
-/// One JSON document; what is not known is null. `state` is `finished`, or `interrupted` where not all runs were made.
-fn json(report: &Report, making: &Making, state: &str) -> String {
+/// One JSON document, with how the runs were made; what is not known is null. `state` is `finished`, or `interrupted` where not all were
+/// made.
+fn json(report: &Report, making: Value, state: &str) -> String {
     let (reference, made) = (&report.reference, &report.reference.provenance);
     let own = |name: &str, errors: [f64; COMPARED.len()]| {
         let named =
@@ -350,18 +339,11 @@ fn json(report: &Report, making: &Making, state: &str) -> String {
         "tolerance": report.tolerance,
         "advice": advice(report),
         "notes": report.notes,
-        "program": program::name(),
-        "source_revision": program::REVISION,
-        "host": execution::host(),
-        "processor": execution::processor(),
-        "workers": making.workers,
-        "instruction_set": making.instruction_set,
-        "budget": making.budget,
-        "start_time": making.start_time,
         "end_time": now(),
-        "inputs": making.inputs,
-        "scene": making.scene,
     });
+    if let (Some(document), Value::Object(making)) = (document.as_object_mut(), making) {
+        document.extend(making);
+    }
     if let Some(reference) = document["reference"].as_object_mut() {
         reference.extend(own("error", report.own.whole()));
         reference.extend(own("opening_error", report.own.opening));

@@ -306,7 +306,7 @@ impl CheckReport {
             number::short(self.step_time),
             if self.cycle.is_some() { " in the mean" } else { "" },
             number::short(self.revolutions),
-            number::short(self.cycle.as_ref().map_or(self.step_time * self.steps as f64, CycleReport::duration))
+            number::short(self.cycle.as_ref().map_or(self.step_time * self.steps as f64, |cycle| cycle.duration))
         );
         let told = if warnings == 0 {
             "none".to_owned()
@@ -402,11 +402,6 @@ impl CycleReport {
             steps_per_event: [steps().min().unwrap_or(0), steps().max().unwrap_or(0)],
             largest_acceleration_without_warning: cycle.largest_acceleration(until),
         })
-    }
-
-    /// Physical time of the run, s.
-    fn duration(&self) -> f64 {
-        self.duration
     }
 
     /// For the table of the run.

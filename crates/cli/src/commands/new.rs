@@ -39,7 +39,7 @@ pub fn new(arguments: &NewArguments) -> Result<(), Failure> {
     let path = &arguments.scene;
     let inputs: Vec<_> = arguments.disc.iter().chain(&arguments.micrograph).cloned().collect();
     output::check(path, arguments.force, &inputs)?;
-    let Written { text: draft, mut notes } = scene_text(arguments)?;
+    let (draft, mut notes) = scene_text(arguments)?;
     let of_text = |text: &str| scene::of_text(path, text).map_err(|error| refusal(arguments, &error));
     let mut text = draft.replace(BEYOND, "");
     let mut scene = of_text(&text)?;
@@ -66,14 +66,8 @@ pub fn new(arguments: &NewArguments) -> Result<(), Failure> {
     ))
 }
 
-/// A scene, and what of it should be known before it is run.
-struct Written {
-    text: String,
-    notes: Vec<String>,
-}
-
-/// The scene with the values of the command line in their places.
-fn scene_text(arguments: &NewArguments) -> Result<Written, Failure> {
+/// The scene with the values of the command line in their places, and what of it should be known before it is run.
+fn scene_text(arguments: &NewArguments) -> Result<(String, Vec<String>), Failure> {
     let NewArguments { scene, disc, pin_width, pin_length, diameter, radius, load, speed, duration, reading, .. } =
         arguments;
     let stem = scene.file_stem().unwrap_or_default().to_string_lossy();
@@ -128,7 +122,7 @@ fn scene_text(arguments: &NewArguments) -> Result<Written, Failure> {
         ("{run}", invocation::argument(&run)),
     ];
     let text = places.iter().fold(SCENE.to_owned(), |text, (place, value)| text.replace(place, value));
-    Ok(Written { text, notes })
+    Ok((text, notes))
 }
 
 /// The remark beside the speed: the same by the other key.
@@ -294,7 +288,7 @@ fn read_or_convert(
         Ok((path, measured, notes))
     };
     match surface::read(disc, &reading.options()) {
-        Err(reason) if reason.may_be_converted() && can_convert() => {
+        Err(reason) if reason.may_be_converted() && hand_over::answering(WORD).is_some() => {
             let path = converted(scene, disc, force)?;
             let notes = vec![format!("{}: converted to {}, which the scene names", disc.display(), path.display())];
             let found = surface::read(&path, &reading.options());
@@ -469,13 +463,8 @@ fn options(arguments: &NewArguments) -> [(&'static str, &'static str, &str); 6] 
 /// The word of the package that converts.
 const WORD: &str = "surface";
 
-/// Whether there is a package to convert with.
-pub fn can_convert() -> bool {
-    hand_over::answering(WORD).is_some()
-}
-
 /// Converts a file beside the scene: the file that is written.
-pub fn converted(scene: &Path, disc: &Path, force: bool) -> Result<PathBuf, Failure> {
+fn converted(scene: &Path, disc: &Path, force: bool) -> Result<PathBuf, Failure> {
     let name = Path::new(disc.file_name().unwrap_or_default()).with_extension("h5");
     let output = scene.with_file_name(name);
     let to = [OsStr::new("convert"), OsStr::new("--output"), output.as_os_str()];

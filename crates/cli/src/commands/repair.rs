@@ -36,7 +36,7 @@ pub fn repair(arguments: &RepairArguments) -> Result<(), Failure> {
         }
         if let Some(signal) = interrupt.signal() {
             let message = format!("stopped by {} after {}", signal_in_words(signal), path.display());
-            return Err(Failure::Stopped { signal, message: Some(message) });
+            return Err(Failure::stopped(signal, Some(message)));
         }
     }
     last.map_or(Ok(()), Err)

@@ -1,8 +1,6 @@
 //! Runs in words: what deserves to be said of run files that a command line names, the results of a run that is finished, and
 //! `plateau summary`, what the Python package asks of a run file that this program computes.
 
-use std::path::Path;
-
 use plateau_core::acceleration::Chosen;
 use plateau_core::observe::running_in::{Drift, NotDefined, RUN_IN, Trend};
 use plateau_core::observe::window_mean::{LEAST_PULSES, WindowMean};
@@ -15,13 +13,6 @@ use crate::arguments::SummaryArguments;
 use crate::failure::Failure;
 use crate::message;
 use crate::output::{list, print_json, table};
-
-/// Opens a run file; warns when it is not finished.
-fn open_run(path: &Path) -> Result<RunFile, Failure> {
-    let run = RunFile::open(path).map_err(Failure::input)?;
-    warn_of_unfinished(&run);
-    Ok(run)
-}
 
 /// Warns of a run that is not finished.
 pub fn warn_of_unfinished(run: &RunFile) {
@@ -89,7 +80,8 @@ struct Document {
 
 /// Prints it as JSON.
 pub fn summary(arguments: &SummaryArguments) -> Result<(), Failure> {
-    let run = open_run(&arguments.run)?;
+    let run = RunFile::open(&arguments.run).map_err(Failure::input)?;
+    warn_of_unfinished(&run);
     let found = run.contact_area().map_err(Failure::input)?;
     let filled = run.values("filled_fraction").map_err(Failure::input)?.and_then(|values| values.last().copied());
     let document = Document {

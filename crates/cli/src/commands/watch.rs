@@ -56,7 +56,7 @@ pub fn watch(arguments: &WatchArguments) -> Result<(), Failure> {
         let next = Instant::now() + INTERVAL.max(start.elapsed() * PART);
         while Instant::now() < next {
             if let Some(signal) = interrupt.signal() {
-                return Err(Failure::Stopped { signal, message: None });
+                return Err(Failure::stopped(signal, None));
             }
             thread::sleep(NAP);
         }

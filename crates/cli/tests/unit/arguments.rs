@@ -31,8 +31,8 @@ fn what_is_no_time_of_a_run_and_no_length_is_refused() {
     assert!(run_time("-1 s").unwrap_err().contains("before the start of a run"));
     assert_eq!(length(" 2 mm "), Ok(2e-3));
     assert!(length("2 s").unwrap_err().contains("expected a length"));
-    assert_eq!(positive("30 N", Dimension::Force).as_deref(), Ok("30 N"));
-    assert!(positive("0 N", Dimension::Force).unwrap_err().contains("more than 0"));
+    assert_eq!(positive(Dimension::Force)("30 N").as_deref(), Ok("30 N"));
+    assert!(positive(Dimension::Force)("0 N").unwrap_err().contains("more than 0"));
 }
 
 #[test]

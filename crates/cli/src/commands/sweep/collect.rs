@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use plateau_io::dataset_file::{Attribute, now};
 use plateau_io::study::journal::Journal;
 use plateau_io::study::plan::Plan;
-use plateau_io::study::results::{self, CollectError, Collected, State, is_results_table, table as table_of};
+use plateau_io::study::results::{self, Collected, State, is_results_table, table as table_of};
 use plateau_io::study::results_file::{finished, is_collected};
 use plateau_io::{input, limits, number, scene};
 use plateau_run::sweep::{Resolved, SceneWarnings, journal, note_short_tenths, of_questions, say_left_out, say_unkept};
@@ -43,7 +43,7 @@ pub fn collect(arguments: &CollectArguments) -> Result<(), Failure> {
             left_out.iter().map(|reason| format!("; {reason}")).collect::<String>()
         )));
     }
-    collected.write(&hdf5, true, &plan, attributes(&plan, &collected)?).map_err(failure)?;
+    collected.write(&hdf5, true, &plan, attributes(&plan, &collected)?).map_err(Failure::run)?;
     output::write_in_folder(&csv, csv_table(table_of(&plan, &collected)).as_bytes(), true)?;
     let summary = Summary {
         study: plan.study().title.clone(),
@@ -75,13 +75,13 @@ fn collected(plan: &Plan) -> Result<Found, Failure> {
     if plan.study().base.is_none() {
         // Each run is one of its own, for it was measured by itself.
         let numbers: Vec<String> = (1..=plan.runs()).map(|number| number.to_string()).collect();
-        let collected = Collected::new(plan, &numbers, &Journal::default()).map_err(failure)?;
+        let collected = Collected::new(plan, &numbers, &Journal::default()).map_err(Failure::run)?;
         return Ok(Found { collected, inputs, left_out: Vec::new() });
     }
     let resolved = Resolved::of(plan).map_err(Failure::of_sweep)?;
     note_short_tenths(plan.study(), &resolved.lengths(), &Messages);
     let (journal, identities) = (journal(plan.study()).map_err(Failure::of_sweep)?, resolved.identities());
-    let collected = Collected::new(plan, &identities, &journal).map_err(failure)?;
+    let collected = Collected::new(plan, &identities, &journal).map_err(Failure::run)?;
     let left_out = say_left_out(plan.study(), &resolved, &journal, &Messages);
     say_unkept(plan.study(), &resolved, &journal, false, &Messages);
     let mut unanswered = SceneWarnings::default();
@@ -91,10 +91,6 @@ fn collected(plan: &Plan) -> Result<Found, Failure> {
     unanswered.say("finished runs", &Messages);
     inputs.extend(resolved.files);
     Ok(Found { collected, inputs, left_out })
-}
-
-fn failure(error: CollectError) -> Failure {
-    Failure::run(error)
 }
 
 fn attributes(plan: &Plan, collected: &Collected) -> Result<Vec<(&'static str, Attribute)>, Failure> {

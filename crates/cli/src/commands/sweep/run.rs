@@ -74,8 +74,8 @@ fn run_study(arguments: &SweepRunArguments, job: &mut Job) -> Result<(), Failure
     if job.ranks() > 1 && arguments.cores.jobs.is_some() && job.leads() {
         message::warning("each rank makes one run at a time: --jobs has no effect");
     }
-    let progress = Progress::new(sweep.pending().len(), sweep.steps(), job.leads());
-    let summary = sweep.run(job, &Terminal { interrupt, progress }).map_err(Failure::of_sweep)?;
+    let terminal = Terminal::new(interrupt, sweep.pending().len(), sweep.steps(), job.leads());
+    let summary = sweep.run(job, &terminal).map_err(Failure::of_sweep)?;
     if job.leads() {
         print_summary(&summary, arguments)?;
     }
@@ -83,7 +83,7 @@ fn run_study(arguments: &SweepRunArguments, job: &mut Job) -> Result<(), Failure
         let message = || {
             format!("stopped by {}; {} runs are left, the same command goes on", signal_in_words(signal), summary.left)
         };
-        return Err(Failure::Stopped { signal, message: job.leads().then(message) });
+        return Err(Failure::stopped(signal, job.leads().then(message)));
     }
     match summary.failed + summary.failed_elsewhere + summary.failed_before {
         0 => Ok(()),
@@ -130,28 +130,56 @@ fn print_summary(summary: &SweepSummary, arguments: &SweepRunArguments) -> Resul
 /// Messages, a bar and signals while runs are made.
 struct Terminal {
     interrupt: Interrupt,
-    progress: Progress,
+    /// One bar for all runs, on standard error; silent where that is no terminal.
+    bar: ProgressBar,
+    runs: usize,
+    ended: AtomicU64,
+    failed: AtomicU64,
+}
+
+impl Terminal {
+    /// For so many runs with so many steps together.
+    fn new(interrupt: Interrupt, runs: usize, steps: u64, visible: bool) -> Self {
+        let bar = if visible && !message::is_quiet() { ProgressBar::new(steps) } else { ProgressBar::hidden() };
+        if let Ok(style) = ProgressStyle::with_template("{bar:28} {percent:>3} %  {msg}  {eta} left") {
+            bar.set_style(style);
+        }
+        if !bar.is_hidden() {
+            bar.enable_steady_tick(Duration::from_secs(1));
+        }
+        let terminal = Self { interrupt, bar, runs, ended: AtomicU64::new(0), failed: AtomicU64::new(0) };
+        terminal.show();
+        terminal
+    }
+
+    fn show(&self) {
+        let (ended, failed) = (self.ended.load(Ordering::Relaxed), self.failed.load(Ordering::Relaxed));
+        let failed = if failed > 0 { format!(", {failed} failed") } else { String::new() };
+        self.bar.set_message(format!("{ended} of {} runs{failed}", self.runs));
+    }
 }
 
 impl SweepObserver for Terminal {
     fn warning(&self, text: &dyn Display) {
-        self.progress.say(|| message::warning(text));
+        self.bar.suspend(|| message::warning(text));
     }
 
     fn note(&self, text: &dyn Display) {
-        self.progress.say(|| message::note(text));
+        self.bar.suspend(|| message::note(text));
     }
 
     fn steps(&self, count: u64) {
-        self.progress.steps(count);
+        self.bar.inc(count);
     }
 
     fn run_ended(&self, failed: bool) {
-        self.progress.ended(failed);
+        self.failed.fetch_add(failed.into(), Ordering::Relaxed);
+        self.ended.fetch_add(1, Ordering::Relaxed);
+        self.show();
     }
 
     fn ends(&self) {
-        self.progress.finish();
+        self.bar.finish_and_clear();
     }
 
     fn asked_to_stop(&self) -> Option<u8> {
@@ -160,59 +188,6 @@ impl SweepObserver for Terminal {
 
     fn retry_advice(&self, study: &Study) -> String {
         Messages.retry_advice(study)
-    }
-}
-
-/// One bar for all runs, on standard error; silent where that is no terminal.
-#[derive(Debug)]
-struct Progress {
-    bar: ProgressBar,
-    runs: usize,
-    ended: AtomicU64,
-    failed: AtomicU64,
-}
-
-impl Progress {
-    /// A bar for so many runs with so many steps together.
-    fn new(runs: usize, steps: u64, visible: bool) -> Self {
-        let bar = if visible && !message::is_quiet() { ProgressBar::new(steps) } else { ProgressBar::hidden() };
-        if let Ok(style) = ProgressStyle::with_template("{bar:28} {percent:>3} %  {msg}  {eta} left") {
-            bar.set_style(style);
-        }
-        if !bar.is_hidden() {
-            bar.enable_steady_tick(Duration::from_secs(1));
-        }
-        let progress = Self { bar, runs, ended: AtomicU64::new(0), failed: AtomicU64::new(0) };
-        progress.show();
-        progress
-    }
-
-    /// Steps were taken.
-    fn steps(&self, count: u64) {
-        self.bar.inc(count);
-    }
-
-    /// A run ended.
-    fn ended(&self, failed: bool) {
-        self.failed.fetch_add(failed.into(), Ordering::Relaxed);
-        self.ended.fetch_add(1, Ordering::Relaxed);
-        self.show();
-    }
-
-    fn show(&self) {
-        let (ended, failed) = (self.ended.load(Ordering::Relaxed), self.failed.load(Ordering::Relaxed));
-        let failed = if failed > 0 { format!(", {failed} failed") } else { String::new() };
-        self.bar.set_message(format!("{ended} of {} runs{failed}", self.runs));
-    }
-
-    /// Says something above the bar.
-    fn say(&self, text: impl FnOnce()) {
-        self.bar.suspend(text);
-    }
-
-    /// Takes the bar away.
-    fn finish(&self) {
-        self.bar.finish_and_clear();
     }
 }
 
