@@ -4,23 +4,15 @@ import os
 import pathlib
 import re
 import subprocess
-import sys
-import tempfile
-import unittest
+
+from checkout import PROGRAM, ROOT, Folder, program, python
 
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
-PROGRAM = os.environ.get("PLATEAU_PROGRAM", str(ROOT / "plateau"))
-QUICK = str(ROOT / "data" / "scenes" / "quick.toml")
-
-
-class Guide(unittest.TestCase):
+class Guide(Folder):
     """A folder that looks like a clone, and in it the folder ``own``, in which commands and Python of the guide run."""
 
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
+        super().setUp()
         (self.folder / "data").symlink_to(ROOT / "data")
         (self.folder / "plateau").symlink_to(pathlib.Path(PROGRAM).resolve())
         self.own = self.folder / "own"
@@ -32,18 +24,14 @@ class Guide(unittest.TestCase):
             (self.own / name).symlink_to(f"../{name}")
 
     def plateau(self, *arguments):
-        done = subprocess.run([PROGRAM, *arguments], cwd=self.own, capture_output=True, text=True, timeout=300)
-        self.assertEqual(done.returncode, 0, done.stderr)
+        program(*arguments, cwd=self.own)
 
     def run_blocks(self, document):
         """Runs the Python of a document as a notebook does, all of it one after the other, with the package installed."""
         text = (ROOT / "docs" / document).read_text()
         blocks = re.findall(r"^```python\n(.*?)^```$", text, re.MULTILINE | re.DOTALL)
         self.assertTrue(blocks, document)
-        environment = {**os.environ, "MPLBACKEND": "agg", "PYTHONPATH": str(ROOT / "python"), "PLATEAU_PROGRAM": PROGRAM}
-        command = [sys.executable, "-c", "\n".join(blocks)]
-        done = subprocess.run(command, cwd=self.own, env=environment, capture_output=True, text=True, timeout=600)
-        self.assertEqual((done.returncode, done.stderr), (0, ""), document)
+        python("\n".join(blocks), cwd=self.own)
 
     def walk(self, document, warns=False):
         """Runs the shell blocks of a document, one after the other, in the folder ``own``, or in that of a clone if they make it; gives what

@@ -1,18 +1,12 @@
 """Scenes and a study for the tests of the Python package, small enough for the program without optimisations."""
 
-import os
+import contextlib
 import pathlib
-import sys
 import tempfile
 import unittest
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
-# As of a checkout that is not installed; the program is the one that the tests are told.
-sys.path.insert(0, str(ROOT / "python"))
-os.environ.setdefault("PLATEAU_PROGRAM", str(ROOT / "plateau"))
-os.environ["MPLBACKEND"] = "agg"
+from checkout import QUICK
 
-QUICK = ROOT / "data" / "scenes" / "quick.toml"
 SHORT = {"operation.duration": "20 s", "output.maps_at": ["0 s", "10 s"]}
 # A fifth of a second for a pulse of the contact area, in place of 25 s.
 PULSES = {"materials.pin_resin.wear_height": "0.04 um"}
@@ -42,8 +36,6 @@ class InFolder(unittest.TestCase):
 
     @classmethod
     def setUpClass(cls):
-        folder = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(folder.cleanup)
-        cls.addClassCleanup(os.chdir, os.getcwd())
-        os.chdir(folder.name)
+        folder = cls.enterClassContext(tempfile.TemporaryDirectory())
+        cls.enterClassContext(contextlib.chdir(folder))
         pathlib.Path("quick.toml").symlink_to(QUICK)

@@ -1,22 +1,17 @@
 """The contact temperature map: what the program writes, and what its two simplifications cost (docs/drive.md)."""
 
 import math
-import os
 import re
-import subprocess
-import tempfile
 import tomllib
 import unittest
-from pathlib import Path
 
 import h5py
 import numpy as np
 import small_scenes
+from checkout import ROOT, Folder, changed, program
 from heat_chain import Chain, disc_of, quantity, resistance
 from moving_source import Disc, History, Substance, bare_rise_of_waves, rise, rise_of_waves
 
-ROOT = Path(__file__).resolve().parents[2]
-PROGRAM = os.environ.get("PLATEAU_PROGRAM", str(ROOT / "plateau"))
 SCENES = ROOT / "data" / "scenes"
 HOT = tomllib.loads((SCENES / "cermet-hot.toml").read_text())
 IRON = Substance(50, 7200, 500)
@@ -25,12 +20,8 @@ CERMET = Substance(15, 13500, 250)
 
 def plateau_run(folder, scene, changes=()):
     """Runs a scene in a folder; the path of the run file."""
-    out = Path(folder) / "run.h5"
-    settings = [part for change in changes for part in ("--set", change)]
-    command = [PROGRAM, "run", scene, "-o", out, "--force", "--workers", "1", *settings]
-    done = subprocess.run(command, capture_output=True, text=True, timeout=300)
-    if done.returncode:
-        raise AssertionError(done.stderr)
+    out = folder / "run.h5"
+    program("run", scene, "-o", out, "--force", "--workers", "1", *changed(*changes))
     return out
 
 
@@ -48,13 +39,6 @@ class Mesh:
         self.area = (outer**2 - inner**2) / 2 * self.angle * self.columns
         self.cell = (self.mean_radius * self.angle, (outer - inner) / self.rows)
         self.radius = inner + (np.arange(self.rows) + 0.5) * self.cell[1]
-
-
-class Folder(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = folder.name
 
 
 class ClosedForms(unittest.TestCase):
@@ -167,7 +151,7 @@ class Program(Folder):
             "numerics": {"time_acceleration": acceleration},
             "output": {"sample_every_steps": columns, "contact_temperature": True},
         }
-        path = Path(self.folder) / "scene.toml"
+        path = self.folder / "scene.toml"
         path.write_text("\n".join(small_scenes.lines(scene)) + "\n")
         with h5py.File(plateau_run(self.folder, path)) as run:
             series = {name: values[()] for name, values in run["series"].items()}

@@ -2,17 +2,13 @@
 
 import hashlib
 import json
-import os
-import pathlib
 import struct
-import subprocess
-import tempfile
 import unittest
 
 import h5py
 import numpy
+from checkout import QUICK, Folder, called, changed, program
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
 OF_THE_EXECUTION = {"decomposition", "host", "instruction_set", "start_time", "end_time", "workers", "wall_time"}
 DIGESTS = {"attributes_sha256", "execution_sha256"}
 
@@ -71,28 +67,22 @@ def lines(file, path, thing):
             yield from lines(file, path.rstrip("/") + "/" + name, thing[name])
 
 
-class Digests(unittest.TestCase):
+class Digests(Folder):
     def test_digests_are_those_of_the_values(self):
-        with tempfile.TemporaryDirectory() as folder:
-            path = pathlib.Path(folder) / "run.h5"
-            scene = ROOT / "data" / "scenes" / "quick.toml"
-            maps = 'output.maps_at=["0 s", "20 s"]'
-            subprocess.run(
-                [os.environ["PLATEAU_PROGRAM"], "run", scene, "-o", path, "--set", maps], check=True, capture_output=True
-            )
-            with h5py.File(path) as file:
-                self.check(file)
-            self.check_verdict(path, "intact", True)
-            # As earlier programs left it.
-            with h5py.File(path, "r+") as file:
-                for name in ["numbers_sha256", "execution_sha256", "attributes_sha256"]:
-                    del file.attrs[name]
-                file.attrs["attributes_sha256"] = sha256(b"".join(sorted(lines(file, "/", file))))
-            self.check_verdict(path, "intact", False)
+        path = self.folder / "run.h5"
+        program("run", QUICK, "-o", path, *changed('output.maps_at=["0 s", "20 s"]'))
+        with h5py.File(path) as file:
+            self.check(file)
+        self.check_verdict(path, "intact", True)
+        # As earlier programs left it.
+        with h5py.File(path, "r+") as file:
+            for name in ["numbers_sha256", "execution_sha256", "attributes_sha256"]:
+                del file.attrs[name]
+            file.attrs["attributes_sha256"] = sha256(b"".join(sorted(lines(file, "/", file))))
+        self.check_verdict(path, "intact", False)
 
     def check_verdict(self, path, verdict, covers_numbers):
-        command = [os.environ["PLATEAU_PROGRAM"], "verify", path, "--json"]
-        found = json.loads(subprocess.run(command, check=False, capture_output=True).stdout)[0]
+        found = json.loads(called("verify", path, "--json").stdout)[0]
         self.assertEqual((found["verdict"], found["covers_numbers"]), (verdict, covers_numbers), found)
 
     def check(self, file):

@@ -1,8 +1,6 @@
 """Drives: what a brake does is what the vehicle asks for, by its speed alone; tables of loggers and regulations."""
 
-import contextlib
 import csv
-import io
 import itertools
 import math
 import re
@@ -13,10 +11,10 @@ from pathlib import Path
 import h5py
 import numpy as np
 import pandas
-from package_scenes import ROOT, InFolder
+from checkout import ROOT, word
+from package_scenes import InFolder
 
 import plateau
-from plateau import command_line
 
 CYCLES = ROOT / "data" / "cycles"
 SCENE = ROOT / "data" / "scenes" / "drive.toml"
@@ -136,8 +134,7 @@ class Tables(InFolder):
         def said(speed):
             rows = "".join(f"{one:g},{max(of, 0.0):.3f}\n" for one, of in zip(time, speed, strict=True))
             Path("log.csv").write_text(f"time [s],road_speed [km/h]\n{rows}")
-            with warnings.catch_warnings():
-                warnings.simplefilter("ignore")
+            with warnings.catch_warnings(action="ignore"):
                 made = plateau.cycle("log.csv", "made.toml", force=True)
             return int(re.search(r"(\d+) brakings", made.told)[1]), " ".join(made.warnings)
 
@@ -170,8 +167,7 @@ class Tables(InFolder):
             ),
         ]:
             Path("log.csv").write_text(text)
-            with self.subTest(options), warnings.catch_warnings():
-                warnings.simplefilter("ignore")
+            with self.subTest(options), warnings.catch_warnings(action="ignore"):
                 self.assertEqual(plateau.cycle("log.csv", "made.toml", force=True, **options).warnings, expected)
         # In gram so light a car brakes nothing: it is told why.
         Path("log.csv").write_text(speeds)
@@ -180,16 +176,15 @@ class Tables(InFolder):
 
     def test_the_command_tells_what_it_wrote_and_what_is_not_of_the_car(self):
         Path("glatt.csv").write_text("time [s],road_speed [km/h]\n0,0\n5,0\n10,50\n20,50\n25,0\n30,0\n")
-        printed = io.StringIO()
-        with contextlib.redirect_stdout(printed):
-            self.assertEqual([command_line.main(["cycle", "glatt.csv", "-o", name]) for name in ("glatt.toml", "t/d.toml")], [0, 0])
+        done, printed, _ = zip(*(word("cycle", "glatt.csv", "-o", name) for name in ("glatt.toml", "t/d.toml")), strict=True)
+        self.assertEqual(done, (0, 0))
         for said in (
             "wrote glatt.toml and glatt-cycle.csv\n",
             "wrote t/d.toml and t/d-cycle.csv\n",
             "while the vehicle stands, 100 N m hold it",
             "not of your car: materials and friction (a cermet-coated disc), the disc's size but for its mass, its cooling",
         ):
-            self.assertIn(said, printed.getvalue())
+            self.assertIn(said, "".join(printed))
         held = pandas.read_csv("glatt-cycle.csv")
         self.assertEqual(held["brake_torque [N m]"].iloc[[0, -1]].tolist(), [100.0, 100.0])
         scene = Path("glatt.toml").read_text()

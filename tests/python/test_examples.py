@@ -4,7 +4,6 @@ The numbers are found another way than the scripts find them: by netCDF4, and by
 """
 
 import json
-import os
 import pathlib
 import re
 import subprocess
@@ -15,9 +14,7 @@ import unittest
 import netCDF4
 import numpy as np
 from PIL import Image
-
-ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
-PROGRAM = os.environ.get("PLATEAU_PROGRAM", str(ROOT / "plateau"))
+from checkout import QUICK, ROOT, changed, program
 
 
 def numbers(line):
@@ -27,22 +24,16 @@ def numbers(line):
 class Examples(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        folder = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(folder.cleanup)
-        cls.folder = pathlib.Path(folder.name)
+        cls.folder = pathlib.Path(cls.enterClassContext(tempfile.TemporaryDirectory()))
         cls.means = {}
         for name, force in [("quick", "5 N"), ("strong", "20 N")]:
             changes = [f"operation.normal_force={force}", 'operation.duration="20 s"', 'output.maps_at=["0 s", "10 s"]']
-            sets = [argument for change in changes for argument in ("--set", change)]
-            command = [PROGRAM, "run", str(ROOT / "data/scenes/quick.toml"), "-o", f"{name}.h5", *sets]
-            subprocess.run(command, check=True, capture_output=True, timeout=300, cwd=cls.folder)
+            program("run", QUICK, "-o", f"{name}.h5", *changed(*changes), cwd=cls.folder)
 
     def example(self, name, *arguments):
         """Lines that an example prints."""
         command = [sys.executable, "-W", "error::DeprecationWarning", str(ROOT / "examples" / name), *arguments]
-        # As of a checkout of which the package is not installed.
-        environment = os.environ | {"PYTHONPATH": str(ROOT / "python"), "PLATEAU_PROGRAM": PROGRAM, "MPLBACKEND": "agg"}
-        done = subprocess.run(command, capture_output=True, text=True, timeout=300, cwd=self.folder, env=environment)
+        done = subprocess.run(command, capture_output=True, text=True, timeout=300, cwd=self.folder)
         self.assertEqual((done.returncode, done.stderr), (0, ""), done.stdout)
         return done.stdout.splitlines()
 
@@ -78,8 +69,7 @@ class Examples(unittest.TestCase):
         (folder / "data").symlink_to(ROOT / "data")
         # The part of a cell that a notebook alone knows is left out; between cells there is a line that nothing prints.
         source = "\nprint('--- next cell')\n".join(re.sub(r"^%.*$", "", "".join(cell["source"]), flags=re.MULTILINE) for cell in cells)
-        environment = os.environ | {"PYTHONPATH": str(ROOT / "python"), "PLATEAU_PROGRAM": PROGRAM, "MPLBACKEND": "agg"}
-        done = subprocess.run([sys.executable, "-W", "ignore", "-c", source], capture_output=True, text=True, timeout=300, cwd=folder, env=environment)
+        done = subprocess.run([sys.executable, "-W", "ignore", "-c", source], capture_output=True, text=True, timeout=300, cwd=folder)
         self.assertEqual(done.returncode, 0, done.stderr)
         for cell, said in zip(cells, done.stdout.split("--- next cell\n"), strict=True):
             shown = "".join("".join(output["text"]) for output in cell["outputs"] if output["output_type"] == "stream")
@@ -173,9 +163,7 @@ class Examples(unittest.TestCase):
         """With the pulses the lines cover each other, as bands of two colours."""
         for name, force in [("long-5", "5 N"), ("long-10", "10 N")]:
             changes = [f"operation.normal_force={force}", "operation.duration=1500 s", "numerics.time_acceleration=100", "output.sample_every=1 s"]
-            sets = [argument for change in changes for argument in ("--set", change)]
-            command = [PROGRAM, "run", str(ROOT / "data/scenes/quick.toml"), "-o", f"{name}.h5", *sets]
-            subprocess.run(command, check=True, capture_output=True, timeout=300, cwd=self.folder)
+            program("run", QUICK, "-o", f"{name}.h5", *changed(*changes), cwd=self.folder)
         self.example("compare_runs.py", "long-5.h5", "long-10.h5", "-o", "long.png")
         with Image.open(self.folder / "long.png") as picture:
             pixels = np.asarray(picture.convert("RGB"), dtype=int)

@@ -1,7 +1,6 @@
 """What `plateau.export` writes, as pandas, NumPy, xarray, openpyxl and a plain XML parser read it: the numbers of the run file."""
 
 import contextlib
-import io
 import json
 import os
 import pathlib
@@ -19,10 +18,10 @@ import h5py
 import numpy as np
 import pandas
 import xarray
-from package_scenes import QUICK
+from checkout import QUICK, Folder, word
 
 import plateau
-from plateau import command_line, exports
+from plateau import exports
 
 MAPS = {"disc_height": "disc/height", "disc_substrate": "disc/substrate", "disc_status": "disc/status",
         "pin_height": "pin/height", "pin_substrate": "pin/substrate", "pin_status": "pin/status",
@@ -49,18 +48,14 @@ def grid(path):
     return head.find("StructuredGrid").get("WholeExtent"), cells, array(piece.find("Points/DataArray")).reshape(-1, 3)
 
 
-class Export(unittest.TestCase):
+class Export(Folder):
     @classmethod
     def setUpClass(cls):
-        folder = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(folder.cleanup)
-        cls.made = pathlib.Path(folder.name) / "run.h5"
+        cls.made = pathlib.Path(cls.enterClassContext(tempfile.TemporaryDirectory())) / "run.h5"
         plateau.run(QUICK, cls.made, set=SHORT)
 
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
+        super().setUp()
         self.enterContext(contextlib.chdir(self.folder))
 
     def same(self, found, expected):
@@ -295,13 +290,11 @@ class Export(unittest.TestCase):
             plateau.export(self.made, "vtk")
 
     def test_the_word(self):
-        out, err = io.StringIO(), io.StringIO()
-        with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
-            done = [command_line.main(["export", str(self.made), *more]) for more in
-                    (["--to", "csv", "--decimal", ",", "--separator", "tab"], ["--to", "csv"], ["--to", "mat"])]  # fmt: skip
-        self.assertEqual(done, [0, 2, 2])
-        self.assertRegex(out.getvalue(), r"^wrote run.csv \(\d+\.\d kB\)\n$")
-        self.assertIn("run.csv exists; give --force to replace it", err.getvalue())
+        wanted = (["--to", "csv", "--decimal", ",", "--separator", "tab"], ["--to", "csv"], ["--to", "mat"])
+        done, out, err = zip(*(word("export", self.made, *more) for more in wanted), strict=True)
+        self.assertEqual(done, (0, 2, 2))
+        self.assertRegex("".join(out), r"^wrote run.csv \(\d+\.\d kB\)\n$")
+        self.assertIn("run.csv exists; give --force to replace it", err[1])
         self.assertTrue(pathlib.Path("run.csv").read_text().startswith("time [s]\tdisplacement [m]\t"))
 
     def test_a_run_that_goes_on_and_one_that_was_killed(self):

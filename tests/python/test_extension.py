@@ -1,16 +1,11 @@
 """Rings made by the statistics of a patch carry the pin as cut-outs of the surface from which the patch comes."""
 
 import os
-import subprocess
-import tempfile
 import unittest
-from pathlib import Path
 
 import h5py
 import numpy as np
-
-ROOT = Path(__file__).resolve().parents[2]
-PROGRAM = os.environ.get("PLATEAU_PROGRAM", str(ROOT / "plateau"))
+from checkout import ROOT, Folder, program
 
 # The paper's mesh has cells of 50 um; surfaces are measured in pixels of a quarter of that. Pixels of ring and patch.
 COLUMNS, ROWS, PATCH = 4 * 2764, 4 * 80, 4 * 64
@@ -57,26 +52,22 @@ def contact_area(folder, heights, extension=""):
     pitch = PIXEL * (1 + 1e-12)
     scene = SCENE.format(cermet=ROOT / "data/scenes/cermet.toml", surface=folder / "surface.npy", pitch=f"{pitch:.17g}", extend=extension)
     (folder / "scene.toml").write_text(scene)
-    command = [PROGRAM, "run", folder / "scene.toml", "-o", folder / "run.h5", "--force", "--workers", "1"]
-    done = subprocess.run(command, capture_output=True, text=True, timeout=600)
-    if done.returncode:
-        raise AssertionError(done.stderr)
+    program("run", folder / "scene.toml", "-o", folder / "run.h5", "--force", "--workers", "1")
     with h5py.File(folder / "run.h5") as run:
         time, integral = run["series/time"][:], run["series/contact_area_integral"][:]
     return np.diff(np.interp([50.0, time[-1]], time, integral))[0] / (time[-1] - 50.0)
 
 
-class Extension(unittest.TestCase):
+class Extension(Folder):
     def test_extended_rings_carry_the_pin_as_the_surface_does(self):
         of_rings, of_patches = np.empty(CUTS), np.empty(CUTS)
-        with tempfile.TemporaryDirectory() as name:
-            for cut in range(CUTS):
-                surface = large_surface(cut)
-                # The patch has no row of the ring.
-                patch = surface[:PATCH, ROWS + 32 : ROWS + 32 + PATCH]
-                extend = f'extend = "statistics"\nextend_seed = {cut}'
-                of_rings[cut] = contact_area(Path(name), surface[:, :ROWS])
-                of_patches[cut] = contact_area(Path(name), patch, extend)
+        for cut in range(CUTS):
+            surface = large_surface(cut)
+            # The patch has no row of the ring.
+            patch = surface[:PATCH, ROWS + 32 : ROWS + 32 + PATCH]
+            extend = f'extend = "statistics"\nextend_seed = {cut}'
+            of_rings[cut] = contact_area(self.folder, surface[:, :ROWS])
+            of_patches[cut] = contact_area(self.folder, patch, extend)
         print(f"contact area, mm2: cut-outs {of_rings * 1e6}, extended {of_patches * 1e6}")
         # The two means by Welch's test, at three standard errors. A patch knows its rms height with the relative error
         # sqrt(pi/4) LENGTH/PATCH, 3.3 %, so extended rings scatter more than cut-outs.

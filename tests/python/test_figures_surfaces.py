@@ -1,8 +1,6 @@
 """Figures of surfaces, of the fibre map and of the accuracy of runs show the data that they are given: numbers are found another way, by
 hand or from formulas."""
 
-import contextlib
-import io
 import json
 import math
 import pathlib
@@ -15,10 +13,10 @@ import matplotlib.colors
 import matplotlib.figure
 import matplotlib.text
 import numpy as np
+from checkout import word
 from package_scenes import InFolder
 
 import plateau
-from plateau import command_line
 from plateau.figures import surfaces as module
 from plateau.figures.fibres import SEAM, fibre_map
 from plateau.figures.surfaces import surfaces
@@ -338,10 +336,10 @@ class Accuracy(InFolder):
     def test_the_program_has_files_written(self):
         pathlib.Path("of-word.json").write_text(json.dumps(self.document()))
         call = ["figure", "accuracy", "of-word.json", "--format", "svg", "--format", "png"]
-        with contextlib.redirect_stdout(io.StringIO()) as said, contextlib.redirect_stderr(io.StringIO()) as failed:
-            self.assertEqual([command_line.main(call), command_line.main(call), command_line.main([*call, "--force"])], [0, 2, 0])
-        self.assertEqual(said.getvalue(), "accuracy.svg\naccuracy.png\n" * 2)
-        self.assertIn("accuracy.svg exists; give --force", failed.getvalue())
+        first, second, forced = word(*call), word(*call), word(*call, "--force")
+        self.assertEqual((first[:2], forced[:2]), ((0, "accuracy.svg\naccuracy.png\n"),) * 2)
+        self.assertEqual(second[:2], (2, ""))
+        self.assertIn("accuracy.svg exists; give --force", second[2])
         # Letters stay letters.
         self.assertIn(">run time, s<", pathlib.Path("accuracy.svg").read_text())
 

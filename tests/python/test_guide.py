@@ -3,7 +3,8 @@
 import h5py
 import numpy as np
 
-from guide import QUICK, Guide
+from checkout import QUICK
+from guide import Guide
 
 
 class Pages(Guide):

@@ -23,7 +23,8 @@ import h5py
 import numpy as np
 import pandas
 import xarray
-from package_scenes import QUICK, ROOT, SHORT, STUDY, InFolder
+from checkout import QUICK, ROOT, python
+from package_scenes import SHORT, STUDY, InFolder
 
 import plateau
 from plateau import program
@@ -246,8 +247,7 @@ class Runs(InFolder):
             "import signal, plateau\nsignal.signal(signal.SIGINT, signal.default_int_handler)\ntry:\n    plateau.run('quick.toml', 'long.h5', set={'operation.duration': '100000 s'})\n"
             "except KeyboardInterrupt:\n    print('interrupted')"
         )
-        environment = os.environ | {"PYTHONPATH": str(ROOT / "python")}
-        process = subprocess.Popen([sys.executable, "-c", text], env=environment, stdout=subprocess.PIPE, text=True)
+        process = subprocess.Popen([sys.executable, "-c", text], stdout=subprocess.PIPE, text=True)
         end = time.monotonic() + 120
         while not pathlib.Path("long.h5").exists():
             self.assertLess(time.monotonic(), end, "no run file after two minutes")
@@ -292,9 +292,7 @@ class Programs(InFolder):
             "sys.modules['matplotlib'] = None\n"
             "try:\n    plateau.plot([])\nexcept plateau.PlateauError as error:\n    assert isinstance(error, ImportError)\n    print(error)\n"
         )
-        environment = os.environ | {"PYTHONPATH": str(ROOT / "python")}
-        done = subprocess.run([sys.executable, "-c", text], env=environment, capture_output=True, text=True, timeout=120)
-        self.assertEqual(done.stdout, "figures need matplotlib: pip install 'plateau-brake[all]', or pip install matplotlib\n", done.stderr)
+        self.assertEqual(python(text), "figures need matplotlib: pip install 'plateau-brake[all]', or pip install matplotlib\n")
 
 
 class Studies(InFolder):
@@ -304,8 +302,7 @@ class Studies(InFolder):
             with self.assertRaisesRegex(plateau.MissingFileError, "plateau.collect|no such study") as caught:
                 plateau.open_study(path)
             self.assertIsInstance(caught.exception, FileNotFoundError)
-        with warnings.catch_warnings():
-            warnings.simplefilter("error")
+        with warnings.catch_warnings(action="error"):
             made = plateau.sweep("study.toml", jobs=2, progress=False)
         for study in (made, plateau.open_study("study"), plateau.open_study("study.toml"), plateau.collect("study.toml")):
             self.assertEqual(study.data["contact_area"].dims, ("run", "time"))
@@ -360,9 +357,7 @@ class Studies(InFolder):
 
     def test_what_answers_is_imported_when_it_is_called(self):
         text = "import plateau, sys; print([name for name in ('scipy', 'matplotlib') if name in sys.modules]); plateau.study.effects"
-        environment = os.environ | {"PYTHONPATH": str(ROOT / "python")}
-        done = subprocess.run([sys.executable, "-c", text], env=environment, capture_output=True, text=True, timeout=120)
-        self.assertEqual((done.stdout, done.stderr), ("[]\n", ""))
+        self.assertEqual(python(text), "[]\n")
         for name in plateau.study.__all__:
             self.assertTrue(hasattr(plateau.study, name), name)
 

@@ -3,14 +3,14 @@
 import os
 import pathlib
 import subprocess
-import sys
 import unittest
 import warnings
 
 import netCDF4
 import numpy as np
 import xarray
-from package_scenes import ROOT, ROUND, SHORT, STUDY, InFolder
+from checkout import python
+from package_scenes import ROUND, SHORT, STUDY, InFolder
 
 import plateau
 
@@ -24,6 +24,11 @@ class Saved(InFolder):
         plateau.run("quick.toml", "run.h5", set=SHORT)
         plateau.run("quick.toml", "round.h5", set=ROUND)
 
+    def setUp(self):
+        # h5netcdf warns of the fill value of HDF5, 0, which no reader takes for a missing value.
+        self.enterContext(warnings.catch_warnings())
+        warnings.filterwarnings("ignore", "Creating variable with default fill_value 0")
+
     def check_equal(self, found, expected):
         """The same variables with the same values, types, dimensions and attributes."""
         self.assertEqual(set(found.variables), set(expected.variables))
@@ -36,10 +41,7 @@ class Saved(InFolder):
         for path in ("run.h5", "round.h5"):
             for engine in ("h5netcdf", "netcdf4"):
                 run = plateau.open_run(path)
-                with warnings.catch_warnings():
-                    # h5netcdf warns of the fill value of HDF5, 0, which no reader takes for a missing value.
-                    warnings.filterwarnings("ignore", "Creating variable with default fill_value 0")
-                    run.to_netcdf("copy.nc", engine=engine)
+                run.to_netcdf("copy.nc", engine=engine)
                 copy = plateau.open_run("copy.nc")
                 self.assertEqual(copy.attrs["scene"], run.attrs["scene"])
                 for group in ("/", "series", "disc", "pin"):
@@ -53,15 +55,12 @@ class Saved(InFolder):
     def test_a_group_is_saved(self):
         for engine in ("h5netcdf", "netcdf4"):
             for group in ("series", "disc", "pin"):
-                with xarray.open_dataset("run.h5", group=group, engine=engine) as read, warnings.catch_warnings():
-                    warnings.filterwarnings("ignore", "Creating variable with default fill_value 0")
+                with xarray.open_dataset("run.h5", group=group, engine=engine) as read:
                     read.to_netcdf("group.nc", engine=engine)
                     with xarray.open_dataset("group.nc", engine=engine) as again:
                         self.check_equal(again, read)
-            with warnings.catch_warnings():
-                warnings.filterwarnings("ignore", "Creating variable with default fill_value 0")
-                last = plateau.open_run("run.h5")["disc"].to_dataset().isel(map_time=-1)
-                last.to_netcdf("map.nc", engine=engine)
+            last = plateau.open_run("run.h5")["disc"].to_dataset().isel(map_time=-1)
+            last.to_netcdf("map.nc", engine=engine)
             with xarray.open_dataset("map.nc", engine=engine) as again:
                 self.check_equal(again, last)
 
@@ -79,11 +78,9 @@ class WithoutLocks(InFolder):
             "run, study = plateau.open_run('run.h5'), plateau.open_study('study.toml')\n"
             "print(len(run['time']), run['disc/height'].values.shape[0], len(study.table))\n"
         )
-        environment = os.environ | {"PYTHONPATH": str(ROOT / "python"), "LD_PRELOAD": str(pathlib.Path("no_locks.so").absolute())}
+        environment = os.environ | {"LD_PRELOAD": str(pathlib.Path("no_locks.so").absolute())}
         environment.pop("HDF5_USE_FILE_LOCKING", None)
-        done = subprocess.run([sys.executable, "-c", text], env=environment, capture_output=True, text=True, timeout=120)
-        self.assertEqual(done.returncode, 0, done.stderr)
-        refused, found = done.stdout.splitlines()
+        refused, found = python(text, env=environment).splitlines()
         self.assertEqual(found, "200 3 4")
         self.assertIn("unable to lock file", refused)
 

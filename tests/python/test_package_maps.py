@@ -13,6 +13,7 @@ import warnings
 import h5py
 import numpy as np
 import xarray
+from checkout import PROGRAM, changed, program
 from package_scenes import PULSES, ROUND, SHORT, InFolder
 
 import plateau
@@ -137,14 +138,19 @@ class Runs(InFolder):
         cls.run_ = plateau.run("quick.toml", "quick.h5", set=SHORT | PULSES)
         cls.round_ = plateau.run("quick.toml", "round.h5", set=ROUND | PULSES)
 
+    def printed(self, run, rtol):
+        """The mean of the contact area, which is the one that the program prints; both."""
+        expected, found = run.attrs["summary"]["contact_area_last_tenth"], run.plateau.mean()
+        np.testing.assert_allclose(
+            [found.value, found.error, found.start, found.end, found.revolutions],
+            [expected[key] for key in ("mean", "standard_error", "from", "to", "revolutions")],
+            rtol=rtol,
+        )
+        return expected, found
+
     def test_the_mean_is_the_one_that_the_program_prints(self):
         for run in (self.run_, self.round_):
-            expected, found = run.attrs["summary"]["contact_area_last_tenth"], run.plateau.mean()
-            np.testing.assert_allclose(
-                [found.value, found.error, found.start, found.end, found.revolutions],
-                [expected[key] for key in ("mean", "standard_error", "from", "to", "revolutions")],
-                rtol=1e-10,
-            )
+            _, found = self.printed(run, 1e-10)
             pressure = run.plateau.mean("mean_pressure", found.start, found.end)
             self.assertEqual(run.plateau.mean("mean_pressure", f"{found.start} s"), pressure)
             time, values = run["time"].values, run["series/mean_pressure"].values
@@ -163,16 +169,10 @@ class Runs(InFolder):
         for repeat in (1, 3):
             cycle = f"[operation.cycle]\nrepeat = {repeat}\npoints = {points}"
             pathlib.Path("cycle.toml").write_text(scene.replace("[operation]", cycle), encoding="utf-8")
-            with warnings.catch_warnings():
+            with warnings.catch_warnings(action="ignore"):
                 # Of brakes that have few revolutions.
-                warnings.simplefilter("ignore")
                 run = plateau.run("cycle.toml", f"cycle-{repeat}.h5", set=numbers)
-            expected, found = run.attrs["summary"]["contact_area_last_tenth"], run.plateau.mean()
-            np.testing.assert_allclose(
-                [found.value, found.error, found.start, found.end, found.revolutions],
-                [expected[key] for key in ("mean", "standard_error", "from", "to", "revolutions")],
-                rtol=1e-9,
-            )
+            expected, found = self.printed(run, 1e-9)
             self.assertLess(expected["contact_time"], found.end - found.start - 3)
 
     def test_build_up_and_coverage(self):
@@ -400,9 +400,8 @@ class Unfinished(InFolder):
                 plateau.open_run("short.h5")
 
     def test_a_run_that_goes_on_and_one_that_was_killed(self):
-        changes = ['operation.duration="100000 s"', 'output.maps_at=["0 s"]']
-        sets = [argument for change in changes for argument in ("--set", change)]
-        command = [os.environ["PLATEAU_PROGRAM"], "run", "quick.toml", "-o", "going.h5", *sets]
+        sets = changed('operation.duration="100000 s"', 'output.maps_at=["0 s"]')
+        command = [PROGRAM, "run", "quick.toml", "-o", "going.h5", *sets]
         process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         self.addCleanup(process.wait)
         self.addCleanup(process.kill)
@@ -438,7 +437,7 @@ class Unfinished(InFolder):
                 self.assertTrue(np.isfinite(run[f"series/{name}"].values).all())
                 np.testing.assert_array_equal(run[f"series/{name}"].values, killed[f"series/{name}"].values[:count])
         # What is made of the file afterwards is a run that has ended, with the same samples.
-        subprocess.run([os.environ["PLATEAU_PROGRAM"], "repair", "going.h5"], check=True, capture_output=True, timeout=120)
+        program("repair", "going.h5")
         repaired = plateau.open_run("going.h5")
         self.assertEqual(repaired.attrs["state"], "interrupted")
         self.assertEqual(set(repaired["series"].data_vars), set(killed["series"].data_vars))

@@ -1,18 +1,13 @@
 """Surfaces that netCDF4 and xarray pack, as these two and the program read them."""
 
-import os
-import pathlib
-import subprocess
-import tempfile
 import unittest
 
 import h5py
 import netCDF4
 import numpy as np
 import xarray
+from checkout import Folder, program
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
-PROGRAM = os.environ.get("PLATEAU_PROGRAM", str(ROOT / "plateau"))
 SHAPE = (7, 5)
 
 
@@ -27,11 +22,9 @@ def stored(kind):
     return np.where(numbers == netCDF4.default_fillvals[kind], limits.max - 2, numbers).astype(kind)
 
 
-class Packed(unittest.TestCase):
+class Packed(Folder):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
+        super().setUp()
         self.file = self.folder / "packed.nc"
 
     def write(self, numbers, **attributes):
@@ -52,9 +45,7 @@ class Packed(unittest.TestCase):
     def read(self):
         """What the program reads."""
         out = self.folder / "out.h5"
-        command = [PROGRAM, "surface", str(self.file), "--to", str(out), "--force"]
-        done = subprocess.run(command, capture_output=True, text=True, timeout=300)
-        self.assertEqual(done.returncode, 0, done.stderr)
+        program("surface", self.file, "--to", out, "--force")
         with h5py.File(out) as file:
             np.testing.assert_allclose(file["height"].attrs["pitch"], [2e-6, 3e-6], rtol=1e-15)
             return file["height"][...]

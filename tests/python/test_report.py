@@ -2,7 +2,6 @@
 
 import contextlib
 import html
-import io
 import os
 import pathlib
 import re
@@ -14,10 +13,11 @@ import xml.etree.ElementTree as xml
 
 import h5py
 import numpy as np
-from package_scenes import PULSES, QUICK, SHORT
+from checkout import QUICK, Folder, word
+from package_scenes import PULSES, SHORT
 
 import plateau
-from plateau import command_line, figures, run_report
+from plateau import figures, run_report
 from plateau.quantities import CELSIUS, MM2, NUMBER, PERCENT
 from plateau.run_report import Measure, report_page
 
@@ -31,12 +31,10 @@ def rows(page, heading=""):
     return [[html.unescape(cell) for cell in re.findall(r"<t[hd]>(.*?)</t[hd]>", row, re.DOTALL)] for row in found]
 
 
-class Report(unittest.TestCase):
+class Report(Folder):
     @classmethod
     def setUpClass(cls):
-        folder = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(folder.cleanup)
-        cls.made = pathlib.Path(folder.name)
+        cls.made = pathlib.Path(cls.enterClassContext(tempfile.TemporaryDirectory()))
         plateau.run(QUICK, cls.made / "quick.h5", set=SHORT | PULSES)
         plateau.run(QUICK, cls.made / "heavy.h5", set={**SHORT, **PULSES, "operation.normal_force": "10 N"}).close()
         with h5py.File(cls.made / "heavy.h5", "r+") as file:
@@ -44,9 +42,8 @@ class Report(unittest.TestCase):
         plateau.run(QUICK.with_name("stops.toml"), cls.made / "stops.h5")
 
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.enterContext(contextlib.chdir(folder.name))
+        super().setUp()
+        self.enterContext(contextlib.chdir(self.folder))
 
     def draw_few(self):
         # Figures have tests of their own.
@@ -184,35 +181,29 @@ class Report(unittest.TestCase):
         self.assertIn("There are no samples yet", page)
         self.assertEqual(rows(page)[1], ["at most –", "at most –", "at most –", "0 s, –", "–"])
 
-    def call(self, *arguments):
-        out, err = io.StringIO(), io.StringIO()
-        with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
-            status = command_line.main([str(argument) for argument in arguments])
-        return status, out.getvalue(), err.getvalue()
-
     def test_the_word_plot(self):
         run = self.made / "quick.h5"
-        status, out, err = self.call("plot", run, "--figure", "contact-area", "--figure", "filled", "--format", "svg", "--at", "1 h")
+        status, out, err = word("plot", run, "--figure", "contact-area", "--figure", "filled", "--format", "svg", "--at", "1 h")
         self.assertEqual((status, sorted(os.listdir("quick"))), (0, ["contact-area.svg", "filled.svg"]))
         self.assertRegex(out, r"^wrote quick/contact-area.svg: Contact area against time\nwrote quick/filled.svg: .*\n$")
         self.assertIn("3600 s is after the last recorded map, that of 20 s is shown", err)
         pathlib.Path("quick/contact-area-2.svg").touch()
-        status, out, err = self.call("plot", run, "--figure", "contact-area", "--figure", "heights", "--format", "svg")
+        status, out, err = word("plot", run, "--figure", "contact-area", "--figure", "heights", "--format", "svg")
         self.assertEqual((status, out, sorted(os.listdir("quick"))), (2, "", ["contact-area-2.svg", "contact-area.svg", "filled.svg"]))
         self.assertIn("quick/contact-area.svg exists; give --force to replace it, or -o DIR names another folder", err)
-        status, _, err = self.call("plot", run, "--figure", "contact-area", "--format", "svg", "--force")
+        status, _, err = word("plot", run, "--figure", "contact-area", "--format", "svg", "--force")
         self.assertEqual((status, "quick/contact-area-2.svg is a page of an earlier call" in err), (0, True))
         for wrong in ("--figure=friction", "--width=88", "--width=3 mm", "--at=-1 s", "--figure=x", "--cmap=jet"):
             with self.subTest(wrong):
-                self.assertEqual(self.call("plot", run, "-o", "other", wrong)[0], 2)
+                self.assertEqual(word("plot", run, "-o", "other", wrong)[0], 2)
         self.assertFalse(os.path.exists("other"))
 
     def test_the_word_report(self):
         self.draw_few()
-        status, out, err = self.call("report", self.made / "quick.h5", self.made / "quick.h5")
+        status, out, err = word("report", self.made / "quick.h5", self.made / "quick.h5")
         self.assertEqual((status, "quick.h5 is named more than once" in err), (0, True))
         self.assertRegex(out, r"^wrote report.html \([\d.]+ kB\)\n$")
-        status, _, err = self.call("report", "no.h5")
+        status, _, err = word("report", "no.h5")
         self.assertEqual((status, err), (2, "plateau: no.h5: there is no such run file\n"))
 
 

@@ -1,37 +1,36 @@
 """Run files of the program, as h5py, netCDF4 and xarray see them: finished, and while they are written."""
 
-import os
 import pathlib
 import subprocess
 import sys
-import tempfile
 import time
 import unittest
 
 import h5py
 import numpy as np
 import xarray
+from checkout import PROGRAM, QUICK, Folder, changed, program
 
 HERE = pathlib.Path(__file__).resolve().parent
-SCENES = HERE.parent.parent / "data" / "scenes"
-PROGRAM = os.environ.get("PLATEAU_PROGRAM", str(HERE.parent.parent / "plateau"))
 
 
-def command(scene, output, *changes):
-    sets = [argument for change in changes for argument in ("--set", change)]
-    return [PROGRAM, "run", str(SCENES / scene), "-o", str(output), *sets]
-
-
-class RunFile(unittest.TestCase):
+class RunFile(Folder):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.path = pathlib.Path(folder.name) / "run.h5"
+        super().setUp()
+        self.path = self.folder / "run.h5"
+
+    def run_of(self, scene, *changes):
+        program("run", scene, "-o", self.path, *changed(*changes))
+
+    def begun(self, *changes):
+        """A run that goes on, and is killed with the test."""
+        run = subprocess.Popen([PROGRAM, "run", QUICK, "-o", self.path, *changed(*changes)], stdout=subprocess.DEVNULL)
+        self.addCleanup(run.wait)
+        self.addCleanup(run.kill)
+        return run
 
     def script(self, name, *arguments):
-        done = subprocess.run(
-            [sys.executable, str(HERE / name), str(self.path), *arguments], capture_output=True, text=True, timeout=300
-        )
+        done = subprocess.run([sys.executable, HERE / name, self.path, *arguments], capture_output=True, text=True, timeout=300)
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
 
     def wait_for_samples(self, count):
@@ -45,16 +44,15 @@ class RunFile(unittest.TestCase):
         self.fail(f"no {count} samples within a minute")
 
     def test_a_run_is_as_the_format_says(self):
-        subprocess.run(command("quick.toml", self.path), check=True, capture_output=True, timeout=300)
+        self.run_of(QUICK)
         self.script("check_run_file.py")
 
     def test_only_the_maps_asked_for_are_there(self):
-        changes = ['output.maps=["pressure"]', 'operation.duration="1 s"']
-        subprocess.run(command("quick.toml", self.path, *changes), check=True, capture_output=True, timeout=300)
+        self.run_of(QUICK, 'output.maps=["pressure"]', 'operation.duration="1 s"')
         self.script("check_run_file.py", "--maps", "pressure")
 
     def test_events_are_a_group_with_a_dimension_of_its_own(self):
-        subprocess.run(command("stops.toml", self.path), check=True, capture_output=True, timeout=300)
+        self.run_of(QUICK.with_name("stops.toml"))
         with h5py.File(self.path) as file:
             # Stops of 425 revolutions a minute for 3 s on a mean radius of 20.5 mm.
             distance = 425 / 60 * 3 * 2 * np.pi * 20.5e-3
@@ -69,41 +67,32 @@ class RunFile(unittest.TestCase):
                 self.assertEqual(event.initial_speed.attrs["units"], "rad s-1")
 
     def test_roughness_is_that_of_the_maps(self):
-        changes = ["output.roughness=true", 'operation.duration="1 s"']
-        subprocess.run(command("quick.toml", self.path, *changes), check=True, capture_output=True, timeout=300)
+        self.run_of(QUICK, "output.roughness=true", 'operation.duration="1 s"')
         self.script("check_run_file.py", "--roughness")
 
     def test_a_reader_follows_a_run(self):
         # Long enough for several batches, whatever the machine; the follower ends with the run.
-        changes = ["operation.steps=400000", 'output.sample_every="0.05 s"']
-        run = subprocess.Popen(command("quick.toml", self.path, *changes), stdout=subprocess.DEVNULL)
-        try:
-            self.script("follow_run.py", "--samples", "10")
-            self.assertEqual(run.wait(timeout=300), 0)
-        finally:
-            run.kill()
-            run.wait()
+        run = self.begun("operation.steps=400000", 'output.sample_every="0.05 s"')
+        self.script("follow_run.py", "--samples", "10")
+        self.assertEqual(run.wait(timeout=300), 0)
         with h5py.File(self.path) as file:
             self.assertEqual(file.attrs["state"], "finished")
 
     def test_a_killed_run_can_be_read(self):
-        changes = ["operation.steps=100000000", 'output.sample_every="0.05 s"']
-        run = subprocess.Popen(command("quick.toml", self.path, *changes), stdout=subprocess.DEVNULL)
-        try:
-            self.wait_for_samples(100)
-        finally:
-            run.kill()
-            run.wait()
+        run = self.begun("operation.steps=100000000", 'output.sample_every="0.05 s"')
+        self.wait_for_samples(100)
+        run.kill()
+        run.wait()
         with h5py.File(self.path, swmr=True) as file:
             samples = len(file["time"])
             self.assertGreaterEqual(samples, 100)
             for name, series in file["series"].items():
                 self.assertTrue(np.isfinite(series[:samples]).all(), name)
             self.assertEqual(file.attrs["state"], "running")
-        subprocess.run([PROGRAM, "repair", str(self.path)], check=True, capture_output=True, timeout=300)
+        program("repair", self.path)
         with xarray.open_dataset(self.path, group="series", engine="h5netcdf") as series:
             self.assertEqual((list(series.coords), series.sizes["time"]), (["time"], samples))
-        subprocess.run([PROGRAM, "verify", str(self.path)], check=True, capture_output=True, timeout=300)
+        program("verify", self.path)
 
 
 if __name__ == "__main__":

@@ -2,19 +2,16 @@
 
 import json
 import os
-import pathlib
 import random
 import re
-import subprocess
 import tomllib
 import unittest
 from concurrent.futures import ThreadPoolExecutor
 from itertools import zip_longest
 
 import jsonschema
+from checkout import ROOT, called, changed, program
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
-PROGRAM = os.environ.get("PLATEAU_PROGRAM", str(ROOT / "plateau"))
 SCENES = ROOT / "crates/io/tests/scenes"
 
 # Bad scenes that are no mistake of one file's form: what numbers say together, what the machine or this version cannot do, and
@@ -67,7 +64,7 @@ VALUES = 256 if "PLATEAU_LONG" in os.environ else 32
 # Keys that are given to the program at a time.
 AT_ONCE = 12
 
-SCHEMA = json.loads(subprocess.run([PROGRAM, "schema"], check=True, capture_output=True, text=True).stdout)
+SCHEMA = json.loads(program("schema"))
 VALIDATOR = jsonschema.Draft7Validator(SCHEMA)
 
 
@@ -110,9 +107,7 @@ def in_toml(value):
 def accepted(sets):
     """Whether the program and the schema accept these values (path: value in TOML), whatever each needs beside it."""
     # A key that is not there keeps the program from looking at what several keys say together.
-    arguments = [argument for path, value in [*sets.items(), ("titel", "1")] for argument in ("--set", f"{path}={value}")]
-    command = [PROGRAM, "check", str(SCENES / "good/minimal.toml"), *arguments]
-    told = subprocess.run(command, capture_output=True, text=True, check=False)
+    told = called("check", SCENES / "good/minimal.toml", *changed(*(f"{path}={value}" for path, value in sets.items()), "titel=1"))
     assert told.returncode == 2, (sets, told)
     problems = [line for line in told.stderr.splitlines() if "has a meaning only beside" not in line]
     found = {}

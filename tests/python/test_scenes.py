@@ -1,7 +1,6 @@
 """Scenes as data, and runs in this process: what the program makes of the same scenes is what is expected."""
 
 import json
-import os
 import pathlib
 import pickle
 import signal
@@ -13,11 +12,11 @@ import unittest
 
 import h5py
 import numpy as np
-from package_scenes import QUICK, ROOT, SHORT, InFolder
+from checkout import QUICK, called, changed, program
+from package_scenes import SHORT, InFolder
 
 import plateau
 
-PROGRAM = os.environ["PLATEAU_PROGRAM"]
 # What tells when, where and how long.
 OF_THE_MAKING = {"start_time", "end_time", "wall_time", "workers", "decomposition", "execution_sha256"}
 
@@ -54,9 +53,7 @@ class Quantity:
 
 class Scenes(InFolder):
     def test_all_ways_to_give_a_scene_are_one_scene(self):
-        resolved = subprocess.run([PROGRAM, "check", "quick.toml", "--set", 'operation.normal_force="6 N"', "--json"],
-                                  capture_output=True, text=True, check=True, timeout=120).stdout
-        expected = json.loads(resolved)["scene"]
+        expected = json.loads(program("check", "quick.toml", *changed('operation.normal_force="6 N"'), "--json"))["scene"]
         file = plateau.Scene("quick.toml", normal_force="6 N")
         self.assertEqual(str(file), expected)
         tables = file.tables
@@ -126,9 +123,8 @@ OPERATION = tomllib.loads(QUICK.read_text())["operation"]
 
 class Runs(InFolder):
     def test_the_run_file_is_that_of_the_program(self):
-        changes = [f"{key}={value!r}" for key, value in SHORT.items()]
-        subprocess.run([PROGRAM, "run", "quick.toml", "-o", "program.h5", *(word for change in changes for word in ("--set", change))],
-                       check=True, capture_output=True, timeout=300)
+        changes = changed(*(f"{key}={value!r}" for key, value in SHORT.items()))
+        program("run", "quick.toml", "-o", "program.h5", *changes)
         plateau.run("quick.toml", "here.h5", set=SHORT, workers=2)
         one, other = contents("program.h5"), contents("here.h5")
         self.assertEqual(set(one), set(other))
@@ -136,8 +132,7 @@ class Runs(InFolder):
         # The number of workers is a key of the scene.
         self.assertEqual(different, {f"@{name}" for name in OF_THE_MAKING} | {"@scene", "@attributes_sha256"})
         # Each goes on with runs of the other: the revision is the same.
-        done = subprocess.run([PROGRAM, "run", "quick.toml", "-o", "here.h5", "--resume", "--workers", "2",
-                               *(word for change in changes for word in ("--set", change))], capture_output=True, text=True, timeout=300)
+        done = called("run", "quick.toml", "-o", "here.h5", "--resume", "--workers", "2", *changes)
         self.assertIn("is finished", done.stderr)
         self.assertEqual(plateau.run("quick.toml", "program.h5", set=SHORT, resume=True).attrs["state"], "finished")
 
@@ -149,7 +144,7 @@ class Runs(InFolder):
     def test_a_run_that_is_killed_goes_on_to_the_same_end(self):
         changes = {"operation.duration": "400 s", "output.checkpoint_every": "0.05 s", "output.maps_at": ["0 s"]}
         text = f"import plateau\nplateau.run('quick.toml', 'killed.h5', set={changes!r})"
-        process = subprocess.Popen([sys.executable, "-c", text], env=os.environ | {"PYTHONPATH": str(ROOT / "python")})
+        process = subprocess.Popen([sys.executable, "-c", text])
         until = time.monotonic() + 120
         while not pathlib.Path("killed.h5.checkpoint").exists():
             self.assertLess(time.monotonic(), until)

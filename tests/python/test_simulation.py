@@ -19,7 +19,8 @@ import warnings
 
 import h5py
 import numpy as np
-from package_scenes import QUICK, ROOT, InFolder
+from checkout import QUICK, ROOT, program
+from package_scenes import InFolder
 
 import plateau
 from plateau.native import native
@@ -36,10 +37,9 @@ def state_of(simulation):
 
 
 def python(text, **options):
-    environment = os.environ | {"PYTHONPATH": str(ROOT / "python")}
     # A shell may have had what runs in its background ignore the signal.
     text = "import os, signal, sys, time, plateau\nsignal.signal(signal.SIGINT, signal.default_int_handler)\n" + text
-    return subprocess.Popen([sys.executable, "-c", text], env=environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, **options)
+    return subprocess.Popen([sys.executable, "-c", text], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, **options)
 
 
 class Bits(InFolder):
@@ -48,10 +48,9 @@ class Bits(InFolder):
         self.enterContext(warnings.catch_warnings(action="ignore", category=plateau.PlateauWarning))
 
     def test_every_vector_has_the_bits_of_the_program(self):
-        program = os.environ["PLATEAU_PROGRAM"]
         for path in sorted(VECTORS.glob("*/scene.toml")):
             file = f"{path.parent.name}.h5"
-            subprocess.run([program, "run", str(path), "-o", file, "-q"], check=True, capture_output=True, timeout=300)
+            program("run", path, "-o", file, "-q")
             with h5py.File(file) as run:
                 times, ends = run["time"][:], {name: run[where][-1] for name, where in FIELDS.items() if where in run}
                 series = {name: run["series"][name][:] for name in run["series"] if name != "time"}
@@ -381,7 +380,7 @@ class Processes(InFolder):
         there = os.stat("full.h5")
         opened = [os.stat(f"/proc/self/fd/{name}") for name in os.listdir("/proc/self/fd") if os.path.exists(f"/proc/self/fd/{name}")]
         self.assertNotIn((there.st_dev, there.st_ino), [(file.st_dev, file.st_ino) for file in opened])
-        subprocess.run([os.environ["PLATEAU_PROGRAM"], "repair", "full.h5"], check=True, capture_output=True)
+        program("repair", "full.h5")
         self.assertEqual(plateau.open_run("full.h5").attrs["state"], "interrupted")
 
     def test_memory_stays_the_same_over_samples(self):

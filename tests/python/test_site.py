@@ -1,12 +1,11 @@
 """Pages of the guide are prepared for the site as they should be, all of them are in it, and a site with broken links is found out."""
 
-import pathlib
 import re
 import sys
-import tempfile
 import unittest
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
+from checkout import ROOT, Folder
+
 sys.path.insert(0, str(ROOT / "site"))
 import check  # noqa: E402, where the site is
 import preprocess  # noqa: E402
@@ -51,11 +50,9 @@ class Pages(unittest.TestCase):
             self.assertNotIn("$", text, name)
 
 
-class Sites(unittest.TestCase):
+class Sites(Folder):
     def test_broken_links_are_found(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        site = pathlib.Path(folder.name).resolve()
+        site = self.folder.resolve()
         (site / "one.html").write_text('<h1 id="a">A</h1><a href="two.html#b"></a><a href="https://x/"></a><p class="formula" data-tex="x">')
         (site / "two.html").write_text('<h1 id="b">B</h1><a href="#b"></a><img src="p.png">')
         (site / "p.png").write_bytes(b"")

@@ -9,11 +9,11 @@ import warnings
 
 import numpy as np
 import sdfio
-from package_scenes import QUICK, ROOT, InFolder
+from checkout import QUICK, SHARED
+from package_scenes import InFolder
 
 import plateau
 
-SHARED = next((folder / "shared" / "surfaces" for folder in ROOT.parents if (folder / "shared" / "surfaces").is_dir()), None)
 SURFACES = ("alicona_200x296_iso1_int32", "lay_plu_384x288_iso1_binary64", "afm_256x256_iso2_int32", "frt_missing_150x300_iso1_int32", "pypi_afm_256x256_iso1_binary64")
 # Cell, m, rows and columns of the ring, and the shorter side of the patches, m: tracks of 4 mm and, of what is tried for long, of 40 mm.
 TRACKS = ((50e-6, 80, 400, 2.4e-3), (40e-3 / 120, 120, 450, 15e-3))[: 2 if "PLATEAU_LONG" in os.environ else 1]
@@ -50,8 +50,7 @@ class SmallPatches(InFolder):
                         self.compare(heights, np.array(surface["pitch"]), *track, way)
 
     def compare(self, heights, pitch, cell, rows, columns, side, way):
-        with tempfile.TemporaryDirectory() as folder, warnings.catch_warnings():
-            warnings.simplefilter("ignore")
+        with tempfile.TemporaryDirectory() as folder, warnings.catch_warnings(action="ignore"):
             # Pixels with the proportions of the file and the size that fits.
             pitch = pitch * side / min(pitch * heights.shape[::-1])
             sdfio.write(f"{folder}/patch.sdf", heights, x_scale=pitch[0], y_scale=pitch[1])

@@ -2,25 +2,13 @@
 
 import contextlib
 import io
-import os
-import pathlib
 import re
-import subprocess
-import tempfile
-import unittest
-
-import matplotlib
-
-matplotlib.use("agg")
 
 import numpy as np
 import pandas
 import xarray
+from checkout import QUICK, ROOT, Folder, program
 from matplotlib import pyplot
-
-ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
-PROGRAM = os.environ.get("PLATEAU_PROGRAM", str(ROOT / "plateau"))
-QUICK = ROOT / "data" / "scenes" / "quick.toml"
 
 STUDY = """
 version = 1
@@ -51,19 +39,16 @@ at = "1000 s"
 """
 
 
-class Studies(unittest.TestCase):
+class Studies(Folder):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
+        super().setUp()
         self.results = self.folder / "first-study"
 
     def collect(self, name):
         study = self.results.with_suffix(".toml")
         study.write_text(STUDY.format(base=QUICK, name=name))
         for command in ("run", "collect"):
-            done = subprocess.run([PROGRAM, "sweep", command, study], capture_output=True, text=True, timeout=300)
-            self.assertEqual(done.returncode, 0, done.stderr)
+            program("sweep", command, study)
 
     def block(self):
         """The Python of the guide."""

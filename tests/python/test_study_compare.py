@@ -5,21 +5,19 @@ import json
 import os
 import pathlib
 import re
-import tempfile
 import unittest
 import warnings
 
 import numpy as np
 import xarray
+from checkout import QUICK, Folder
+import optimum
 from made_studies import number, study_of, word
 from plateau.errors import InputError
 from plateau.study.scene_comparison import _compared, _fixed, _ratio, _seed_keys, _sure, _words, compare, difference, response_of
 from plateau.units import unit_of
 from scipy import stats
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
-QUICK = ROOT / "data" / "scenes" / "quick.toml"
-os.environ.setdefault("PLATEAU_PROGRAM", str(ROOT / "plateau"))
 
 # Student's sleep data (R: `sleep`): hours of sleep gained with two drugs by the same ten patients.
 ONE = [0.7, -1.6, -0.2, -1.2, -0.1, 3.4, 3.7, 0.8, 0.0, 2.0]
@@ -107,15 +105,9 @@ class Differences(unittest.TestCase):
 
     @unittest.skipUnless("PLATEAU_LONG" in os.environ, "a simulation of what the values of R say already")
     def test_intervals_cover_in_95_of_100(self):
-        # Runs of a seed are alike in both scenes, and the difference scatters between seeds; three scenes hold together.
-        random, covered = np.random.default_rng(1), []
-        for _ in range(1500):
-            common = random.standard_normal(5)
-            first, second, third = common + random.standard_normal((3, 5))
-            ends = [difference(first, other + 1.0, 0.95, 2) for other in (second, third)]
-            covered.append(all(end["low"] <= 1.0 <= end["high"] for end in ends))
-        self.assertGreater(np.mean(covered), 0.94)
-        self.assertLess(np.mean(covered), 0.98)
+        # Five seeds; three scenes hold together.
+        covered = optimum.simulated(5, 3, 1500)
+        self.assertTrue(0.94 < covered < 0.98, covered)
 
 
 class Words(unittest.TestCase):
@@ -143,42 +135,37 @@ class Words(unittest.TestCase):
             compare([QUICK])
 
 
-class Scenes(unittest.TestCase):
+class Scenes(Folder):
     def test_runs_are_made_once_and_compared_by_seed(self):
-        with tempfile.TemporaryDirectory() as name:
-            folder = pathlib.Path(name)
-            smooth = folder / "smooth.toml"
-            smooth.write_text(f'version = 1\nextends = {json.dumps(str(QUICK))}\n[disc.surface]\nsynthetic.rms_height = "1 um"\n')
-            options = {"set": {"operation.duration": "2 s"}, "output": folder / "out"}
-            with warnings.catch_warnings(record=True) as said:
-                warnings.simplefilter("always")
-                found = compare([QUICK, smooth], 3, **options)
-            begins = r'(\w+): response "running-in time" has no value'
-            self.assertEqual([re.match(begins, str(one.message))[1] for one in said], ["quick", "smooth"])
-            with warnings.catch_warnings():
-                warnings.simplefilter("ignore")
-                journal = {path: path.stat().st_mtime_ns for path in (folder / "out").rglob("journal/*")}
-                again = compare([QUICK, smooth], 3, **options)
-            self.assertTrue(journal)
-            self.assertEqual(journal, {path: path.stat().st_mtime_ns for path in (folder / "out").rglob("journal/*")})
-            self.assertEqual(found.table.to_csv(), again.table.to_csv())
-            area = found.runs.pivot(index="seed", columns="scene", values="contact area")
-            self.assertEqual(area.shape, (3, 2))
-            expected = stats.ttest_rel(area["smooth"], area["quick"])
-            row = found.table.set_index("response").loc["contact area"]
-            self.assertAlmostEqual(row["p"], expected.pvalue)
-            self.assertIn("smooth: contact area is smaller by", row["words"])
-            self.assertEqual(list(found.figures()), list(found.curves["series"].unique()))
-            self.assertEqual(json.loads(json.dumps(found.document()))["reference"], "quick")
-            self.assertTrue(any("running-in time has a value in 0 of 3" in caution for caution in found.cautions))
-            self.assertEqual(found.table["cautions"].str.contains("running-in time has a value in 0 of 3").sum(), 1)
+        smooth = self.folder / "smooth.toml"
+        smooth.write_text(f'version = 1\nextends = {json.dumps(str(QUICK))}\n[disc.surface]\nsynthetic.rms_height = "1 um"\n')
+        options = {"set": {"operation.duration": "2 s"}, "output": self.folder / "out"}
+        with warnings.catch_warnings(record=True, action="always") as said:
+            found = compare([QUICK, smooth], 3, **options)
+        begins = r'(\w+): response "running-in time" has no value'
+        self.assertEqual([re.match(begins, str(one.message))[1] for one in said], ["quick", "smooth"])
+        with warnings.catch_warnings(action="ignore"):
+            journal = {path: path.stat().st_mtime_ns for path in (self.folder / "out").rglob("journal/*")}
+            again = compare([QUICK, smooth], 3, **options)
+        self.assertTrue(journal)
+        self.assertEqual(journal, {path: path.stat().st_mtime_ns for path in (self.folder / "out").rglob("journal/*")})
+        self.assertEqual(found.table.to_csv(), again.table.to_csv())
+        area = found.runs.pivot(index="seed", columns="scene", values="contact area")
+        self.assertEqual(area.shape, (3, 2))
+        expected = stats.ttest_rel(area["smooth"], area["quick"])
+        row = found.table.set_index("response").loc["contact area"]
+        self.assertAlmostEqual(row["p"], expected.pvalue)
+        self.assertIn("smooth: contact area is smaller by", row["words"])
+        self.assertEqual(list(found.figures()), list(found.curves["series"].unique()))
+        self.assertEqual(json.loads(json.dumps(found.document()))["reference"], "quick")
+        self.assertTrue(any("running-in time has a value in 0 of 3" in caution for caution in found.cautions))
+        self.assertEqual(found.table["cautions"].str.contains("running-in time has a value in 0 of 3").sum(), 1)
 
     def test_scenes_of_other_cells_and_accelerations_are_not_alike(self):
-        with tempfile.TemporaryDirectory() as name, warnings.catch_warnings():
-            warnings.simplefilter("ignore")
-            coarse = pathlib.Path(name) / "coarse.toml"
+        with warnings.catch_warnings(action="ignore"):
+            coarse = self.folder / "coarse.toml"
             coarse.write_text(f'version = 1\nextends = {json.dumps(str(QUICK))}\n[mesh]\nrows = 10\n[numerics]\ntime_acceleration = 10\n')
-            found = compare([QUICK, coarse], 2, set={"operation.duration": "1 s"}, output=pathlib.Path(name) / "out")
+            found = compare([QUICK, coarse], 2, set={"operation.duration": "1 s"}, output=self.folder / "out")
             for said in ("rows of different height (quick 50 µm, coarse 100 µm)", "different time accelerations (20.0, 10.0)"):
                 self.assertTrue(any(said in caution for caution in found.cautions), found.cautions)
 

@@ -4,19 +4,15 @@ import gzip
 import itertools
 import json
 import math
-import sys
 import unittest
 import warnings
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pandas
 from scipy import stats
 
-HERE = Path(__file__).parent
-sys.path.insert(0, str(HERE / "coverage"))
-
+from checkout import ROOT
 from effects import SEEDS_STUDY, cube, of_runs, simulated
 from made_studies import number, span, stored, study_of, word
 from plateau.errors import InputError, PlateauWarning
@@ -55,13 +51,12 @@ ONE_SEED = "Runs: 3 x 2 without seeds, mean between times"
 
 class OldProgram(unittest.TestCase):
     def test_what_is_not_meant_to_change_is_equal(self) -> None:
-        studies = json.loads(gzip.decompress((HERE / "data" / "effects.json.gz").read_bytes()))["studies"]
+        studies = json.loads(gzip.decompress((ROOT / "tests/python/data/effects.json.gz").read_bytes()))["studies"]
         compared = 0
         for said in studies:
             study = stored(said)
             for call in said["calls"]:
-                with warnings.catch_warnings():
-                    warnings.simplefilter("ignore", PlateauWarning)
+                with warnings.catch_warnings(action="ignore", category=PlateauWarning):
                     document = effects(study, **call["options"]).document()
                 self.assertEqual(document["repeats"], call["document"]["repeats"])
                 for old, new, response in zip(call["document"]["responses"], document["responses"], study.responses, strict=True):
@@ -344,8 +339,7 @@ class Levels(unittest.TestCase):
         for seed in range(12):
             runs = pandas.DataFrame(list(itertools.product((-1.0, 1.0), repeat=5)), columns=list("ABCDE"))
             runs = runs.loc[runs.index.repeat(3)].assign(replicate=[1, 2, 3] * 32, y=np.random.default_rng(seed).normal(size=96))
-            with warnings.catch_warnings():
-                warnings.simplefilter("ignore", PlateauWarning)
+            with warnings.catch_warnings(action="ignore", category=PlateauWarning):
                 said += any("seeds x factor" in one for one in effects(study_of([number(name, -1.0, 1.0) for name in "ABCDE"], runs)).cautions)
         self.assertLess(said, 3)
 

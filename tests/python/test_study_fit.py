@@ -1,20 +1,13 @@
 """Fits to experiments: intervals against closed forms, runs at the most likely place, coverage in artificial experiments."""
 
-import os
-import sys
-import tempfile
 import unittest
 from dataclasses import replace
-from pathlib import Path
 from types import SimpleNamespace
 
 import numpy as np
 import pandas
 
-ROOT = Path(__file__).resolve().parent.parent.parent
-os.environ.setdefault("PLATEAU_PROGRAM", str(ROOT / "plateau"))
-sys.path.insert(0, str(Path(__file__).parent / "coverage"))
-
+from checkout import QUICK, Folder
 import fit as experiments
 from plateau.errors import InputError
 from plateau.study.calibration import calibrated
@@ -195,7 +188,7 @@ class OutcomeTest(unittest.TestCase):
         self.assertEqual(exclusive, 0)
 
 
-class StudyTest(unittest.TestCase):
+class StudyTest(Folder):
     STUDY = """
 version = 1
 title = "Rig"
@@ -218,9 +211,7 @@ uncertainty = "0.1 mm3"
 """
 
     def study(self, change=lambda text: text):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        path = Path(folder.name) / "s.toml"
+        path = self.folder / "s.toml"
         path.write_text(change(self.STUDY))
         return path
 
@@ -249,7 +240,7 @@ uncertainty = "0.1 mm3"
     def test_the_last_point_of_the_budget_is_kept_from_the_design(self):
         # Four points with three seeds: the design has all but one of those that the budget allows, and three at least.
         base = '\n[replicates]\nkeys = ["disc.surface.synthetic.seed"]\nseeds = [1, 2, 3]\n'
-        scene = f'version = 1\nbase = "{ROOT}/data/scenes/quick.toml"\nset = ["operation.duration = \'1 s\'"]\n'
+        scene = f'version = 1\nbase = "{QUICK}"\nset = ["operation.duration = \'1 s\'"]\n'
         response = 'dataset = "/series/lost_pin"\nat = "end"\nmeasured = "2e-5 mm^3"\nuncertainty = "4e-6 mm3"\n'
         key = '\nname = "load"\nkey = "operation.normal_force"'
         study = f'{scene}design = "sobol"\npoints = 4\n{base}[[factor]]{key}\nrange = ["4 N", "12 N"]\n[[response]]\nname = "lost"\n{response}'

@@ -6,7 +6,6 @@ import itertools
 import json
 import os
 import runpy
-import sys
 import tempfile
 import unittest
 import unittest.mock
@@ -17,6 +16,10 @@ import numpy as np
 import pandas
 from scipy import stats
 
+import checkout  # noqa: F401, for the folders of modules
+import forecasts
+from effects import cube
+from made_studies import number, span, stored, study_of, word
 from plateau.errors import InputError
 from plateau.study import variance_parts
 from plateau.study.analysis import effects
@@ -28,11 +31,6 @@ from plateau.study.surrogate import surrogates
 from plateau.study.variance_parts import sensitivity
 
 HERE = Path(__file__).parent
-sys.path.insert(0, str(HERE / "coverage"))
-import forecasts
-from effects import cube
-from made_studies import number, span, stored, study_of, word
-
 # Values of scikit-learn's GaussianProcessRegressor and of DiceKriging (R).
 REFERENCES = json.loads((HERE / "expected" / "processes.json").read_text(encoding="utf-8"))
 
@@ -327,8 +325,7 @@ def options(arguments):
 
 def quietly(function, *arguments, **options):
     """Calls a function without its warnings."""
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")
+    with warnings.catch_warnings(action="ignore"):
         return function(*arguments, **options)
 
 

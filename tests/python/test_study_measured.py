@@ -1,7 +1,5 @@
 """What people measured: text tables of any program, quantities with units, values of responses from elsewhere, series."""
 
-import os
-import tempfile
 import tomllib
 import unittest
 from concurrent.futures import ThreadPoolExecutor
@@ -9,10 +7,7 @@ from pathlib import Path
 from types import SimpleNamespace
 
 import numpy as np
-
-ROOT = Path(__file__).resolve().parent.parent.parent
-os.environ.setdefault("PLATEAU_PROGRAM", str(ROOT / "plateau"))
-
+from checkout import Folder
 from plateau.errors import InputError, MissingFileError
 from plateau.study.data import Response
 from plateau.study.imports import import_values
@@ -42,12 +37,7 @@ imported = true
 """
 
 
-class InFolder(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = Path(folder.name)
-
+class InFolder(Folder):
     def file(self, content, name="t.csv"):
         path = self.folder / name
         path.write_bytes(content if isinstance(content, bytes) else content.encode())

@@ -5,15 +5,13 @@ import inspect
 import itertools
 import json
 import math
-import os
-import pathlib
-import tempfile
 import unittest
 import warnings
 from unittest import mock
 
 import numpy as np
 import pandas
+from checkout import QUICK, Folder
 from made_studies import number, span, study_of, word
 from plateau.errors import InputError, RunFailed
 from plateau.study.data import Response
@@ -24,9 +22,6 @@ from plateau.study.results import analysed
 from plateau.study.runs import made_study, written
 from plateau.units import quantity, unit_for
 from scipy import stats
-
-ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
-os.environ.setdefault("PLATEAU_PROGRAM", str(ROOT / "plateau"))
 
 # A central composite design with three responses, and what the program before this package answered about it.
 LIMITS_MEET = {
@@ -272,7 +267,7 @@ class Wishes(unittest.TestCase):
                 optimize(given, **options)
 
 
-class Runs(unittest.TestCase):
+class Runs(Folder):
     STUDY = """
 version = 1
 base = {base}
@@ -297,14 +292,12 @@ imported = true
 """
 
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.path = pathlib.Path(folder.name) / "study.toml"
-        self.path.write_text(self.STUDY.format(base=json.dumps(str(ROOT / "data" / "scenes" / "quick.toml"))))
+        super().setUp()
+        self.path = self.folder / "study.toml"
+        self.path.write_text(self.STUDY.format(base=json.dumps(str(QUICK))))
 
     def test_runs_are_made_once_and_are_those_of_the_study(self):
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")
+        with warnings.catch_warnings(action="ignore"):
             given = analysed(self.path)
             points = pandas.DataFrame({"speed": [50.0, given.runs["speed"].iloc[0]], "debris": ["track", "contact"]})
             made = made_study(given, points, jobs=2).runs
@@ -322,8 +315,7 @@ imported = true
         self.assertEqual(now.runs["state"].value_counts()["finished"], 2)
 
     def test_what_cannot_be_run(self):
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")
+        with warnings.catch_warnings(action="ignore"):
             given = analysed(self.path)
         for points, message in [
             (pandas.DataFrame({"speed": [-1.0], "debris": ["contact"]}), "study.toml: .* cannot be made"),
@@ -343,8 +335,7 @@ imported = true
         self.assertEqual([written(span("n", whole=True), 20.0), written(speed, "none")], ["20", "none"])
 
     def test_an_optimum_is_confirmed_by_its_runs(self):
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")
+        with warnings.catch_warnings(action="ignore"):
             made_study(analysed(self.path), analysed(self.path).runs.drop_duplicates("point"))
             found = optimize(self.path, maximize=["area"], hold=["speed=600 rpm"], confirm=True)
         row = found.table.set_index("response").loc["area"]

@@ -2,7 +2,6 @@
 
 import contextlib
 import csv
-import io
 import json
 import os
 import pathlib
@@ -11,22 +10,18 @@ import shlex
 import signal
 import subprocess
 import sys
-import tempfile
 import time
 import tomllib
 import unittest
 import unittest.mock
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
-sys.path.insert(0, str(ROOT / "python"))
-from plateau.errors import InputError, RunFailed, in_python  # noqa: E402
-from plateau import command_line, output_folder, progress, style  # noqa: E402
-from plateau.command_line import main, shown  # noqa: E402
-from plateau.output_folder import HEAD, LIST, all_or_none, put, write  # noqa: E402
-from plateau.study import analysis, likelihood, variance_parts, words  # noqa: E402
+from checkout import QUICK, ROOT, Folder, program, word
+from plateau.errors import InputError, RunFailed, in_python
+from plateau import command_line, output_folder, progress, style
+from plateau.command_line import shown
+from plateau.output_folder import HEAD, LIST, all_or_none, put, write
+from plateau.study import analysis, likelihood, variance_parts, words
 
-PROGRAM = os.environ.setdefault("PLATEAU_PROGRAM", str(ROOT / "plateau"))
-QUICK = ROOT / "data" / "scenes" / "quick.toml"
 # Paths of members of the documents of the program before its statistics were in Python (revision 342d63de).
 BEFORE = json.loads((ROOT / "tests" / "python" / "expected" / "words.json").read_text())
 # Members that are gone with what they told: powers of desirabilities, and the choice of terms by AICc.
@@ -80,13 +75,10 @@ def paths(value, at=""):
     return {path for one in value for path in paths(one, f"{at}[]")} if isinstance(value, list) else set()
 
 
-class Words(unittest.TestCase):
+class Words(Folder):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        here = os.getcwd()
-        self.addCleanup(os.chdir, here)
-        os.chdir(folder.name)
+        super().setUp()
+        self.enterContext(contextlib.chdir(self.folder))
         os.environ["PLATEAU_CALLED"] = "plateau"
         # Most calls draw one format alone, profiles of few places and few functions that may be true, which is quicker.
         self.patch(style, "FORMATS", {"svg": style.FORMATS["svg"]})
@@ -106,11 +98,9 @@ class Words(unittest.TestCase):
 
     def call(self, *words, status=0):
         """What is printed and said."""
-        out, err = io.StringIO(), io.StringIO()
-        with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
-            found = main([str(word) for word in words])
-        self.assertEqual(found, status, err.getvalue())
-        return out.getvalue(), err.getvalue()
+        found, out, err = word(*words)
+        self.assertEqual(found, status, err)
+        return out, err
 
     def document(self, *words):
         return json.loads(self.call(*words, "--json", "-q")[0])
@@ -123,9 +113,7 @@ class Words(unittest.TestCase):
 
     def import_all(self, text=MEASURED, table="measured.csv", names=("load", "grip")):
         pathlib.Path("study.toml").write_text(text)
-        subprocess.run(
-            [PROGRAM, "sweep", "plan", "study.toml", "--csv", "plan.csv", "-q"], check=True, stdout=subprocess.DEVNULL, timeout=120
-        )
+        program("sweep", "plan", "study.toml", "--csv", "plan.csv", "-q")
         with open("plan.csv", newline="") as file, open(table, "w", newline="") as to:
             lines = csv.writer(to)
             lines.writerow([names[0], "dose", "leak [mm3]", names[1]])
@@ -169,10 +157,8 @@ class Words(unittest.TestCase):
         for name in ("one.toml", "two.toml"):
             pathlib.Path(name).write_text(scene)
         words = ["compare", "one.toml", "two.toml", "--seeds", "1", "--set", "operation.duration='10000 s'", "-q"]
-        environment = {**os.environ, "PYTHONPATH": str(ROOT / "python")}
         called = subprocess.Popen(
             [sys.executable, "-m", "plateau.command_line", *words],
-            env=environment,
             stdout=subprocess.DEVNULL,
             stderr=subprocess.PIPE,
             start_new_session=True,
@@ -302,7 +288,7 @@ class Words(unittest.TestCase):
 
     def test_real_runs(self):
         pathlib.Path("study.toml").write_text(RUNS.format(base=QUICK))
-        subprocess.run([PROGRAM, "sweep", "run", "study.toml", "-q"], check=True, stdout=subprocess.DEVNULL, timeout=300)
+        program("sweep", "run", "study.toml", "-q")
         document = self.document("sweep", "effects", "study.toml")
         self.assertEqual([term["label"] for term in document["responses"][0]["terms"]], ["replicate", "load"])
         _, err = self.call("sweep", "predict", "study.toml", "--at", "load=7 N")
@@ -320,9 +306,8 @@ class Words(unittest.TestCase):
         self.assertEqual([row["scene"] for row in document["differences"]], ["fast"])
         self.assertEqual({pathlib.Path(file).name for file in document["files"] if not file.endswith(("svg", "png", "pdf"))},
                          {"comparison.html", "comparison.csv", "means.csv", "runs.csv", "curves.csv"})  # fmt: skip
-        environment = os.environ | {"PYTHONPATH": str(ROOT / "python")}
-        done = subprocess.run([sys.executable, "-m", "plateau.command_line", *words, "--json", "-q"], env=environment, capture_output=True,
-                              text=True, timeout=120)  # fmt: skip
+        command = [sys.executable, "-m", "plateau.command_line", *words, "--json", "-q"]
+        done = subprocess.run(command, capture_output=True, text=True, timeout=120)
         self.assertEqual((done.stderr, done.returncode), ("", 0))
         again = json.loads(done.stdout)
         self.assertEqual((again.pop("files")[:3], again), (document.pop("files")[:3], document))
@@ -388,12 +373,7 @@ class Words(unittest.TestCase):
             self.assertEqual(in_python(here), here)
 
 
-class Folders(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
-
+class Folders(Folder):
     def write(self, folder, names, *, force=False, inputs=(), of=None):
         return write(folder, {name: name.encode() for name in names}, of=of, force=force, inputs=inputs)
 

@@ -1,7 +1,5 @@
 """What ``plateau surface`` tells, as docs/surface.md describes it; numbers are found another way."""
 
-import contextlib
-import io
 import json
 import math
 import pathlib
@@ -11,10 +9,10 @@ import warnings
 
 import h5py
 import numpy as np
-from package_scenes import QUICK, ROOT, InFolder
+from checkout import QUICK, ROOT, word
+from package_scenes import InFolder
 
 import plateau
-from plateau import command_line
 
 # An AFM scan, of which values.json of the shared surfaces has the parameters (letter G).
 AFM = ROOT / "data" / "surfaces" / "afm_256x256.sdf"
@@ -41,15 +39,13 @@ CheckType = 0
 
 
 def described(*arguments, **options):
-    with warnings.catch_warnings():
+    with warnings.catch_warnings(action="ignore"):
         # Of small patches, and of those with few heights.
-        warnings.simplefilter("ignore")
         return plateau.command("surface", *arguments, json=True, **options)
 
 
 def table(*arguments, **options):
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")
+    with warnings.catch_warnings(action="ignore"):
         return plateau.command("surface", *arguments, **options)
 
 
@@ -250,10 +246,10 @@ class SurfaceCommand(InFolder):
         np.save("data/heights-0.npy", np.zeros((3, 4)))
         one = {"name": "small.sdf", "grid": {"heights": "heights-0.npy", "columns": 4, "rows": 3, "pitch": None}}
         pathlib.Path("data/surfaces.json").write_text(json.dumps([one]))
-        said, parameters = io.StringIO(), "plateau.surface_description.parameters"
-        with unittest.mock.patch(parameters, side_effect=MemoryError("no room")), contextlib.redirect_stderr(said):
-            self.assertEqual(command_line.main(["surface", "describe", "data"]), 2)
-        self.assertIn("small.sdf: its 4 x 3 points can be read, but to describe them needs more memory", said.getvalue())
+        with unittest.mock.patch("plateau.surface_description.parameters", side_effect=MemoryError("no room")):
+            status, _, said = word("surface", "describe", "data")
+        self.assertEqual(status, 2)
+        self.assertIn("small.sdf: its 4 x 3 points can be read, but to describe them needs more memory", said)
 
 
 if __name__ == "__main__":

@@ -1,13 +1,12 @@
 """Files of instruments that ``plateau surface convert`` converts, as the program reads them then."""
 
+import functools
 import hashlib
 import json
 import math
 import os
 import pathlib
 import shutil
-import subprocess
-import tempfile
 import unittest
 import warnings
 
@@ -15,37 +14,21 @@ import h5py
 import numpy as np
 import netCDF4
 import xarray
+from checkout import PROGRAM, ROOT, SHARED, Folder, called
 
 from plateau.errors import InputError
 from plateau.surface_conversion import _even, convert
 
-HERE = pathlib.Path(__file__).resolve().parent
-ROOT = HERE.parent.parent
-PROGRAM = os.environ.get("PLATEAU_PROGRAM", str(ROOT / "plateau"))
-SAMPLES = HERE / "data" / "instruments"
+SAMPLES = pathlib.Path(__file__).resolve().parent / "data" / "instruments"
 # What a reader that was written on its own, in Rust, gave of each.
 EXPECTED = json.loads((SAMPLES / "heights.json").read_text(encoding="utf-8"))
-# Measured surfaces that are not part of the project.
-NAMED = [pathlib.Path(os.environ["PLATEAU_SHARED"])] if "PLATEAU_SHARED" in os.environ else [above / "shared" for above in ROOT.parents]
-SHARED = next((folder / "surfaces" for folder in NAMED if (folder / "surfaces").is_dir()), None)
+# With its Python companions, which a checkout keeps in one folder.
+program = functools.partial(called, env={**os.environ, "PATH": f"{ROOT / 'python' / 'bin'}:{os.environ['PATH']}"})
 
 
-def program(*arguments, **options):
-    command = [PROGRAM, *map(str, arguments)]
-    # Its Python companions, which a checkout keeps in one folder.
-    places = {**os.environ, "PATH": f"{ROOT / 'python' / 'bin'}:{os.environ['PATH']}"}
-    return subprocess.run(command, capture_output=True, text=True, timeout=300, **{"env": places, **options})
-
-
-class Conversion(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
-
+class Conversion(Folder):
     def convert(self, source):
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")
+        with warnings.catch_warnings(action="ignore"):
             return pathlib.Path(convert(source, self.folder / f"{source.name}.h5"))
 
     def read(self, path, *options):
@@ -187,7 +170,7 @@ class Conversion(unittest.TestCase):
         bare = {**os.environ, "PATH": "/usr/bin:/bin"}
         told = program("new", "other.toml", "--disc", "scan.x3p", cwd=self.folder, env=bare)
         beside = pathlib.Path(PROGRAM).resolve().parent / "plateau-surface"
-        if "PLATEAU_PROGRAM" in os.environ and not beside.exists():
+        if PROGRAM != str(ROOT / "plateau") and not beside.exists():
             self.assertEqual(told.returncode, 2, told.stdout)
             self.assertIn("pip install 'plateau-brake[all]'", told.stderr)
 

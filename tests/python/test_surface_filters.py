@@ -1,20 +1,16 @@
 """The S-filter and the L-filter of a preparation on measured surfaces, beside scipy and surfalize."""
 
 import math
-import os
 import pathlib
-import subprocess
 import tempfile
 import unittest
 
 import h5py
 import numpy as np
 import surfalize
+from checkout import ROOT, SHARED, program
 from scipy.ndimage import gaussian_filter
 from surfalize.filter import GaussianFilter
-
-ROOT = pathlib.Path(__file__).resolve().parents[2]
-PROGRAM = os.environ.get("PLATEAU_PROGRAM", str(ROOT / "plateau"))
 
 SCENE = """version = 1
 [mesh]
@@ -49,13 +45,6 @@ maps = ["pin_height"]
 """
 
 
-def shared():
-    """The folder of measured surfaces beside the checkout, if it is there."""
-    named = [pathlib.Path(os.environ["PLATEAU_SHARED"])] if "PLATEAU_SHARED" in os.environ else []
-    folders = (folder / "surfaces" for folder in [*named, *(above / "shared" for above in ROOT.parents)])
-    return next((folder for folder in folders if folder.is_dir()), None)
-
-
 def prepared(file, shape, pitches, prepare):
     """Heights of a pin whose cells are the pixels of a surface, prepared so; m, shape (columns, rows)."""
     (columns, rows), (pitch_x, pitch_y) = shape, pitches
@@ -76,10 +65,7 @@ def prepared(file, shape, pitches, prepare):
                 prepare=prepare,
             )
         )
-        command = [PROGRAM, "run", str(scene), "-o", str(run)]
-        done = subprocess.run(command, capture_output=True, text=True, timeout=600)
-        if done.returncode != 0:
-            raise AssertionError(done.stdout + done.stderr)
+        program("run", scene, "-o", run)
         with h5py.File(run) as content:
             # The pin's z grows away from the disc.
             return -content["pin/height"][0]
@@ -119,15 +105,14 @@ class Filters(unittest.TestCase):
         self.check(ROOT / "data/surfaces/afm_256x256.sdf", 256, 256)
 
     def test_measured_surfaces(self):
-        folder = shared()
-        if folder is None:
+        if SHARED is None:
             self.skipTest("no folder shared/surfaces above the checkout (PLATEAU_SHARED names the folder shared)")
         for name, columns, rows in [
             ("lay_plu_384x288_iso1_binary64.sdf", 384, 288),
             ("afm_256x256_iso2_int32.sdf", 256, 256),
             ("alicona_200x296_iso1_int32.sdf", 200, 296),
         ]:
-            self.check(folder / name, columns, rows)
+            self.check(SHARED / name, columns, rows)
 
 
 if __name__ == "__main__":

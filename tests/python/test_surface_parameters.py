@@ -9,13 +9,11 @@ import warnings
 from math import tau
 
 import numpy as np
-from package_scenes import ROOT
+from checkout import ROOT, SHARED
 
 import plateau
 from plateau.surface_parameters import PARAMETERS, _Curve, parameters, sampling_errors
 
-# Surfaces that are handed to developers and not part of the repository.
-SHARED = next((folder / "shared" / "surfaces" for folder in ROOT.parents if (folder / "shared" / "surfaces").is_dir()), None)
 PITCH = (2e-6, 5e-7)
 
 
@@ -195,9 +193,8 @@ class OtherPrograms(unittest.TestCase):
     def test_they_agree(self):
         values = json.loads((SHARED / "values.json").read_text().replace("NaN", "null"))
         for file, letter, step, spatial in self.ROWS:
-            with warnings.catch_warnings():
+            with warnings.catch_warnings(action="ignore"):
                 # Of heights that stand for none.
-                warnings.simplefilter("ignore")
                 found = plateau.command("surface", SHARED / file, json=True)
             peers = next(of for name, of in values.items() if name.startswith(letter))
             points, compared = found["measured"], 0

@@ -1,18 +1,12 @@
 """Surfaces that the program writes (`plateau surface FILE --to OUT`), as surfalize, SurfaceTopography and sdfio read them."""
 
-import os
-import pathlib
-import subprocess
-import tempfile
 import unittest
 
 import numpy as np
 import sdfio
 import surfalize
 import SurfaceTopography
-
-HERE = pathlib.Path(__file__).resolve().parent
-PROGRAM = os.environ.get("PLATEAU_PROGRAM", str(HERE.parent.parent / "plateau"))
+from checkout import Folder, program
 
 # Pitches that are no round numbers, different along x and y, so that nothing can be exchanged unnoticed.
 X_PITCH, Y_PITCH = 1e-6 / 3, 7e-6 / 11
@@ -44,19 +38,12 @@ def heights(rows, columns, missing):
     return z
 
 
-class Written(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
-
+class Written(Folder):
     def convert(self, z, name):
         """The file that the program makes of a file with these heights."""
         source, target = self.folder / "source.sdf", self.folder / name
         sdfio.write(source, z, x_scale=X_PITCH, y_scale=Y_PITCH)
-        command = [PROGRAM, "surface", str(source), "--level", "none", "--to", str(target)]
-        done = subprocess.run(command, capture_output=True, text=True, timeout=300)
-        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        program("surface", source, "--level", "none", "--to", target)
         return target
 
     def check(self, path, z, readers):

@@ -1,6 +1,5 @@
 """The study of the paper (data/studies/riva2019): its measures have closed forms, and documents agree with its results."""
 
-import os
 import re
 import subprocess
 import sys
@@ -8,12 +7,13 @@ import unittest
 from pathlib import Path
 
 import numpy as np
+from checkout import ROOT
 from package_scenes import InFolder
 
 import plateau
 
-STUDY = Path(__file__).parents[2] / "data/studies/riva2019"
-sys.path[:0] = [str(STUDY), str(STUDY.parents[2] / "python")]
+STUDY = ROOT / "data/studies/riva2019"
+sys.path.insert(0, str(STUDY))
 import discs  # noqa: E402, where the study is
 import friction  # noqa: E402, where the study is
 import history  # noqa: E402, where the study is
@@ -23,8 +23,6 @@ import measures  # noqa: E402
 import strength  # noqa: E402, where the study is
 import tables  # noqa: E402, where the study is
 import write_docs  # noqa: E402, where the study is
-
-ROOT = STUDY.parents[2]
 
 
 class Measures(unittest.TestCase):
@@ -213,8 +211,7 @@ class RunFiles(InFolder):
     def script(self, *arguments: str) -> str:
         """Calls a script as the documents say."""
         command = [sys.executable, "-B", str(ROOT / arguments[0]), *arguments[1:]]
-        environment = {**os.environ, "PYTHONPATH": str(ROOT / "python")}
-        return subprocess.run(command, capture_output=True, text=True, check=True, env=environment).stdout
+        return subprocess.run(command, capture_output=True, text=True, check=True).stdout
 
     def test_a_reference_has_the_series_of_its_run(self) -> None:
         self.script("data/reference/make.py", "minute.h5", "reference.h5")
@@ -235,8 +232,7 @@ class Documents(unittest.TestCase):
 
     def test_documents_have_the_numbers_of_the_study(self) -> None:
         check = [sys.executable, "-B", str(STUDY / "write_docs.py"), "--check"]
-        environment = {**os.environ, "PYTHONPATH": str(ROOT / "python")}
-        told = subprocess.run(check, capture_output=True, text=True, check=False, env=environment)
+        told = subprocess.run(check, capture_output=True, text=True, check=False)
         self.assertEqual(told.returncode, 0, told.stdout + told.stderr)
 
     def test_numbers_have_their_time_acceleration_beside_them(self) -> None:

@@ -5,11 +5,15 @@ Counts and cases of all tables are here; what is drawn by lot is the same in eac
 
 import itertools
 import os
+import sys
 import warnings
+from pathlib import Path
 
 # Sums are in the same order on any number of cores.
 os.environ["OPENBLAS_NUM_THREADS"] = "1"
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
+import checkout  # noqa: F401, for the folder of the package
 import effects
 import fit
 import forecasts

@@ -8,7 +8,6 @@ intervals from the residual, as they were before, stand beside.
 """
 
 import itertools
-import sys
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
@@ -17,9 +16,7 @@ import numpy as np
 import pandas
 from scipy import stats
 
-HERE = Path(__file__).resolve()
-sys.path[:0] = [str(HERE.parents[3] / "python"), str(HERE.parents[1])]
-
+from checkout import ROOT
 from made_studies import number, study_of, word
 from plateau.study.data import Study
 from plateau.study.level_differences import levels
@@ -29,7 +26,7 @@ from plateau.study.results import analysed
 
 RATIOS = (0.0, 0.5, 1.0, 2.0)
 # Results of data/studies/seeds.toml.
-SEEDS_STUDY = HERE.parents[1] / "data/seeds"
+SEEDS_STUDY = ROOT / "tests/python/data/seeds"
 
 
 def cube(seeds: int, numbers: int = 3) -> pandas.DataFrame:

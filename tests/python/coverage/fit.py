@@ -5,14 +5,10 @@ the response at true keys with a normal error. Where runs contradict forecast or
 """
 
 import itertools
-import sys
-from pathlib import Path
 
 import numpy as np
 from scipy import stats
 from scipy.stats import qmc
-
-sys.path.insert(0, str(Path(__file__).resolve().parents[3] / "python"))
 
 from plateau.study.calibration import calibrated
 from plateau.study.data import Response

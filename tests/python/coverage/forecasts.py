@@ -7,17 +7,11 @@ cannot tell it).
 """
 
 import itertools
-import math
-import sys
-from pathlib import Path
 
 import numpy as np
 import pandas
 from scipy import stats
 from scipy.stats import qmc
-
-HERE = Path(__file__).resolve()
-sys.path[:0] = [str(HERE.parents[3] / "python"), str(HERE.parents[1])]
 
 import made_studies
 from plateau.study.process import Process

@@ -6,14 +6,9 @@ The points of 240 real runs with 30 sets of seeds are taken as scenes, too: inte
 import dataclasses
 import itertools
 import math
-import pathlib
-import sys
 
 import numpy as np
 from scipy.stats import qmc
-
-HERE = pathlib.Path(__file__).resolve()
-sys.path[:0] = [str(HERE.parents[3] / "python"), str(HERE.parents[1])]
 
 from made_studies import span, study_of
 from plateau.study.goals import Goal, Problem, beyond_runs, improved, with_processes
