@@ -110,8 +110,7 @@ def read(path: Path, content: bytes) -> Heights:
         if only and name != "surfalize":
             continue
         try:
-            with warnings.catch_warnings():
-                warnings.simplefilter("ignore")
+            with warnings.catch_warnings(action="ignore"):
                 return by(path, _unfolded(content))
         except (PlateauError, ImportError):
             raise

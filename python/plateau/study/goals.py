@@ -218,8 +218,7 @@ class Problem:
         kept = {"type": "ineq", "fun": lambda x: smooth(x.tobytes())[0][1:], "jac": lambda x: smooth(x.tobytes())[1][1:].copy()}
         options: dict[str, Any] = {"bounds": [(-1.0, 1.0)] * len(place), "constraints": kept if self.limits else (), "options": {"ftol": 1e-13}}
         options["jac"] = lambda x: smooth(x.tobytes())[1][0].copy()
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore", RuntimeWarning)
+        with warnings.catch_warnings(action="ignore", category=RuntimeWarning):
             x = np.clip(minimize(lambda x: smooth(x.tobytes())[0][0], place, method="SLSQP", **options).x, -1.0, 1.0)
         found = float(self.merit(self.at(levels, x[None]))[0]) if np.isfinite(x).all() else -np.inf
         return (found, levels, x) if found > merit else start

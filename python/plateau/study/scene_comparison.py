@@ -201,9 +201,8 @@ def compare(
     names = [stem if stems.count(stem) == 1 else f"{stem}-{number}" for number, stem in enumerate(stems, 1)]
     changes = [f"{key}={toml_of(value)}" for key, value in set.items()] if isinstance(set, Mapping) else list(set)
     flags = [text for change in changes for text in ("--set", change)]
-    with warnings.catch_warnings():
+    with warnings.catch_warnings(action="ignore", category=PlateauWarning):
         # They are given when the scenes are run.
-        warnings.simplefilter("ignore", PlateauWarning)
         resolved = [tomllib.loads(call(["check", file, *flags])["scene"]) for file in files]
     usual = [(name, asked) for name, asked, needs in USUAL if not needs or all(needs in scene for scene in resolved)]
     tables = [response_of(name, asked) for name, asked in ([("", asked) for asked in responses] or usual)]
@@ -220,8 +219,7 @@ def compare(
         study |= {"order": "standard", "file": "seeds.csv", "factor": [{"name": "seed", "key": keys or "title"}], "response": tables}
         path = directory / name / "study.toml"
         write_study(path, study, pandas.DataFrame({"seed": range(1, seeds + 1) if keys else ["none"]}))
-        with warnings.catch_warnings(record=True) as said:
-            warnings.simplefilter("always", PlateauWarning)
+        with warnings.catch_warnings(record=True, action="always", category=PlateauWarning) as said:
             made[name] = finished(path, progress, jobs=jobs, workers=workers)
         for one in said:
             warnings.warn(f"{name}: {one.message}", one.category, stacklevel=2)

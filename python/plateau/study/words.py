@@ -187,9 +187,8 @@ def _goals(given: argparse.Namespace, study: Study) -> object:
     from plateau.study.analysis import usable
     from plateau.study.goals import wanted
 
-    with warnings.catch_warnings():
+    with warnings.catch_warnings(action="ignore"):
         # They are given when they are sought.
-        warnings.simplefilter("ignore")
         usable(study)
     aims = {aim: getattr(given, aim) or () for aim in ("maximize", "minimize", "target")}
     return wanted(study, aims, given.limit or (), given.limit_on, given.importance or ())
