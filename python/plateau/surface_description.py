@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from plateau.errors import InputError
+from plateau.study.text_tables import aligned
 from plateau.surface_data import told
 from plateau.surface_parameters import PARAMETERS, parameters, sampling_errors
 
@@ -92,7 +93,8 @@ def _text(described: list[Any]) -> str:
         lines += [[]] if own != group else []
         lines.append([f"{symbol:5}  {name}", unit, *(_cell(one, symbol) for one in ones)])
         group = own
-    return _aligned(lines) + "".join(_beside(one, rows) for one, _, _, rows in described if rows) + "".join(_remarks(*each) for each in described)
+    text = "\n".join([*aligned(lines, "", names=2), ""])
+    return text + "".join(_beside(one, rows) for one, _, _, rows in described if rows) + "".join(_remarks(*each) for each in described)
 
 
 def _pitch(one: dict[str, Any]) -> str:
@@ -119,7 +121,7 @@ def _beside(one: dict[str, Any], rows: dict[str, list[float]]) -> str:
         _, unit, factor, _ = PARAMETERS[symbol]
         values = [*(value * factor for value in row[:3]), np.nan if one[symbol] is None else one[symbol], row[3] * factor]
         lines.append([symbol, unit, *(NONE if np.isnan(value) else significant(value, n) for value, n in zip(values, (5, 5, 2, 5, 2), strict=True))])
-    return f"\n{name}: its patch, {said}\n{_aligned(lines)}"
+    return "\n".join([f"\n{name}: its patch, {said}", *aligned(lines, "", names=2), ""])
 
 
 def _remarks(one: dict[str, Any], document: dict[str, Any], found: dict[str, Any], _: Any) -> str:
@@ -142,16 +144,6 @@ def _short_names(ones: list[dict[str, Any]]) -> list[str]:
         return [one["map"] for one in ones]
     short = [one["name"].rsplit("/", 1)[-1] for one in ones]
     return [one["name"] if short.count(name) > 1 else name for one, name in zip(ones, short, strict=True)]
-
-
-def _aligned(lines: list[list[str]]) -> str:
-    """Names and units to the left, values to the right of their columns."""
-    widths = [max(len(line[at]) for line in lines if len(line) > at) for at in range(max(map(len, lines)))]
-
-    def row(line: list[str]) -> str:
-        return "  ".join(cell.ljust(width) if at < 2 else cell.rjust(width) for at, (cell, width) in enumerate(zip(line, widths, strict=False)))
-
-    return "".join(f"{row(line).rstrip()}\n" for line in lines)
 
 
 def significant(number: float, digits: int) -> str:

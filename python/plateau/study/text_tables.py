@@ -2,6 +2,7 @@
 
 import csv
 import io
+import itertools
 import math
 import re
 import stat
@@ -95,10 +96,10 @@ def listed(cells: Sequence[Mapping[str, str]]) -> list[str]:
     return aligned([*map(list, cells[:1]), *(list(row.values()) for row in cells)])
 
 
-def aligned(rows: Sequence[Sequence[str]], indent: str = "  ") -> list[str]:
-    """Lines of a table for people: the first column to the left, the others to the right."""
-    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
-    cells = [[first.ljust(widths[0]), *map(str.rjust, rest, widths[1:])] for first, *rest in rows]
+def aligned(rows: Sequence[Sequence[str]], indent: str = "  ", names: int = 1) -> list[str]:
+    """Lines of a table for people: columns of names to the left, the others to the right; an empty row is an empty line."""
+    widths = [max(map(len, column)) for column in itertools.zip_longest(*rows, fillvalue="")]
+    cells = [[*map(str.ljust, row[:names], widths), *map(str.rjust, row[names:], widths[names:])] for row in rows]
     return [indent + "  ".join(line).rstrip() for line in cells]
 
 
