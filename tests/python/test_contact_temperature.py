@@ -253,7 +253,3 @@ def deviations(history, fluxes):
         "mean, frozen pressures alone": frozen[touches].mean() / straight[touches].mean() - 1,
         "mean, conduction along the surface alone": straight[touches].mean() / full[touches].mean() - 1,
     }
-
-
-if __name__ == "__main__":
-    unittest.main()

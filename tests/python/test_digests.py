@@ -3,7 +3,6 @@
 import hashlib
 import json
 import struct
-import unittest
 
 import h5py
 import numpy
@@ -107,7 +106,3 @@ class Digests(Folder):
         self.assertEqual(sha256(b"".join(others)), file.attrs["numbers_sha256"])
         execution = sorted(line(file, "/", name, file.attrs[name]) for name in OF_THE_EXECUTION)
         self.assertEqual(sha256(b"".join(execution)), file.attrs["execution_sha256"])
-
-
-if __name__ == "__main__":
-    unittest.main()

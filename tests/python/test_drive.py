@@ -4,7 +4,6 @@ import csv
 import itertools
 import math
 import re
-import unittest
 import warnings
 from pathlib import Path
 
@@ -237,7 +236,3 @@ class Tables(InFolder):
                 self.cycle(text, **options)
             self.assertIn(said, str(caught.exception))
             self.assertFalse(Path("made.toml").exists())
-
-
-if __name__ == "__main__":
-    unittest.main()

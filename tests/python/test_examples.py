@@ -217,7 +217,3 @@ class Examples(unittest.TestCase):
             found = [float(word) for word in line.split("]")[1].split()]
             self.close(found, [series[name][part].mean() for name in names])
         self.assertEqual(len(lines), 4)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -324,7 +324,3 @@ class Export(Folder):
                     self.same(killed[name], values[: killed["time"].size])
                     self.same(alive[name], values[:samples])
             self.assertEqual(str(killed["state"]), "running")
-
-
-if __name__ == "__main__":
-    unittest.main()

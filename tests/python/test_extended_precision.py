@@ -193,7 +193,3 @@ class Program(Comparison):
         for options, one in zip(scenes.values(), self.compare_all(scenes, VOLUMES), strict=True):
             if "strength" in options["materials"]["pin_secondary"]:
                 self.assertGreater(one["returned"][-1], 0)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,7 +1,6 @@
 """Rings made by the statistics of a patch carry the pin as cut-outs of the surface from which the patch comes."""
 
 import os
-import unittest
 
 import h5py
 import numpy as np
@@ -74,7 +73,3 @@ class Extension(Folder):
         error = np.sqrt((of_rings.var(ddof=1) + of_patches.var(ddof=1)) / CUTS)
         self.assertLess(abs(of_patches.mean() - of_rings.mean()), 3 * error)
         self.assertLess(of_patches.std(ddof=1) / of_patches.mean(), 0.1)
-
-
-if __name__ == "__main__":
-    unittest.main()

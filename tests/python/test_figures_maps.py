@@ -1,7 +1,6 @@
 """Maps of runs as they are drawn, against the numbers of the run files, read with h5py."""
 
 import re
-import unittest
 
 import h5py
 import numpy as np
@@ -254,7 +253,3 @@ class Maps(InFolder):
                         for other in boxes[number + 1 :]:
                             apart = box.x1 <= other.x0 or other.x1 <= box.x0 or box.y1 <= other.y0 or other.y1 <= box.y0
                             self.assertTrue(apart, f"{name} {width} {box} {other}")
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -351,7 +351,3 @@ class Curves(InFolder):
             plateau.plot(["drive.h5", "seed-1.h5"], "emission")
         found = plateau.plot("drive.h5")
         self.assertLessEqual({"contact-area", "friction", "temperature", "filled", "plateau-sizes", "debris", "emission", "heights"}, set(found))
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -6,7 +6,6 @@ import math
 import pathlib
 import statistics
 import shutil
-import unittest
 from unittest import mock
 
 import matplotlib.colors
@@ -342,7 +341,3 @@ class Accuracy(InFolder):
         self.assertIn("accuracy.svg exists; give --force", second[2])
         # Letters stay letters.
         self.assertIn(">run time, s<", pathlib.Path("accuracy.svg").read_text())
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -395,7 +395,3 @@ class Studies(InFolder):
         pathlib.Path("damaged/results.h5").write_text("no HDF5")
         with self.assertRaisesRegex(plateau.InputError, "damaged: the results cannot be read"):
             plateau.open_study("damaged")
-
-
-if __name__ == "__main__":
-    unittest.main()

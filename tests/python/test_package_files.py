@@ -3,7 +3,6 @@
 import os
 import pathlib
 import subprocess
-import unittest
 import warnings
 
 import netCDF4
@@ -83,7 +82,3 @@ class WithoutLocks(InFolder):
         refused, found = python(text, env=environment).splitlines()
         self.assertEqual(found, "200 3 4")
         self.assertIn("unable to lock file", refused)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -470,7 +470,3 @@ class Cycles(InFolder):
         with h5py.File("stops.h5") as file:
             np.testing.assert_array_equal(run.plateau.events["worn"], file["event/worn"][:])
         np.testing.assert_allclose(run.plateau.events["start"], [0, 2, 4], atol=0.01)
-
-
-if __name__ == "__main__":
-    unittest.main()

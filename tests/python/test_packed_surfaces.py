@@ -1,7 +1,5 @@
 """Surfaces that netCDF4 and xarray pack, as these two and the program read them."""
 
-import unittest
-
 import h5py
 import netCDF4
 import numpy as np
@@ -133,7 +131,3 @@ class Packed(Folder):
         found = self.read()
         self.assertEqual(np.isnan(found).sum(), 1 + (heights == -32767e-9).sum())
         np.testing.assert_allclose(found, self.by_xarray().T, rtol=1e-14, atol=1e-18)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -50,7 +50,3 @@ class Page(unittest.TestCase):
 
         with mock.patch.object(page, "RESULTS", {"plain": rule(1.0), "strength": rule(-1.0)}):
             self.assertEqual(page.changed(), "1 of 10: load (filled)")
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -205,7 +205,3 @@ class Report(Folder):
         self.assertRegex(out, r"^wrote report.html \([\d.]+ kB\)\n$")
         status, _, err = word("report", "no.h5")
         self.assertEqual((status, err), (2, "plateau: no.h5: there is no such run file\n"))
-
-
-if __name__ == "__main__":
-    unittest.main()

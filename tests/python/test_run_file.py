@@ -4,7 +4,6 @@ import pathlib
 import subprocess
 import sys
 import time
-import unittest
 
 import h5py
 import numpy as np
@@ -93,7 +92,3 @@ class RunFile(Folder):
         with xarray.open_dataset(self.path, group="series", engine="h5netcdf") as series:
             self.assertEqual((list(series.coords), series.sizes["time"]), (["time"], samples))
         program("verify", self.path)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -272,7 +272,3 @@ class SceneSchema(unittest.TestCase):
         groups = list(rounds())
         values = [random_value(chance) for _ in range(VALUES)]
         self.assert_all(dict.fromkeys(group, value) for value in values for group in groups)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -8,7 +8,6 @@ import subprocess
 import sys
 import time
 import tomllib
-import unittest
 
 import h5py
 import numpy as np
@@ -181,7 +180,3 @@ class Studies(InFolder):
         with_plateaus, without = table["deposited disc, end [m3]"]
         self.assertGreater(with_plateaus, without)
         self.assertEqual(without, 0.0)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -14,7 +14,6 @@ import subprocess
 import sys
 import threading
 import time
-import unittest
 import warnings
 
 import h5py
@@ -405,7 +404,3 @@ class Stubs(InFolder):
         # What it tells is all that there is, so that nothing is left out.
         told = {item.name for item in ast.parse(found).body if isinstance(item, ast.ClassDef | ast.FunctionDef)}
         self.assertEqual(told, {name for name in vars(native()) if not name.startswith("_")})
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -67,7 +67,3 @@ class Sites(Folder):
                 "two.html: a formula was left as it is: $\\mu$",
             ],
         )
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -70,7 +70,3 @@ class SmallPatches(InFolder):
                 continue
             error = more * math.hypot(error, {"Sal": rho, "Str": math.sqrt(2) * rho}.get(symbol, 0.0) * expected)
             self.assertLess(abs(difference), 3 * error, symbol)
-
-
-if __name__ == "__main__":
-    unittest.main()

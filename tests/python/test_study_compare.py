@@ -168,7 +168,3 @@ class Scenes(Folder):
             found = compare([QUICK, coarse], 2, set={"operation.duration": "1 s"}, output=self.folder / "out")
             for said in ("rows of different height (quick 50 µm, coarse 100 µm)", "different time accelerations (20.0, 10.0)"):
                 self.assertTrue(any(said in caution for caution in found.cautions), found.cautions)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -439,7 +439,3 @@ class Levels(unittest.TestCase):
         constant = study_of(study.factors, study.runs.assign(y=1.0))
         with self.assertRaisesRegex(InputError, "y: the response is 1.0 in all 24 observations"):
             levels(constant)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -83,7 +83,3 @@ class Figures(unittest.TestCase):
         self.assertEqual(" ".join(top.get_title(loc="left").split()), "volume worn off plateaus of the simulated pin")
         self.assertEqual((top.get_ylabel(), below.get_ylabel(), below.get_xlabel()), ("mean, mm³", "difference, mm³", "time, h"))
         np.testing.assert_allclose(below.lines[1].get_xydata(), [[0, 0], [20, -1]])
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -283,7 +283,3 @@ uncertainty = "0.1 mm3"
             with self.assertRaises(InputError) as raised:
                 fit(self.study(change))
             self.assertIn(words, str(raised.exception))
-
-
-if __name__ == "__main__":
-    unittest.main()

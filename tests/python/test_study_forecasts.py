@@ -350,7 +350,3 @@ class Coverage(unittest.TestCase):
             for text in (page[page.index("## How answers are computed") :], said.getvalue())
         )
         self.assertEqual(page, command)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -279,7 +279,3 @@ class MeasurementTest(InFolder):
         ):
             with self.subTest(table):
                 self.refused(words, self.measured, 'measured_file = "t.csv"\n', table)
-
-
-if __name__ == "__main__":
-    unittest.main()

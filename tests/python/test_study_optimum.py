@@ -344,7 +344,3 @@ imported = true
         self.assertEqual(document["confirmed"][0]["runs"], 2)
         self.assertAlmostEqual(document["settings"][0]["number"], 600 * 2 * math.pi / 60)
         self.assertIn("speed = 600 rpm", found.text())
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -456,7 +456,3 @@ class Folders(Folder):
         self.assertEqual(own.read_text(), "mine")
         with self.assertRaisesRegex(InputError, "cannot make the folder"):
             self.write(own, ["a.png"])
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -250,7 +250,3 @@ class SurfaceCommand(InFolder):
             status, _, said = word("surface", "describe", "data")
         self.assertEqual(status, 2)
         self.assertIn("small.sdf: its 4 x 3 points can be read, but to describe them needs more memory", said)
-
-
-if __name__ == "__main__":
-    unittest.main()

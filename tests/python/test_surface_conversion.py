@@ -7,7 +7,6 @@ import math
 import os
 import pathlib
 import shutil
-import unittest
 import warnings
 
 import h5py
@@ -173,7 +172,3 @@ class Conversion(Folder):
         if PROGRAM != str(ROOT / "plateau") and not beside.exists():
             self.assertEqual(told.returncode, 2, told.stdout)
             self.assertIn("pip install 'plateau-brake[all]'", told.stderr)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -113,7 +113,3 @@ class Filters(unittest.TestCase):
             ("alicona_200x296_iso1_int32.sdf", 200, 296),
         ]:
             self.check(SHARED / name, columns, rows)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -250,7 +250,3 @@ class OtherPrograms(unittest.TestCase):
                 # Heights that are tiled are equal but for rounding, which chose the secant then.
                 relative = 1e-4 if "prepare" in what and name in ("Sk", "Spk", "Svk", "Smr1", "Smr2") else 1e-9
                 self.assertAlmostEqual(found[name], value, delta=relative * max(abs(value), 1e-3), msg=f"{what}, {name}")
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,7 +1,5 @@
 """Surfaces that the program writes (`plateau surface FILE --to OUT`), as surfalize, SurfaceTopography and sdfio read them."""
 
-import unittest
-
 import numpy as np
 import sdfio
 import surfalize
@@ -71,7 +69,3 @@ class Written(Folder):
         path = self.convert(z, "long.sdf")
         self.assertEqual(path.read_bytes()[:8], b"bISO-2.0")
         self.check(path, z, [by_sdfio, by_surfalize])
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -285,7 +285,3 @@ class Documents(unittest.TestCase):
                 self.assertEqual(cells[0], heights)
                 changed = sum(cell != default for cell, default in zip(cells[1:], defaults, strict=True))
                 self.assertEqual(changed, len(changes))
-
-
-if __name__ == "__main__":
-    unittest.main()
