@@ -228,6 +228,7 @@ fn refuse_unsupported(parameters: &Parameters) -> Outcome<()> {
         (!forms, "no formation"),
         (rules.debris != DebrisRule::Local, "pooled debris"),
         (transport.is_some(), "a transport length"),
+        (!parameters.mesh.is_rectangle(), "a round pin"),
         (rules.captured_of_resin() != rules.captured_fraction, "a captured fraction of its own for resin"),
         (parameters.integrator != Integrator::Explicit, "exponential wear"),
     ];

@@ -27,7 +27,7 @@ use crate::recorder::RunIdentity;
 pub struct Request<'a> {
     /// The run file.
     pub path: &'a Path,
-    /// Messages before the first step.
+    /// Head of the run file.
     pub header: &'a Header,
     /// Identity of the run.
     pub identity: &'a RunIdentity,
