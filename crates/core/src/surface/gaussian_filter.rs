@@ -36,26 +36,23 @@ pub(super) fn filter(
 ) -> Result<Vec<String>, PreparationError> {
     let mut report = Vec::new();
     let ends = if closed { "closed round the ring, mirrored at its edges" } else { "mirrored at the edges" };
-    let mut tell = |filter: &str, nesting_index: f64, before: f64, patch: &Patch| {
-        let out = if filter == "S" { "shorter" } else { "longer" };
+    for (key, nesting_index) in [("s_filter", s_filter), ("l_filter", l_filter)] {
+        let Some(nesting_index) = nesting_index else { continue };
+        check(patch, key, nesting_index)?;
+        let before = rms(&patch.heights);
+        let long = long_waves(patch, nesting_index, closed);
+        let out = if key == "s_filter" {
+            patch.heights = long;
+            "S-filter: waves shorter"
+        } else {
+            patch.heights.iter_mut().zip(long).for_each(|(height, long)| *height -= long);
+            "L-filter: waves longer"
+        };
         report.push(format!(
-            "{filter}-filter: waves {out} than {} taken out by an areal Gaussian filter, {ends}: {}",
+            "{out} than {} taken out by an areal Gaussian filter, {ends}: {}",
             Length(nesting_index),
             change(before, &patch.heights)
         ));
-    };
-    if let Some(nesting_index) = s_filter {
-        check(patch, "s_filter", nesting_index)?;
-        let before = rms(&patch.heights);
-        patch.heights = long_waves(patch, nesting_index, closed);
-        tell("S", nesting_index, before, patch);
-    }
-    if let Some(nesting_index) = l_filter {
-        check(patch, "l_filter", nesting_index)?;
-        let before = rms(&patch.heights);
-        let long = long_waves(patch, nesting_index, closed);
-        patch.heights.iter_mut().zip(long).for_each(|(height, long)| *height -= long);
-        tell("L", nesting_index, before, patch);
     }
     Ok(report)
 }

@@ -8,6 +8,7 @@ use plane::fractions;
 use thiserror::Error;
 
 use super::gaussian_filter::mirrored;
+use super::patch::neighbours;
 use super::{Extension, Length};
 use crate::model::mesh::Mesh;
 use crate::model::state::Base;
@@ -193,30 +194,20 @@ impl Micrograph {
         if pixels.is_empty() || width.checked_mul(height) != Some(pixels.len()) || !levels {
             return Err(MicrographError::Picture { width, height, pixels: pixels.len() });
         }
-        let refuse = |key, found, expected| Err(MicrographError::Value { key, found, expected });
-        if !(self.pixel > 0.0 && self.pixel.is_finite()) {
-            return refuse("pixel", self.pixel, "a positive, finite length in m");
+        let level = if let Threshold::Level(level) = self.threshold { level } else { 0.0 };
+        let is_size = |size: f64| size >= 0.0 && size.is_finite();
+        let (area, smooth) = (self.despeckle.unwrap_or(0.0), self.smooth.unwrap_or(0.0));
+        let checks = [
+            ("pixel", self.pixel, self.pixel > 0.0 && self.pixel.is_finite(), "a positive, finite length in m"),
+            ("threshold", level, (0.0..=1.0).contains(&level), "a grey level from 0 to 1"),
+            ("despeckle", area, is_size(area), "a finite area in m^2, not negative"),
+            ("smooth", smooth, is_size(smooth), "a finite length in m, not negative"),
+        ];
+        if let Some((key, found, _, expected)) = checks.into_iter().find(|(_, _, good, _)| !good) {
+            return Err(MicrographError::Value { key, found, expected });
         }
-        if let Threshold::Level(level) = self.threshold
-            && !(0.0..=1.0).contains(&level)
-        {
-            return refuse("threshold", level, "a grey level from 0 to 1");
-        }
-        if let Some(area) = self.despeckle
-            && !(area >= 0.0 && area.is_finite())
-        {
-            return refuse("despeckle", area, "a finite area in m^2, not negative");
-        }
-        let side = width.min(height);
-        match self.smooth {
-            Some(smooth) if !(smooth >= 0.0 && smooth.is_finite()) => {
-                refuse("smooth", smooth, "a finite length in m, not negative")
-            }
-            Some(smooth) if smooth / self.pixel > 0.25 * side as f64 => {
-                Err(MicrographError::Smooth { smooth, sigma: smooth / self.pixel, side })
-            }
-            _ => Ok(()),
-        }
+        let (sigma, side) = (smooth / self.pixel, width.min(height));
+        if sigma > 0.25 * side as f64 { Err(MicrographError::Smooth { smooth, sigma, side }) } else { Ok(()) }
     }
 }
 
@@ -372,15 +363,4 @@ fn despeckle(picture: &mut Picture<bool>, value: bool, smallest: usize) -> usize
         }
     }
     specks
-}
-
-/// Pixels that share a side with this one.
-fn neighbours(pixel: usize, width: usize, count: usize) -> [Option<usize>; 4] {
-    let x = pixel % width;
-    [
-        (x > 0).then(|| pixel - 1),
-        (x + 1 < width).then_some(pixel + 1),
-        pixel.checked_sub(width),
-        (pixel + width < count).then_some(pixel + width),
-    ]
 }

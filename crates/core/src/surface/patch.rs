@@ -74,6 +74,17 @@ impl Patch {
     }
 }
 
+/// Points that share a side with this one, on a grid of so many points in lines of so many.
+pub(super) fn neighbours(point: usize, line: usize, points: usize) -> [Option<usize>; 4] {
+    let place = point % line;
+    [
+        (place > 0).then(|| point - 1),
+        (place + 1 < line).then_some(point + 1),
+        point.checked_sub(line),
+        (point + line < points).then_some(point + line),
+    ]
+}
+
 /// Which surface of the pair.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Body {

@@ -74,16 +74,7 @@ impl Preparation {
         extend: None,
         scale: 1.0,
     };
-}
 
-impl Default for Preparation {
-    /// [`Preparation::NONE`].
-    fn default() -> Self {
-        Self::NONE
-    }
-}
-
-impl Preparation {
     /// Refuses numbers that make no sense.
     pub(super) fn check(&self) -> Result<(), PreparationError> {
         let positive = |number: f64| number > 0.0 && number.is_finite();
@@ -107,9 +98,7 @@ impl Preparation {
             _ => Ok(()),
         }
     }
-}
 
-impl Preparation {
     /// Gives the number of points that were missing and got a height.
     pub(super) fn level_and_fill(
         &self,
@@ -180,6 +169,13 @@ impl Preparation {
         let before = rms(&patch.heights);
         level(&mut patch.heights, patch.rows, self.level, closed);
         report.push(format!("levelled by {what}: {}", change(before, &patch.heights)));
+    }
+}
+
+impl Default for Preparation {
+    /// [`Preparation::NONE`].
+    fn default() -> Self {
+        Self::NONE
     }
 }
 
@@ -372,11 +368,12 @@ fn laid(patch: &Patch, repeat: bool, body: Body, mesh: &Mesh) -> String {
     let times = [body.length(mesh) / sizes[0], mesh.rows() as f64 * mesh.row_height() / sizes[1]];
     let across =
         if repeat && times[1] > 1.0 + SAME { format!("{:.2} times across the track", times[1]) } else { String::new() };
-    let laid = match Line::of(patch) {
-        Some(Line::Across) if across.is_empty() => format!("profile of {} laid across the track", Length(sizes[1])),
-        Some(Line::Across) => format!("profile of {} repeated {across}, mirrored at the seams", Length(sizes[1])),
-        Some(Line::Along) => on_body(&format!("profile of {}", Length(sizes[0])), repeat, times[0], "", body),
-        None => {
+    // A patch of one line of points is the same all over in the other direction.
+    let laid = match (patch.columns, patch.rows) {
+        (1, 2..) if across.is_empty() => format!("profile of {} laid across the track", Length(sizes[1])),
+        (1, 2..) => format!("profile of {} repeated {across}, mirrored at the seams", Length(sizes[1])),
+        (2.., 1) => on_body(&format!("profile of {}", Length(sizes[0])), repeat, times[0], "", body),
+        _ => {
             let patch = format!("patch of {} by {}", Length(sizes[0]), Length(sizes[1]));
             let across = if across.is_empty() { across } else { format!(" and {across}") };
             on_body(&patch, repeat, times[0], &across, body)
@@ -389,22 +386,6 @@ fn laid(patch: &Patch, repeat: bool, body: Body, mesh: &Mesh) -> String {
 const SAME: f64 = 1e-9;
 /// Distances of points that differ from a cell by less than this part are about a cell.
 const ABOUT: f64 = 0.01;
-
-/// A patch of one line of points, the same all over in the other direction.
-enum Line {
-    Along,
-    Across,
-}
-
-impl Line {
-    fn of(patch: &Patch) -> Option<Self> {
-        match (patch.columns, patch.rows) {
-            (1, 2..) => Some(Self::Across),
-            (2.., 1) => Some(Self::Along),
-            _ => None,
-        }
-    }
-}
 
 /// What was laid along the body, so many times if it is repeated.
 fn on_body(what: &str, repeat: bool, times: f64, across: &str, body: Body) -> String {
@@ -430,11 +411,11 @@ fn heights_of_cells(patch: &Patch, mesh: &Mesh) -> String {
         }
     };
     let (along, across) = (way(patch.column_pitch, cell[0]), way(patch.row_pitch, cell[1]));
-    let ways = match Line::of(patch) {
-        Some(Line::Across) => format!("{across} across sliding, the same all along it"),
-        Some(Line::Along) => format!("{along} along sliding, the same all across it"),
-        None if along == across => along,
-        None => format!("{along} along sliding, {across} across it"),
+    let ways = match (patch.columns, patch.rows) {
+        (1, 2..) => format!("{across} across sliding, the same all along it"),
+        (2.., 1) => format!("{along} along sliding, the same all across it"),
+        _ if along == across => along,
+        _ => format!("{along} along sliding, {across} across it"),
     };
     format!("the height of a cell of {} by {} is {ways}", Length(cell[0]), Length(cell[1]))
 }

@@ -6,31 +6,22 @@ use rayon::prelude::*;
 
 use super::error::PreparationError;
 use super::heights::{change, rms};
+use super::patch::neighbours;
 use super::rotate::{height_at, place};
 use super::{Length, Patch};
 
 /// Whether each point lies within what was measured: all but the missing points that other missing points join to the edge
 /// of the patch, or to the point with the index `outside`. Any other gap with measured points all round it lies within.
-pub(super) fn within_measurement(patch: &Patch, outside: Option<usize>) -> Vec<bool> {
-    let Patch { columns, rows, ref heights, .. } = *patch;
+fn within_measurement(patch: &Patch, outside: Option<usize>) -> Vec<bool> {
+    let heights = &patch.heights;
     let mut within = vec![true; heights.len()];
-    let is_outside = |index: usize| {
-        let (column, row) = (index / rows, index % rows);
-        let on_edge = column == 0 || row == 0 || column + 1 == columns || row + 1 == rows;
-        on_edge || outside == Some(index)
-    };
+    let around = |index: usize| neighbours(index, patch.rows, heights.len());
+    let is_outside = |index: usize| around(index).contains(&None) || outside == Some(index);
     let mut found: Vec<usize> =
         (0..heights.len()).filter(|index| heights[*index].is_nan() && is_outside(*index)).collect();
     found.iter().for_each(|index| within[*index] = false);
     while let Some(index) = found.pop() {
-        let (column, row) = (index / rows, index % rows);
-        let neighbours = [
-            (column > 0).then(|| index - rows),
-            (column + 1 < columns).then(|| index + rows),
-            (row > 0).then(|| index - 1),
-            (row + 1 < rows).then(|| index + 1),
-        ];
-        for neighbour in neighbours.into_iter().flatten() {
+        for neighbour in around(index).into_iter().flatten() {
             if within[neighbour] && heights[neighbour].is_nan() {
                 within[neighbour] = false;
                 found.push(neighbour);
@@ -42,16 +33,16 @@ pub(super) fn within_measurement(patch: &Patch, outside: Option<usize>) -> Vec<b
 
 /// Columns and rows of a grid, as the first and the number of each.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Rectangle {
-    pub(super) first: [usize; 2],
-    pub(super) count: [usize; 2],
+struct Rectangle {
+    first: [usize; 2],
+    count: [usize; 2],
 }
 
 /// The rectangle with the most points, all of them within; the first of several. `None` where no point is.
 ///
 /// Column by column: how far the points reach back in each row makes a skyline, whose largest rectangle a stack of rising
 /// heights finds in one pass (the largest rectangle in a histogram).
-pub(super) fn largest_rectangle(within: &[bool], rows: usize) -> Option<Rectangle> {
+fn largest_rectangle(within: &[bool], rows: usize) -> Option<Rectangle> {
     let mut back = vec![0; rows];
     let mut best: Option<Rectangle> = None;
     for (column, points) in within.chunks_exact(rows).enumerate() {
@@ -75,7 +66,7 @@ pub(super) fn largest_rectangle(within: &[bool], rows: usize) -> Option<Rectangl
 }
 
 /// The longest run of columns all of whose points are within, as a rectangle of all rows; the first of several.
-pub(super) fn longest_run(within: &[bool], rows: usize) -> Option<Rectangle> {
+fn longest_run(within: &[bool], rows: usize) -> Option<Rectangle> {
     let mut best: Option<Rectangle> = None;
     let mut run = 0;
     for (column, points) in within.chunks_exact(rows).enumerate() {
