@@ -148,12 +148,6 @@ pub(super) fn series(entry: &Entry) -> Result<Option<Series>, CollectError> {
 /// Heads of the first columns of every table.
 const FIRST: [&str; 4] = ["run", "point", "replicate", "state"];
 
-/// A column: its head and a cell for each run.
-struct Column {
-    head: String,
-    cells: Vec<String>,
-}
-
 /// Head and lines: number, point, replicate and state of each run, its factors and responses, and why it failed.
 ///
 /// Quantities are numbers in the unit that stands behind the name, as in `speed [rpm]`: in that of the study, if it states all
@@ -163,9 +157,9 @@ struct Column {
 pub fn table(plan: &Plan, collected: &Collected) -> Vec<Vec<String>> {
     let study = plan.study();
     let mut names = Names::default();
-    let mut column = |name: &str, what: &str, unit: &str, cell: &dyn Fn(&CollectedRun) -> String| Column {
-        head: names.head(name, what, unit),
-        cells: collected.runs.iter().map(cell).collect(),
+    // Its head, and a cell for each run.
+    let mut column = |name: &str, what: &str, unit: &str, cell: &dyn Fn(&CollectedRun) -> String| -> Vec<String> {
+        std::iter::once(names.head(name, what, unit)).chain(collected.runs.iter().map(cell)).collect()
     };
     let mut columns = vec![
         column(FIRST[0], "", "", &|run| run.run.number.to_string()),
@@ -198,9 +192,7 @@ pub fn table(plan: &Plan, collected: &Collected) -> Vec<Vec<String>> {
         }
     }
     columns.push(error);
-    let head = columns.iter().map(|column| column.head.clone()).collect();
-    let line = |run: usize| columns.iter().map(|column| column.cells[run].clone()).collect();
-    std::iter::once(head).chain((0..collected.runs.len()).map(line)).collect()
+    (0..=collected.runs.len()).map(|line| columns.iter().map(|column| column[line].clone()).collect()).collect()
 }
 
 /// Tells whether a file is such a table, as far as its first columns tell.

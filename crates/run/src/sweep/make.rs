@@ -23,8 +23,8 @@ use super::under_way::{Ended, State, UnderWay};
 use crate::assembly::{Assembly, Sink};
 use crate::recorder::header;
 
-/// Makes a run, unless a signal comes or its run file cannot be kept: how it ended, and its identity by what was read of its files; none if it
-/// failed before that was known.
+/// Makes a run, unless a signal comes or its run file cannot be kept: how it ended, and its identity by what was read of its files; none
+/// if it failed before that was known.
 pub fn make(request: &Request<'_>, under_way: &mut UnderWay<'_>) -> Result<(Outcome, Option<Identity>), Ended> {
     let mut of = None;
     // A panic is a mistake of this program; it ends the run, not the study.

@@ -460,7 +460,7 @@ impl<'a> Runner<'a> {
         if let Some(end) = ended_elsewhere() {
             return end;
         }
-        let Ok(mut under_way) = UnderWay::take(&study.directory, &identity, &self.others, self.observer) else {
+        let Some(mut under_way) = UnderWay::take(&study.directory, &identity, &self.others, self.observer) else {
             if !lock(&self.waiting).insert(number) && !self.says_that_it_waits.swap(true, Ordering::Relaxed) {
                 let words = "all other runs are made; waits for those that other processes are making, and makes those that they leave";
                 self.observer.note(&words);

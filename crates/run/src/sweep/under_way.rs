@@ -94,10 +94,6 @@ pub struct UnderWay<'a> {
     touched: Instant,
 }
 
-/// Another process makes the run.
-#[derive(Debug)]
-pub struct Taken;
-
 /// Locks of runs that others make, as this process saw them.
 #[derive(Debug, Default)]
 pub struct Others(BTreeMap<PathBuf, (Seen, Instant)>);
@@ -116,26 +112,27 @@ impl Others {
 }
 
 impl<'a> UnderWay<'a> {
-    /// Takes the run of that identity, whose state is never due until [`keep_every`](Self::keep_every) says when.
+    /// Takes the run of that identity, unless another process makes it. Its state is never due until
+    /// [`keep_every`](Self::keep_every) says when.
     pub fn take(
         results: &Path,
         identity: &str,
         others: &Mutex<Others>,
         observer: &'a dyn SweepObserver,
-    ) -> Result<Self, Taken> {
+    ) -> Option<Self> {
         let path = results.join(FOLDER).join(identity);
         let claim = match claim(&path, observer) {
             Err(ClaimError::Elsewhere { .. }) => {
                 let silent = others.lock().unwrap_or_else(PoisonError::into_inner).silent(&path, SILENCE);
-                Some(silent.and_then(|seen| Claim::of_silent(&path, &seen).ok()).ok_or(Taken)?)
+                Some(silent.and_then(|seen| Claim::of_silent(&path, &seen).ok())?)
             }
-            claim => claim.map_err(|_| Taken)?,
+            claim => claim.ok()?,
         };
         if claim.is_some() {
             Temporary::remove_abandoned(&path);
         }
         let now = Instant::now();
-        Ok(Self { observer, path, claim, every: Duration::MAX, last: now, touched: now })
+        Some(Self { observer, path, claim, every: Duration::MAX, last: now, touched: now })
     }
 
     /// Says how often the state is to be kept, in seconds.
@@ -234,7 +231,7 @@ pub fn tidy(results: &Path, is_run: impl Fn(&str) -> bool, has_ended: impl Fn(&s
         let is_identity = run.len() == IDENTITY && run.bytes().all(|byte| byte.is_ascii_hexdigit());
         if is_identity && has_ended(run) {
             // What is no lock stays, as do states that a living process still has.
-            if let Ok(under_way) = UnderWay::take(results, run, &Mutex::default(), &()) {
+            if let Some(under_way) = UnderWay::take(results, run, &Mutex::default(), &()) {
                 under_way.forget();
             }
         } else if is_identity && run == name && !is_run(run) {
