@@ -258,6 +258,9 @@ uncertainty = "0.1 mm3"
             ({"discrepancy": -0.1}, "fit.discrepancy = -0.1"),
             ({"discrepancy": {"x": 0.1}}, '"x" is no response that was measured; there are wear'),
             ({"correlations": [["wear", "x", 0.5]]}, "expected two responses with measured and a number"),
+            ({"correlations": [["wear", ["x"], 0.5]]}, """fit.correlations: ['wear', ['x'], 0.5], expected two responses"""),
+            ({"correlations": [["wear", "wear", "0.6"]]}, """fit.correlations: ['wear', 'wear', '0.6'], expected two responses"""),
+            ({"correlations": 3}, "fit.correlations: 3, expected two responses"),
             ({"confidence": 1.0}, "fit.confidence = 1.0"),
             ({"runs": 0}, "fit.runs = 0, expected at least 1"),
         ):

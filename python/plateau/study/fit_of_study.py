@@ -123,13 +123,15 @@ def _correlations(where: Any, asked: dict[str, Any], measured: list[Measurement]
     """Correlations of the errors of single values."""
     singles = [one.response.name for one in measured if not one.is_series]
     correlations = np.eye(len(singles))
-    for entry in asked.get("correlations", []):
-        is_triple = isinstance(entry, list) and len(entry) == 3
-        if not (is_triple and set(entry[:2]) <= set(singles) and entry[0] != entry[1] and -1.0 < entry[2] < 1.0):
-            expected = 'expected two responses with measured and a number, such as ["a", "b", 0.6]'
-            raise InputError(f"{where}: fit.correlations: {entry}, {expected}")
-        one, other = map(singles.index, entry[:2])
-        correlations[one, other] = correlations[other, one] = entry[2]
+    stated = asked.get("correlations", [])
+    for entry in stated if isinstance(stated, list) else [stated]:
+        match entry:
+            case [one, other, int() | float() as value] if one in singles and other in singles and one != other and -1.0 < value < 1.0:
+                places = singles.index(one), singles.index(other)
+                correlations[places] = correlations[places[::-1]] = value
+            case _:
+                expected = 'expected two responses with measured and a number, such as ["a", "b", 0.6]'
+                raise InputError(f"{where}: fit.correlations: {entry}, {expected}")
     if len(singles) and np.linalg.eigvalsh(correlations).min() <= 1e-9:
         raise InputError(f"{where}: fit.correlations: no errors can be correlated like this all together; make them smaller")
     return correlations

@@ -63,7 +63,7 @@ class TextTable:
 def read_text_table(path: Path) -> TextTable:
     """Reads a table in CSV, as programs and spreadsheets write it, in any usual encoding; lines that begin with # are left out."""
     numbered = list(enumerate(re.split("\r\n|\n|\r", _text(path)), 1))
-    stated = re.fullmatch(r'\s*"?sep=([;,\t])"?\s*', numbered[0][1], re.IGNORECASE) if numbered else None
+    stated = re.fullmatch(r'\s*"?sep=([;,\t])"?\s*', numbered[0][1], re.IGNORECASE)
     told = [(number, line) for number, line in numbered[bool(stated) :] if line.strip() and not line.lstrip().startswith("#")]
     if len(told) < 2:
         raise InputError(f"{path}: no points, expected a line for each below the names of the columns")
