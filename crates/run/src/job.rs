@@ -2,8 +2,6 @@
 //! Either way a [`Job`] looks the same. What they agree on between steps, and work of independent pieces, shared among the threads of
 //! a process.
 
-#[cfg(not(feature = "mpi"))]
-mod alone;
 #[cfg(feature = "mpi")]
 pub mod mpi;
 mod ranks;
@@ -95,6 +93,34 @@ impl WorkQueue {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build()?;
         pool.scope(|scope| (0..threads).for_each(|_| scope.spawn(|_| self.work(work))));
         Ok(())
+    }
+}
+
+/// This process on its own, where the program is built without MPI.
+#[cfg(not(feature = "mpi"))]
+mod alone {
+    use plateau_core::engine::comm::{CommError, Single};
+
+    /// This process, from the start of a job to its end.
+    #[derive(Debug)]
+    pub struct Session(());
+
+    impl Session {
+        /// Starts the job.
+        pub fn start() -> Result<Self, CommError> {
+            Ok(Self(()))
+        }
+
+        /// A way to talk to nobody else.
+        pub fn communicator(&self) -> Single {
+            Single
+        }
+
+        /// Ends the job in good order.
+        pub fn finish(self) {}
+
+        /// Ends the job, whose process reports and ends itself as it likes.
+        pub fn fail(self, _status: u8, _report: impl FnOnce()) {}
     }
 }
 
