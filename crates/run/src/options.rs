@@ -1,4 +1,4 @@
-//! Options of a run besides its scene, and its observer.
+//! Options of a run besides its scene, its observer, and options of a sweep.
 
 use std::fmt::Display;
 use std::path::PathBuf;
@@ -73,6 +73,49 @@ impl Default for Program {
     fn default() -> Self {
         Self { name: format!("plateau {}", env!("CARGO_PKG_VERSION")), revision: "unknown".into() }
     }
+}
+
+/// Options of a sweep: the runs of a study that are made, and their execution.
+#[derive(Debug, Clone)]
+pub struct SweepOptions {
+    /// Tells whether runs that failed before, or did not keep a series that is needed now, are made again.
+    pub retry: bool,
+    /// Tells whether the run file of every run is kept, and runs are made again that have none.
+    pub keep_files: bool,
+    /// The part of the runs that this process makes; all of them if none.
+    pub part: Option<Part>,
+    /// Runs at a time, at most.
+    pub jobs: usize,
+    /// Threads of each run.
+    pub workers: usize,
+    /// Failures after which no more runs begin; as many as there are if none.
+    pub most_failures: Option<usize>,
+    /// The program, as records and states name it.
+    pub program: Program,
+}
+
+impl Default for SweepOptions {
+    /// All runs that are not there yet, one at a time on one thread.
+    fn default() -> Self {
+        Self {
+            retry: false,
+            keep_files: false,
+            part: None,
+            jobs: 1,
+            workers: 1,
+            most_failures: None,
+            program: Program::default(),
+        }
+    }
+}
+
+/// One of several equal parts of the runs of a study: of `count` tasks the one with this number, from 1.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Part {
+    /// Its number, from 1.
+    pub number: usize,
+    /// Number of parts.
+    pub count: usize,
 }
 
 /// Follows a run. Every method has an answer already: an observer says only what it cares for, `()` cares for nothing.

@@ -2,8 +2,8 @@
 
 use std::collections::BTreeSet;
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::sync::Arc;
 use std::sync::mpsc::{RecvTimeoutError, channel};
+use std::sync::{Arc, Mutex, PoisonError};
 use std::thread;
 use std::time::Duration;
 
@@ -12,16 +12,22 @@ use plateau_core::observe::running_in::pulse_time;
 use plateau_core::observe::{Quantity, Sample, Snapshot, quantities};
 use plateau_core::simulation::{Execution, Simulation};
 use plateau_io::scene::Scene;
+use plateau_io::study::Study;
 use plateau_io::study::record::{CONTACT_TIME, Identity, Outcome, REVOLUTIONS, Series};
 use plateau_io::study::response::Response;
 use plateau_io::surface::{self, Loaded, SurfaceError};
 
 use super::kept_file::KeptFile;
 use super::resolved::file_of;
-use super::runner::Runner;
+use super::shared_surfaces::SharedSurfaces;
 use super::under_way::{Ended, State, UnderWay};
+use super::warnings::{SceneWarnings, SweepObserver, of_surfaces};
 use crate::assembly::{Assembly, Sink};
+use crate::options::SweepOptions;
 use crate::recorder::header;
+
+/// Time between two looks at signals.
+const SIGNAL_LOOK: Duration = Duration::from_millis(50);
 
 /// Makes a run, unless a signal comes or its run file cannot be kept: how it ended, and its identity by what was read of its files; none
 /// if it failed before that was known.
@@ -40,8 +46,16 @@ pub fn make(request: &Request<'_>, under_way: &mut UnderWay<'_>) -> Result<(Outc
 
 /// A run that is to be made.
 pub struct Request<'a> {
-    /// Who makes the runs of the study.
-    pub runner: &'a Runner<'a>,
+    /// Of which study.
+    pub study: &'a Study,
+    /// Options of the sweep.
+    pub options: &'a SweepOptions,
+    /// Who follows it.
+    pub observer: &'a dyn SweepObserver,
+    /// Surfaces of other runs.
+    pub shared: &'a SharedSurfaces,
+    /// Warnings of the surfaces of the runs.
+    pub warnings: &'a Mutex<SceneWarnings>,
     /// Its number in the study.
     pub number: usize,
     /// Its scene.
@@ -54,11 +68,12 @@ pub struct Request<'a> {
 
 impl Request<'_> {
     fn finish(&self, under_way: &mut UnderWay<'_>, of: &mut Option<Identity>) -> Result<Outcome, Ended> {
-        let Runner { plan, options, surfaces: shared, .. } = self.runner;
+        let Self { options, shared, .. } = self;
         let found = shared.find(self.scene);
         let is_found = found.is_some();
-        let loaded = found.map_or_else(|| surfaces(self.scene, self.runner, under_way).map(Arc::new), Ok)?;
-        self.runner.look_at_surfaces(self.scene, &loaded);
+        let loaded = found.map_or_else(|| self.surfaces(under_way).map(Arc::new), Ok)?;
+        let warnings = of_surfaces(self.scene, &loaded);
+        self.warnings.lock().unwrap_or_else(PoisonError::into_inner).add(warnings);
         let read = of.insert(Identity::of(self.scene, &loaded.inputs));
         if !is_found {
             shared.keep(self.scene, &loaded);
@@ -67,7 +82,7 @@ impl Request<'_> {
             under_way.is_another();
         }
         // Of what was read, which may not be what was expected.
-        let file = options.keep_files.then(|| file_of(plan.study(), read, self.number, self.scene));
+        let file = options.keep_files.then(|| file_of(self.study, read, self.number, self.scene));
         let Loaded { surfaces, inputs, report, .. } = Arc::unwrap_or_clone(loaded);
         let mut scene = self.scene.clone();
         if file.is_none() {
@@ -86,14 +101,15 @@ impl Request<'_> {
         if let Some(state) = state {
             assembly.restore(&state.simulation)?;
             let steps = state.simulation.run.steps();
-            self.runner.goes_on(steps);
+            self.observer.steps(steps);
+            self.observer.note(&format_args!("a run that was stopped goes on from step {steps}"));
             (recorder.columns, recorder.told) = (state.columns, steps);
         }
         let result = assembly.run_to_end(&mut recorder);
         recorder.file.take().map_or(Ok(()), |file| file.close(&result, &assembly))?;
         result?;
         let steps = assembly.simulation.steps_done();
-        self.runner.steps(steps - recorder.told);
+        self.observer.steps(steps - recorder.told);
         let events = (!assembly.events().is_empty()).then(|| {
             let extras = scene.extras(false);
             let quantities = || event_quantities(&extras);
@@ -101,6 +117,38 @@ impl Request<'_> {
             Series::new(quantities().map(|quantity| quantity.name.to_owned()).collect(), columns.collect()).pack()
         });
         Ok(Outcome::Finished { steps, until: scene.duration, series: recorder.series().pack(), events, pulse_time })
+    }
+
+    /// Tells the observer how many steps were taken since the last time, about ten times a second; whether a signal ends the run.
+    fn steps(&self, count: u64) -> bool {
+        self.observer.steps(count);
+        self.observer.asked_to_stop().is_some()
+    }
+
+    /// Reads or makes the surfaces of a scene. Nothing is written meanwhile, so after a signal nobody waits for them: the thread that makes
+    /// them ends with the program. Other runs that are made at the same time keep what they have.
+    fn surfaces(&self, under_way: &mut UnderWay<'_>) -> Result<Loaded, Ended> {
+        let (give, take) = channel();
+        let its_own = self.scene.clone();
+        let load = move || drop(give.send(surface::load(&its_own)));
+        let loaded = if thread::Builder::new().name("surfaces".into()).spawn(load).is_ok() {
+            loop {
+                match take.recv_timeout(SIGNAL_LOOK) {
+                    Ok(loaded) => break loaded,
+                    Err(RecvTimeoutError::Timeout) => {
+                        under_way.touch();
+                        if self.steps(0) {
+                            return Err(Ended::Stopped);
+                        }
+                    }
+                    Err(RecvTimeoutError::Disconnected) => panic!("the thread that makes surfaces panicked"),
+                }
+            }
+        } else {
+            // No thread is to be had: a signal is heard with the first step.
+            surface::load(self.scene)
+        };
+        loaded.map_err(|error: SurfaceError| Ended::Failed(error.to_string()))
     }
 }
 
@@ -110,8 +158,8 @@ struct Recorder<'a, 'o> {
     disc_columns: usize,
     /// Time and simulated revolutions, then the series.
     columns: Vec<Vec<f64>>,
-    runner: &'a Runner<'a>,
-    /// Steps that the runner was told of.
+    request: &'a Request<'a>,
+    /// Steps that the observer was told of.
     told: u64,
     under_way: &'a mut UnderWay<'o>,
     program: String,
@@ -122,7 +170,7 @@ struct Recorder<'a, 'o> {
 
 impl<'a, 'o> Recorder<'a, 'o> {
     fn new(request: &'a Request<'_>, scene: &Scene, under_way: &'a mut UnderWay<'o>) -> Self {
-        let (runner, study) = (request.runner, request.runner.plan.study());
+        let study = request.study;
         let asked: BTreeSet<&str> = study.responses.iter().flat_map(Response::needs).collect();
         let is_kept = |name: &str| {
             let is_wanted = study.series.as_ref().is_none_or(|series| series.iter().any(|wanted| wanted == name));
@@ -138,10 +186,10 @@ impl<'a, 'o> Recorder<'a, 'o> {
             columns: vec![Vec::new(); 2 + kept.len()],
             kept,
             disc_columns,
-            runner,
+            request,
             told: 0,
             under_way,
-            program: runner.options.program.build(),
+            program: request.options.program.build(),
             file: None,
             is_stopped: false,
         }
@@ -175,7 +223,7 @@ impl Sink for Recorder<'_, '_> {
     fn look(&mut self, simulation: &Simulation, steps: u64) -> Result<u64, Ended> {
         self.under_way.touch();
         let done = simulation.steps_done();
-        self.is_stopped = self.runner.steps(done - self.told);
+        self.is_stopped = self.request.steps(done - self.told);
         self.told = done;
         self.file.as_mut().map_or(Ok(()), |file| file.writer.check())?;
         Ok(steps)
@@ -189,33 +237,4 @@ impl Sink for Recorder<'_, '_> {
         }
         if self.is_stopped { Err(Ended::Stopped) } else { Ok(()) }
     }
-}
-
-/// Time between two looks at signals.
-const SIGNAL_LOOK: Duration = Duration::from_millis(50);
-
-/// Reads or makes the surfaces of a scene. Nothing is written meanwhile, so after a signal nobody waits for them: the thread that makes
-/// them ends with the program. Other runs that are made at the same time keep what they have.
-fn surfaces(scene: &Scene, runner: &Runner<'_>, under_way: &mut UnderWay<'_>) -> Result<Loaded, Ended> {
-    let (give, take) = channel();
-    let its_own = scene.clone();
-    let load = move || drop(give.send(surface::load(&its_own)));
-    let loaded = if thread::Builder::new().name("surfaces".into()).spawn(load).is_ok() {
-        loop {
-            match take.recv_timeout(SIGNAL_LOOK) {
-                Ok(loaded) => break loaded,
-                Err(RecvTimeoutError::Timeout) => {
-                    under_way.touch();
-                    if runner.steps(0) {
-                        return Err(Ended::Stopped);
-                    }
-                }
-                Err(RecvTimeoutError::Disconnected) => panic!("the thread that makes surfaces panicked"),
-            }
-        }
-    } else {
-        // No thread is to be had: a signal is heard with the first step.
-        surface::load(scene)
-    };
-    loaded.map_err(|error: SurfaceError| Ended::Failed(error.to_string()))
 }

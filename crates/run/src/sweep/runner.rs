@@ -10,73 +10,28 @@ use std::time::{Duration, Instant};
 use plateau_io::dataset_file::now;
 use plateau_io::memory::AtWork;
 use plateau_io::number;
-use plateau_io::scene::Scene;
 use plateau_io::study::Study;
 use plateau_io::study::journal::{Journal, Shard};
 use plateau_io::study::plan::Plan;
 use plateau_io::study::record::{Digests, Identity, Outcome, Record};
 use plateau_io::study::response::NoAnswer;
-use plateau_io::surface::Loaded;
 use plateau_io::text::{self, shown_on_one_line};
 use serde::Serialize;
 
 use crate::error::SweepError;
 use crate::execution;
 use crate::job::{Agreement, Job, PieceEnd};
-use crate::options::Program;
+use crate::options::SweepOptions;
 use crate::sweep::earlier::{is_whole, journal, journal_folder, refuse_unwritable, say_left_out, say_unkept};
 use crate::sweep::kept_file;
 use crate::sweep::make::{Request, make};
 use crate::sweep::resolved::{Resolved, file_of, needed, note_short_tenths};
 use crate::sweep::shared_surfaces::SharedSurfaces;
 use crate::sweep::under_way::{self, Ended, Others, UnderWay};
-use crate::sweep::warnings::{SceneWarnings, SweepObserver, of_questions, of_surfaces};
+use crate::sweep::warnings::{SceneWarnings, SweepObserver, of_questions};
 
 /// Files that are no part of a journal, of which the names are told.
 const STRANGE: usize = 10;
-
-/// Options of a sweep: the runs of a study that are made, and their execution.
-#[derive(Debug, Clone)]
-pub struct SweepOptions {
-    /// Tells whether runs that failed before, or did not keep a series that is needed now, are made again.
-    pub retry: bool,
-    /// Tells whether the run file of every run is kept, and runs are made again that have none.
-    pub keep_files: bool,
-    /// The part of the runs that this process makes; all of them if none.
-    pub part: Option<Part>,
-    /// Runs at a time, at most.
-    pub jobs: usize,
-    /// Threads of each run.
-    pub workers: usize,
-    /// Failures after which no more runs begin; as many as there are if none.
-    pub most_failures: Option<usize>,
-    /// The program, as records and states name it.
-    pub program: Program,
-}
-
-impl Default for SweepOptions {
-    /// All runs that are not there yet, one at a time on one thread.
-    fn default() -> Self {
-        Self {
-            retry: false,
-            keep_files: false,
-            part: None,
-            jobs: 1,
-            workers: 1,
-            most_failures: None,
-            program: Program::default(),
-        }
-    }
-}
-
-/// One of several equal parts of the runs of a study: of `count` tasks the one with this number, from 1.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Part {
-    /// Its number, from 1.
-    pub number: usize,
-    /// Number of parts.
-    pub count: usize,
-}
 
 /// Runs of a study that are to be made.
 #[derive(Debug)]
@@ -296,8 +251,8 @@ const LOOK: Duration = Duration::from_millis(200);
 
 /// State that the runs that are made at the same time share.
 pub struct Runner<'a> {
-    pub(super) plan: &'a Plan,
-    pub(super) options: &'a SweepOptions,
+    plan: &'a Plan,
+    options: &'a SweepOptions,
     observer: &'a dyn SweepObserver,
     /// The runs, when it was decided which of them are to be made; none in a process that decides nothing.
     decided: Option<&'a Resolved>,
@@ -305,7 +260,7 @@ pub struct Runner<'a> {
     failed_before: HashMap<String, String>,
     digests: Digests,
     /// Surfaces that runs have in common.
-    pub(super) surfaces: SharedSurfaces,
+    surfaces: SharedSurfaces,
     /// All results, as far as they were seen.
     journal: Mutex<Journal>,
     /// Locks of other processes.
@@ -376,23 +331,6 @@ impl<'a> Runner<'a> {
         }
     }
 
-    /// Told how many steps were taken since the last time, about ten times a second in each run; tells whether a signal ends it.
-    pub fn steps(&self, count: u64) -> bool {
-        self.observer.steps(count);
-        self.signal().is_some()
-    }
-
-    /// Told of the surfaces of a run before its first step.
-    pub fn look_at_surfaces(&self, scene: &Scene, loaded: &Loaded) {
-        lock(&self.warnings).add(of_surfaces(scene, loaded));
-    }
-
-    /// Told when a run does not begin at its beginning.
-    pub fn goes_on(&self, steps: u64) {
-        self.observer.steps(steps);
-        self.observer.note(&format_args!("a run that was stopped goes on from step {steps}"));
-    }
-
     /// The signal that ended the runs, if there was one.
     pub fn signal(&self) -> Option<u8> {
         self.observer.asked_to_stop()
@@ -431,7 +369,7 @@ impl<'a> Runner<'a> {
 
     /// Makes a run and keeps its result, unless another process has done that or is about to.
     pub fn make(&self, number: usize) -> PieceEnd {
-        if self.observer.asked_to_stop().is_some() {
+        if self.signal().is_some() {
             return PieceEnd::Stopped;
         }
         let _at_work = AtWork::begin();
@@ -477,7 +415,17 @@ impl<'a> Runner<'a> {
         under_way.keep_every(scene.output.checkpoint_every);
         let start = Instant::now();
         let before = lock(&self.journal).get(&identity).map(|entry| entry.kept.clone()).unwrap_or_default();
-        let request = Request { runner: self, number, scene: &scene, expected: &expected, besides: &before };
+        let request = Request {
+            study,
+            options: self.options,
+            observer: self.observer,
+            shared: &self.surfaces,
+            warnings: &self.warnings,
+            number,
+            scene: &scene,
+            expected: &expected,
+            besides: &before,
+        };
         let (outcome, of) = match make(&request, &mut under_way) {
             Ok(made) => made,
             Err(Ended::Unkept(error)) => {
