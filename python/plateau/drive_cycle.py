@@ -20,7 +20,7 @@ from plateau.errors import InputError, PlateauWarning
 from plateau.opened_runs import counted
 from plateau.output_folder import followed, put_together, refuse_file
 from plateau.program import call, listen
-from plateau.study.text_tables import TextTable, read_text_table
+from plateau.text_tables import TextTable, read_text_table
 from plateau.units import NUMBER, in_si, quantity
 
 # What a table may have, with the SI unit and the usual one; the first two it must have, and at most one of the others.

@@ -8,9 +8,9 @@ from typing import Any
 import numpy as np
 
 from plateau.errors import InputError
-from plateau.study.text_tables import aligned
 from plateau.surface_data import told
 from plateau.surface_parameters import PARAMETERS, parameters, sampling_errors
+from plateau.text_tables import aligned
 
 UNITS = {"pitch": "um", "size": "um", "coverage": "1", "Str_below": "1"} | {symbol: unit for symbol, (_, unit, *_) in PARAMETERS.items()}
 # What the heights do not determine, or what needs a pitch.

@@ -13,9 +13,9 @@ from plateau.study.data import Response
 from plateau.study.imports import import_values
 from plateau.study.measured import measurements
 from plateau.study.prediction import _rows
-from plateau.units import quantity
 from plateau.study.results import analysed
-from plateau.study.text_tables import read_text_table, written_table
+from plateau.text_tables import read_text_table, written_table
+from plateau.units import quantity
 
 STUDY = """
 version = 1

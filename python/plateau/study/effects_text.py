@@ -7,7 +7,7 @@ import pandas
 
 from plateau.study.model import MODELS, ROUNDING, Fitted, contrasts, named
 from plateau.study.response_effects import ResponseEffects
-from plateau.study.text_tables import aligned
+from plateau.text_tables import aligned
 from plateau.units import Unit, unit_for, with_digits, with_minus
 
 # Terms of an equation beyond which nobody reads it.

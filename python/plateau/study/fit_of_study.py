@@ -20,7 +20,7 @@ from plateau.study.measured import Measurement, measurements
 from plateau.study.process import LEAST
 from plateau.study.results import analysed
 from plateau.study.runs import finished, made_study
-from plateau.study.text_tables import listed
+from plateau.text_tables import listed
 from plateau.units import unit_of, with_minus
 
 

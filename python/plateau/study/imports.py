@@ -11,7 +11,7 @@ from plateau.output_folder import put
 from plateau.study.data import Answer, Study
 from plateau.study.kept_values import KeptValues, file_of
 from plateau.study.results import analysed
-from plateau.study.text_tables import read_text_table
+from plateau.text_tables import read_text_table
 
 
 @dataclass(frozen=True, repr=False)

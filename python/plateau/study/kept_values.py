@@ -9,7 +9,7 @@ import pandas
 
 from plateau.errors import InputError
 from plateau.study.data import Factor, Response, Study
-from plateau.study.text_tables import TextTable, read_text_table, written_table
+from plateau.text_tables import TextTable, read_text_table, written_table
 from plateau.units import in_si, with_unit
 
 REPLICATE = "replicate"

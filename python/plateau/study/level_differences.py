@@ -17,7 +17,7 @@ from plateau.study.model import Fitted, NothingToFit
 from plateau.study.model_choice import cautions, fitted
 from plateau.study.results import analysed
 from plateau.study.settings import in_short
-from plateau.study.text_tables import listed
+from plateau.text_tables import listed
 from plateau.units import unit_for, with_digits
 
 

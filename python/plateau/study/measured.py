@@ -9,7 +9,7 @@ import numpy as np
 
 from plateau.errors import InputError
 from plateau.study.data import Numbers, Response, Study
-from plateau.study.text_tables import read_text_table
+from plateau.text_tables import read_text_table
 from plateau.units import NUMBER, in_si, quantity
 
 

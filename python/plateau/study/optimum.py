@@ -22,8 +22,8 @@ from plateau.study.results import analysed
 from plateau.study.runs import made_study
 from plateau.study.settings import beyond_of, ends_of, no_curve, region_of, straight_between
 from plateau.study.surrogate import Surrogate, surrogates
-from plateau.study.text_tables import listed
 from plateau.style import APART, CHOSEN, LINES, NARROW, QUIET, WIDE, Figures, in_style, labelled, new
+from plateau.text_tables import listed
 from plateau.units import Unit, unit_of, with_minus
 
 # In differences that count: on a limit; in halves of a range: at its end, and so far from its middle that a model knows nothing.

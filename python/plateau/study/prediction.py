@@ -21,7 +21,7 @@ from plateau.study.runs import made_study
 from plateau.study.settings import SAME, axis_of, beyond_of, factor_named, held_values, in_short, joined, no_curve, region_of
 from plateau.study.settings import straight_between, value_of
 from plateau.study.surrogate import Surrogate, surrogates
-from plateau.study.text_tables import listed, read_text_table
+from plateau.text_tables import listed, read_text_table
 from plateau.units import Unit, unit_for, unit_of, with_digits, with_minus, with_unit
 
 # Most places of a grid.

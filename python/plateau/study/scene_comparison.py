@@ -25,8 +25,8 @@ from plateau.run_accessor import TOTALS
 from plateau.scenes import scene_of
 from plateau.study.data import Answer, Numbers, Response, Study
 from plateau.study.runs import finished, write_study
-from plateau.study.text_tables import listed
 from plateau.style import NARROW, QUIET, Figures, in_style, labelled, look, new, wrapped
+from plateau.text_tables import listed
 from plateau.toml_text import toml_of
 from plateau.units import Unit, quantity, unit_for, unit_of, with_digits, with_minus
 

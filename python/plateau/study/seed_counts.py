@@ -12,7 +12,7 @@ from scipy import stats
 from plateau.errors import InputError, PlateauWarning
 from plateau.study.analysis import Effects, effects
 from plateau.study.data import Answer, Numbers, Study
-from plateau.study.text_tables import listed
+from plateau.text_tables import listed
 from plateau.units import quantity, unit_of, with_digits
 
 # Beyond this nobody runs them.

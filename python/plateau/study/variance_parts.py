@@ -25,8 +25,8 @@ from plateau.study.process import Process
 from plateau.study.results import analysed
 from plateau.study.settings import in_short, no_curve, straight_between
 from plateau.study.surrogate import Surrogate, surrogates
-from plateau.study.text_tables import listed
 from plateau.style import LINES, NARROW, QUIET, Figures, in_style, labelled, new, wrapped
+from plateau.text_tables import listed
 from plateau.units import unit_of, with_digits, with_minus
 
 # Places of the sample, functions that are drawn, and cosines of each.

@@ -16,8 +16,8 @@ from plateau.output_folder import plain, put, refuse_earlier, refuse_file, relat
 from plateau.study.data import Study
 from plateau.study.kept_values import file_of
 from plateau.study.results import analysed
-from plateau.study.text_tables import written_table
 from plateau.style import saved
+from plateau.text_tables import written_table
 
 EARLIER = "Replace the files of an earlier call, and remove those that this call does not write"
 OTHER = "Replace the files of another call, too, not only those of the same one, and remove those that this call does not write"
