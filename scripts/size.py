@@ -66,7 +66,10 @@ def sizes(revision: str) -> dict[str, dict[str, int]]:
 def main() -> None:
     """Print one table with the numbers of every revision."""
     revisions = sys.argv[1:] or ["HEAD"]
-    found = [sizes(revision) for revision in revisions]
+    try:
+        found = [sizes(revision) for revision in revisions]
+    except subprocess.CalledProcessError as error:
+        sys.exit(f"size.py: {error.stderr.decode().strip()}")
     columns = ("files", "lines", "code", "comments", "tests")
     print("| what | " + " | ".join(f"{column}: {', '.join(revisions)}" for column in columns) + " |")
     print("|" + "---|" * (len(columns) + 1))

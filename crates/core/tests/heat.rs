@@ -21,8 +21,7 @@ mod long;
 mod passing;
 mod simulation;
 
-use plateau_core::model::heat::thermal::Factor;
-use plateau_core::model::heat::{Coating, Disc, Pin, Substance, Thermal};
+use plateau_core::model::thermal::{Coating, Disc, Factor, Pin, Substance, Thermal};
 
 /// Grey cast iron, of the table in model 12.
 pub const IRON: Substance = Substance { conductivity: 50.0, density: 7200.0, specific_heat: 500.0 };

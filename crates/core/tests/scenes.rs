@@ -7,11 +7,10 @@ use std::sync::Arc;
 use plateau_core::model::cycle::{Cycle, Interpolation, Node};
 use plateau_core::model::emission::Emission;
 use plateau_core::model::friction::{Friction, FrictionLaw};
-use plateau_core::model::heat::thermal::Factor;
-use plateau_core::model::heat::{Coating, Disc, Pin as ThermalPin, Substance, Thermal};
 use plateau_core::model::mesh::{Mesh, Outline, columns_of_disc};
 use plateau_core::model::parameters::{DebrisRule, Integrator, Parameters, PlateauRules};
 use plateau_core::model::state::{Base, InitialSurfaces};
+use plateau_core::model::thermal::{Coating, Disc, Factor, Pin as ThermalPin, Substance, Thermal};
 use plateau_core::observe::Sample;
 use plateau_core::simulation::Simulation;
 

@@ -12,10 +12,10 @@
 use std::ops::RangeInclusive;
 
 use plateau_core::model::first_contact::FirstContact;
-use plateau_core::model::heat::{Substance, Thermal};
 use plateau_core::model::material::{Material, Materials, Status};
 use plateau_core::model::mesh::Mesh;
 use plateau_core::model::parameters::Parameters;
+use plateau_core::model::thermal::{Substance, Thermal};
 use plateau_core::observe::Sample;
 use plateau_core::surface::{HeightSynthesis, Length, Texture};
 

@@ -6,11 +6,10 @@ use std::path::{Path, PathBuf};
 
 use plateau_core::model::emission::Emission;
 use plateau_core::model::friction::{Friction, FrictionLaw};
-use plateau_core::model::heat::thermal::Factor;
-use plateau_core::model::heat::{Coating, Disc, Pin, Substance, Thermal};
 use plateau_core::model::material::Material;
 use plateau_core::model::parameters::{DebrisRule, Integrator, Parameters};
 use plateau_core::model::state::{Base, InitialSurfaces};
+use plateau_core::model::thermal::{Coating, Disc, Factor, Pin, Substance, Thermal};
 use plateau_core::observe::Map;
 use plateau_core::observe::schedule::SampleEvery;
 use plateau_core::surface::{Crop, FibreSynthesis, Fill, Flip, HeightSynthesis, Level, Preparation, Texture, Unroll};

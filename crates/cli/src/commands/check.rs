@@ -334,13 +334,16 @@ impl CheckReport {
                 self.maps
             ),
         ));
+        let Self { workers, decomposition, instruction_set, .. } = self;
+        if all || *workers > 1 {
+            let of_workers = format!("{workers}, decomposition {decomposition}, instruction set {instruction_set}");
+            rows.push(("workers", of_workers));
+        }
         if !all {
             rows.push(("files", File::in_one_line(&self.files)));
             return table(&self.title, &rows) + "\nThe resolved scene and what is left out: --all\n";
         }
         rows.push(("stiffness number", self.stiffness()));
-        let Self { workers, decomposition, instruction_set, .. } = self;
-        rows.push(("workers", format!("{workers}, decomposition {decomposition}, instruction set {instruction_set}")));
         [
             table(&self.title, &rows),
             table("Files", &self.files.iter().map(File::row).collect::<Vec<_>>()),

@@ -2,8 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::model::heat::thermal::Factor;
 use crate::model::sums::RunningSum;
+use crate::model::thermal::Factor;
 use crate::model::totals::Volumes;
 
 /// How much of the emitted debris is airborne, and as how many particles.

@@ -36,6 +36,7 @@ pub mod parameters;
 pub mod state;
 pub mod step;
 pub(crate) mod sums;
+pub mod thermal;
 pub mod totals;
 
 pub use self::state::State;

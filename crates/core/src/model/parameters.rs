@@ -7,9 +7,9 @@ use crate::model::cycle::Cycle;
 use crate::model::emission::Emission;
 use crate::model::error::SimulationError;
 use crate::model::friction::Friction;
-use crate::model::heat::Thermal;
 use crate::model::material::Materials;
 use crate::model::mesh::Mesh;
+use crate::model::thermal::Thermal;
 
 /// Where what wears is compacted (model 4L and 4P).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

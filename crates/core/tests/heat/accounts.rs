@@ -4,9 +4,8 @@ use super::expected::{Expected, MU, WORN, parameters, take};
 use super::{IRON, insulating_pin, off, thermal};
 use plateau_core::model::accounts::Accounts;
 use plateau_core::model::cycle::{Cycle, Interpolation, Kind, Node};
-use plateau_core::model::heat::thermal::Factor;
-use plateau_core::model::heat::{Disc, Substance, Thermal};
 use plateau_core::model::parameters::Parameters;
+use plateau_core::model::thermal::{Disc, Factor, Substance, Thermal};
 
 #[test]
 fn an_interval_is_a_revolution_and_nothing_changes_within_it() {

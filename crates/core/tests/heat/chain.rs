@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use super::{IRON, PAD, insulating_pin, off, thermal};
 use plateau_core::model::heat::chain::{Chain, ChainReport, ChainState, Link, sub_steps};
-use plateau_core::model::heat::{Disc, Pin, Substance, Thermal};
+use plateau_core::model::thermal::{Disc, Pin, Substance, Thermal};
 
 /// Part of a body that is the layer next to the contact, and the one farthest from it: 1.4^k of Σ 1.4^k.
 fn first_and_last() -> (f64, f64) {

@@ -9,12 +9,11 @@ use plateau_core::model::accounts::{Accounts, AccountsReport, StepFacts};
 use plateau_core::model::cycle::{Cycle, Kind};
 use plateau_core::model::emission::Emission;
 use plateau_core::model::friction::{ContactSums, Friction, FrictionLaw};
-use plateau_core::model::heat::Thermal;
 use plateau_core::model::heat::account::HeatReport;
 use plateau_core::model::heat::chain::{Chain, ChainReport, ChainState, Link, sub_steps};
 use plateau_core::model::heat::passing::Passing;
-use plateau_core::model::heat::thermal::Factor;
 use plateau_core::model::parameters::Parameters;
+use plateau_core::model::thermal::{Factor, Thermal};
 
 /// μ of every step, but for its factor.
 pub const MU: f64 = 0.4;

@@ -7,9 +7,8 @@ use super::{CERMET, IRON, PAD, thermal};
 use plateau_core::model::accounts::Accounts;
 use plateau_core::model::cycle::{Cycle, Interpolation, Kind, Node};
 use plateau_core::model::heat::account::HeatReport;
-use plateau_core::model::heat::thermal::Factor;
-use plateau_core::model::heat::{Coating, Disc, Pin, Substance, Thermal};
 use plateau_core::model::parameters::Parameters;
+use plateau_core::model::thermal::{Coating, Disc, Factor, Pin, Substance, Thermal};
 
 /// Whether temperatures are numbers not below the ambient, rounding apart, and the balance holds.
 fn is_sound(report: &HeatReport) -> bool {

@@ -6,8 +6,8 @@ use super::{off, thermal};
 use crate::scenes::{all_primary, random_surfaces, wear_only};
 use plateau_core::model::emission::Emission;
 use plateau_core::model::friction::{Friction, FrictionLaw};
-use plateau_core::model::heat::thermal::Factor;
 use plateau_core::model::parameters::{DebrisRule, Parameters, PlateauRules};
+use plateau_core::model::thermal::Factor;
 use plateau_core::simulation::{Engine, Execution, Simulation};
 
 const LAW: FrictionLaw = FrictionLaw { pressure_coefficient: 0.33, shear_strength: 0.75e6 };

@@ -2,7 +2,7 @@
 
 use super::{IRON, PAD, off, thermal};
 use plateau_core::model::heat::chain::{Chain, ChainReport, ChainState, Link, sub_steps};
-use plateau_core::model::heat::{Disc, Pin, Substance, Thermal};
+use plateau_core::model::thermal::{Disc, Pin, Substance, Thermal};
 
 /// So few sub-steps are taken one by one.
 const FEW: u64 = 10_000;

@@ -1,9 +1,9 @@
 //! The contact temperature map, and the passing under the pin at extremes (model 11).
 
 use super::{CERMET, IRON, off, thermal};
-use plateau_core::model::heat::passing::Passing;
-use plateau_core::model::heat::{Coating, Disc, Substance, passing};
+use plateau_core::model::heat::passing::{self, Passing};
 use plateau_core::model::mesh::Mesh;
+use plateau_core::model::thermal::{Coating, Disc, Substance};
 
 fn passing(substance: Substance, coating: Option<(f64, Substance)>) -> Passing {
     let coating = coating.map(|(thickness, substance)| Coating { thickness, substance });

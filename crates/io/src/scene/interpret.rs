@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use plateau_core::model::heat::thermal::{Factor, FactorError};
+use plateau_core::model::thermal::{Factor, FactorError};
 use plateau_core::observe::Map;
 
 use super::cycle_table::{CycleTable, DiscSpeed, Load};

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use plateau_core::model::heat::thermal::Factor;
+use plateau_core::model::thermal::Factor;
 use plateau_core::observe::Map;
 
 use super::error::{Origin, Problem};

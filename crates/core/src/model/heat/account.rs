@@ -2,12 +2,12 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::Thermal;
 use super::chain::{Chain, ChainReport, ChainState, Link, sub_steps};
 use super::passing::Passing;
 use crate::model::cycle::{Kind, Pause};
 use crate::model::mesh::Mesh;
 use crate::model::parameters::Parameters;
+use crate::model::thermal::Thermal;
 
 /// What heat needs of a scene, made once.
 #[derive(Debug, Clone, PartialEq)]

@@ -2,8 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::model::heat::{Substance, Thermal};
 use crate::model::sums::RunningSum;
+use crate::model::thermal::{Substance, Thermal};
 
 /// Heat capacities of the chain, from the holder to the disc's last layer.
 const NODES: usize = 16;

@@ -2,7 +2,7 @@
 //!
 //! | model 11 | file |
 //! |---|---|
-//! | what it is told; feedback | `thermal.rs` |
+//! | disc, pin, coating; feedback | `../thermal.rs` |
 //! | one chain, its sub-steps | `chain.rs` |
 //! | passing under the pin, contact temperature map | `passing.rs` |
 //! | order: intervals, pauses, what holds for the next interval | `account.rs` |
@@ -10,6 +10,3 @@
 pub mod account;
 pub mod chain;
 pub mod passing;
-pub mod thermal;
-
-pub use self::thermal::{Coating, Disc, Pin, Substance, Thermal};

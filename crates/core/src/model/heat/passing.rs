@@ -4,8 +4,8 @@
 
 use std::f64::consts::PI;
 
-use crate::model::heat::{Coating, Disc, Substance};
 use crate::model::mesh::Mesh;
+use crate::model::thermal::{Coating, Disc, Substance};
 
 /// How the surface of the disc answers a flux.
 #[derive(Debug, Clone, Copy, PartialEq)]

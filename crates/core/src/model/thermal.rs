@@ -142,5 +142,5 @@ impl Factor {
 }
 
 #[cfg(test)]
-#[path = "../../../tests/unit/model/heat/thermal.rs"]
+#[path = "../../tests/unit/model/thermal.rs"]
 mod tests;
