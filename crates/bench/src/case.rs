@@ -1,5 +1,6 @@
 //! What is simulated: a scene, on meshes of several sizes.
 
+use std::error::Error;
 use std::path::{Path, PathBuf};
 
 use plateau_core::model::parameters::Parameters;
@@ -9,7 +10,13 @@ use plateau_core::simulation::{Execution, Simulation};
 use plateau_io::{scene, surface};
 use serde::Serialize;
 
-use crate::Outcome;
+/// Result of a benchmark, or the reason why there is none, in words.
+pub type Outcome<T> = Result<T, Box<dyn Error>>;
+
+/// Error of a file, in words.
+pub fn of_file(path: &Path) -> impl FnOnce(std::io::Error) -> String {
+    move |error| format!("{}: {error}", path.display())
+}
 
 /// Scenes are measured as the paper's model has it; `--set` may ask for something else.
 const MODEL: &str = "numerics.time_acceleration=1";

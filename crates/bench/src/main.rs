@@ -14,7 +14,6 @@ mod race;
 mod steps;
 mod table;
 
-use std::error::Error;
 use std::fs;
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -23,12 +22,9 @@ use std::time::Duration;
 use clap::{Args, Parser};
 use plateau_io::units::{self, Dimension};
 
-use case::{MeshSize, Source, mesh_size};
-use race::Pace;
+use case::{MeshSize, Outcome, Source, mesh_size, of_file};
+use race::{Pace, Session};
 use table::Results;
-
-/// What comes of a benchmark, or why nothing does, in words.
-type Outcome<T> = Result<T, Box<dyn Error>>;
 
 /// How long a step of Plateau takes, and why.
 #[derive(Debug, Parser)]
@@ -84,20 +80,6 @@ fn time(text: &str) -> Result<f64, String> {
     units::parse(text, Dimension::Time)
 }
 
-/// A benchmark under way.
-struct Session {
-    /// The scene, on the mesh from which the benchmark starts.
-    source: Source,
-    /// That mesh.
-    mesh: MeshSize,
-    /// How much is measured.
-    pace: Pace,
-    /// Numbers of workers to measure, increasing.
-    workers: Vec<usize>,
-    /// Only a look at whether it runs.
-    quick: bool,
-}
-
 impl Options {
     fn begin(&self, asked: &[u16]) -> Outcome<Session> {
         let mut source = Source::new(self.scene.clone(), self.sets.clone(), self.worn_in);
@@ -144,10 +126,6 @@ fn perform(arguments: &Arguments) -> Outcome<()> {
     }
     print!("{}", results.markdown());
     Ok(())
-}
-
-fn of_file(path: &std::path::Path) -> impl FnOnce(std::io::Error) -> String {
-    move |error| format!("{}: {error}", path.display())
 }
 
 fn main() -> ExitCode {

@@ -18,10 +18,9 @@ use serde::Deserialize;
 use serde::de::DeserializeOwned;
 use serde_json::{Value, json};
 
-use crate::case::{Case, repository};
-use crate::race::{Entry, Runner, race};
+use crate::case::{Case, Outcome, of_file, repository};
+use crate::race::{Entry, Runner, Session, race};
 use crate::steps::{Found, alone};
-use crate::{Outcome, Session, of_file};
 
 /// Name of the peer.
 const PEER: &str = "Numba loops";

@@ -5,8 +5,7 @@ use std::time::Duration;
 use plateau_core::simulation::Exchange;
 use serde::Serialize;
 
-use crate::Outcome;
-use crate::case::MeshSize;
+use crate::case::{MeshSize, Outcome, Source};
 
 /// Something that makes steps.
 pub trait Runner {
@@ -47,6 +46,20 @@ pub struct Pace {
     pub block: Duration,
     /// Steps before the first block; one revolution if none are given, so that the pin has met every column.
     pub warm_up: Option<u64>,
+}
+
+/// A benchmark under way.
+pub struct Session {
+    /// The scene, on the mesh from which the benchmark starts.
+    pub source: Source,
+    /// That mesh.
+    pub mesh: MeshSize,
+    /// How much is measured.
+    pub pace: Pace,
+    /// Numbers of workers to measure, increasing.
+    pub workers: Vec<usize>,
+    /// Only a look at whether it runs.
+    pub quick: bool,
 }
 
 /// Times of one entry.

@@ -6,9 +6,8 @@ use plateau_core::engine::kernel::InstructionSet;
 use plateau_core::observe::Map;
 use plateau_core::simulation::{Decomposition, Exchange, Execution, Simulation};
 
-use crate::case::{Case, MeshSize, Source};
-use crate::race::{Entry, Measurement, Runner, race};
-use crate::{Outcome, Session};
+use crate::case::{Case, MeshSize, Outcome, Source};
+use crate::race::{Entry, Measurement, Runner, Session, race};
 
 /// Times of a benchmark, and sentences on agreement with a peer.
 pub type Found = (Vec<Measurement>, Vec<String>);

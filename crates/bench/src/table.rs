@@ -5,8 +5,7 @@ use std::{fmt, fs};
 
 use serde::Serialize;
 
-use crate::Session;
-use crate::race::{Measurement, Pace, Spread};
+use crate::race::{Measurement, Pace, Session, Spread};
 
 /// Results of one benchmark.
 #[derive(Debug, Serialize)]

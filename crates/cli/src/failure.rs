@@ -83,6 +83,11 @@ impl Failure {
         Self { status: RUN, message: Some(error.to_string()) }
     }
 
+    /// A file that cannot be used, and why.
+    pub fn of_file(path: &Path, reason: impl fmt::Display) -> Self {
+        Self::input(format!("{}: {reason}", path.display()))
+    }
+
     /// A signal stopped the run; with the state that is left of it, which a process that wrote nothing does not know.
     pub fn stopped(signal: u8, message: Option<String>) -> Self {
         Self { status: STOPPED.saturating_add(signal), message }

@@ -17,14 +17,7 @@ mod scene;
 mod simulation;
 mod state;
 
-use plateau_run::Program;
 use pyo3::prelude::*;
-
-/// This library, as run files name it: as the program that was built of the same source, so that each goes on with runs of the
-/// other.
-fn program() -> Program {
-    Program { name: format!("plateau {}", env!("CARGO_PKG_VERSION")), revision: env!("PLATEAU_REVISION").into() }
-}
 
 /// What the package `plateau` has in Rust.
 #[pymodule(name = "_native")]

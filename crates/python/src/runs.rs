@@ -9,9 +9,9 @@ use pyo3::prelude::*;
 
 use crate::background::{MessageObserver, Messages, in_background};
 use crate::failure::Failure;
-use crate::program;
 use crate::scene::Scene;
 use crate::simulation::engine_of;
+use crate::state::program;
 
 /// Runs a scene, and gives the summary as JSON; nothing where the run was finished before. `mode` is `new`, `resume` or `extend`.
 #[pyfunction]

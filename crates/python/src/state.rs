@@ -4,10 +4,16 @@ use std::path::{Path, PathBuf};
 
 use plateau_io::run_file::checkpoint::{self, SimulationState};
 use plateau_io::scene::Scene;
+use plateau_run::Program;
 use serde::{Deserialize, Serialize};
 
 use crate::failure::Failure;
-use crate::program;
+
+/// This library, as run files name it: as the program that was built of the same source, so that each goes on with runs of the
+/// other.
+pub fn program() -> Program {
+    Program { name: format!("plateau {}", env!("CARGO_PKG_VERSION")), revision: env!("PLATEAU_REVISION").into() }
+}
 
 /// State of a simulation: all that it takes to go on.
 #[derive(Debug, Serialize, Deserialize)]

@@ -1,9 +1,9 @@
 //! `plateau new`: write a commented scene to begin with, also for a measured disc and a micrograph of the pin.
 
 mod fibres;
+mod keys;
 
 use std::ffi::OsStr;
-use std::fmt;
 use std::path::{Path, PathBuf};
 
 use plateau_core::surface::{Condition, Extension, HeightParameters, Length, Level, Spikes, implausible, level};
@@ -18,6 +18,7 @@ use crate::commands::surface::data::Data;
 use crate::failure::Failure;
 use crate::output::print;
 use crate::{hand_over, invocation, message, output};
+use keys::{line, path_from};
 
 /// The scene with places for what is the user's.
 const SCENE: &str = include_str!("new/scene.toml");
@@ -137,12 +138,6 @@ fn other_speed(key: &str, speed: &str, radius: &str) -> Option<String> {
     })
 }
 
-/// A key with a value and a remark, as the others stand in the scene.
-fn line(key: &str, value: impl Into<toml::Value>, remark: &str) -> String {
-    let pair = format!("{key} = {}", value.into());
-    format!("{pair:<39} # {remark}")
-}
-
 /// The tables of the disc: the file read as it is, levelled, without spikes, filled where points are missing, and extended by its
 /// statistics; of the profile of a surface with grooves, tiled. Besides, what should be known of them.
 fn disc_lines(
@@ -153,15 +148,17 @@ fn disc_lines(
 ) -> Result<(String, Vec<String>), Failure> {
     let (disc, measured, mut notes) = read_or_convert(scene, disc, reading, force)?;
     let disc = disc.as_path();
-    let named = |reason: &dyn fmt::Display| Failure::input(format!("{}: {reason}", disc.display()));
     if measured.pitch.is_none() {
-        return Err(named(&"it does not say how far its points are apart: give --pitch, such as --pitch \"5 um\""));
+        return Err(Failure::of_file(
+            disc,
+            "it does not say how far its points are apart: give --pitch, such as --pitch \"5 um\"",
+        ));
     }
     let too_small = smaller_than_cells(&measured);
     if let (Some(_), true, [warning, ..]) = (&too_small, measured.is_pitch_assumed, &measured.warnings[..]) {
-        return Err(named(&format_args!("{warning}{}", as_options(warning))));
+        return Err(Failure::of_file(disc, format_args!("{warning}{}", as_options(warning))));
     }
-    let mut lines = vec![line("file", path_from(scene, disc).map_err(|reason| named(&reason))?, "<-")];
+    let mut lines = vec![line("file", path_from(scene, disc).map_err(|reason| Failure::of_file(disc, reason))?, "<-")];
     lines.extend(reading.keys().into_iter().map(|(key, value)| line(key, value, "<-")));
     lines.extend([String::new(), "[disc.prepare]".to_owned()]);
     let condition = condition(&measured);
@@ -284,7 +281,7 @@ fn read_or_convert(
     force: bool,
 ) -> Result<(PathBuf, Measured, Vec<String>), Failure> {
     let read = |path: PathBuf, found: Result<Measured, FileError>, notes| {
-        let measured = measured(found).map_err(|reason| Failure::input(format!("{}: {reason}", path.display())))?;
+        let measured = measured(found).map_err(|reason| Failure::of_file(&path, reason))?;
         Ok((path, measured, notes))
     };
     match surface::read(disc, &reading.options()) {
@@ -386,14 +383,6 @@ impl ClearLay {
         let (runs, rotate, to) = (self.runs(), self.rotate(), self.to());
         format!("its lay runs {runs}: rotate = \"{rotate}\" turns it {to}, where the disc has it so")
     }
-}
-
-/// The path of the surface as the scene has it: relative where it is in or below the scene's folder.
-fn path_from(scene: &Path, disc: &Path) -> Result<String, String> {
-    let folder = std::path::absolute(scene).ok().and_then(|scene| scene.parent().map(Path::to_owned));
-    let path = std::path::absolute(disc).map_err(|reason| reason.to_string())?;
-    let path = folder.and_then(|folder| path.strip_prefix(folder).ok().map(Path::to_owned)).unwrap_or(path);
-    path.to_str().map(str::to_owned).ok_or_else(|| "its path is not UTF-8, as a scene is: rename it".to_owned())
 }
 
 /// Lines of the scene about a patch that is smaller than the fewest cells that are needed of it, and what that means.

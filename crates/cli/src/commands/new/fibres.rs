@@ -8,7 +8,7 @@ use plateau_io::scene::Scene;
 use plateau_io::surface::{self, FileError, SurfaceError};
 use plateau_io::units::{self, Dimension};
 
-use super::{line, path_from};
+use super::keys::{line, path_from};
 use crate::arguments::NewArguments;
 use crate::failure::Failure;
 
@@ -28,8 +28,7 @@ pub(super) fn lines(arguments: &NewArguments) -> Result<(String, Vec<String>), F
         let remark = "# <- or --micrograph: image = \"pin.jpg\" with its pixel";
         return Ok((format!("{SYNTHETIC} {remark}"), Vec::new()));
     };
-    let named = |reason: &dyn std::fmt::Display| Failure::input(format!("{}: {reason}", path.display()));
-    let stated = surface::stated_pixel(path).map_err(|reason| named(&reason))?;
+    let stated = surface::stated_pixel(path).map_err(|reason| Failure::of_file(path, reason))?;
     let believed = stated.filter(|stated| BELIEVED.contains(stated)).map(Length);
     let mut notes = Vec::new();
     let pixel = match (pixel, believed) {
@@ -52,13 +51,16 @@ pub(super) fn lines(arguments: &NewArguments) -> Result<(String, Vec<String>), F
             let states = stated.map_or("it does not say how large its pixels are".to_owned(), |stated| {
                 format!("it states pixels of {}, at which a program would print it", Length(stated))
             });
-            return Err(named(&format_args!(
-                "{states}: give --pixel, such as --pixel \"2 um\", the length of the scale bar over its pixels"
-            )));
+            return Err(Failure::of_file(
+                path,
+                format_args!(
+                    "{states}: give --pixel, such as --pixel \"2 um\", the length of the scale bar over its pixels"
+                ),
+            ));
         }
     };
     let lines = [
-        line("image", path_from(scene, path).map_err(|reason| named(&reason))?, "<-"),
+        line("image", path_from(scene, path).map_err(|reason| Failure::of_file(path, reason))?, "<-"),
         line("pixel", pixel, "<- distance of its pixels"),
         line("threshold", "otsu", "parts fibre and resin; or a grey level from 0 (black) to 1 (white)"),
         line("fibres", "bright", "or dark"),

@@ -65,7 +65,7 @@ pub fn surface(arguments: &SurfaceArguments) -> Result<(), Failure> {
 /// Refuses to convert several maps of a run into one file.
 fn several(path: &Path, found: &[NamedHeights]) -> Failure {
     let count = found.len();
-    named(
+    Failure::of_file(
         path,
         format_args!(
             "--to converts one surface, and these are {count}: say which with --dataset disc/height and --at TIME"
@@ -120,7 +120,7 @@ fn read(path: &Path, arguments: &SurfaceArguments) -> Result<Measured, Failure> 
 fn convert(path: &Path, from: &mut NamedHeights, to: &Path, force: bool) -> Result<(), Failure> {
     let measured = &mut from.measured;
     let Some([column_pitch, row_pitch]) = measured.pitch else {
-        return Err(named(path, "the distance of its points is unknown, which --to needs: give --pitch"));
+        return Err(Failure::of_file(path, "the distance of its points is unknown, which --to needs: give --pitch"));
     };
     let heights = std::mem::take(&mut measured.heights);
     let mut patch = Patch { columns: measured.columns, rows: measured.rows, column_pitch, row_pitch, heights };
@@ -158,11 +158,6 @@ fn prepared(path: &Path, arguments: &SurfaceArguments, data: &mut Data) -> Resul
     }
     data.add_scene(path, mesh, surfaces, patches, &report, level)?;
     Ok(scene.files.iter().chain(&inputs).map(|(path, _)| path.clone()).collect())
-}
-
-/// An error of a file.
-fn named(path: &Path, reason: impl std::fmt::Display) -> Failure {
-    Failure::input(format!("{}: {reason}", path.display()))
 }
 
 /// Refuses to draw more than can be told apart.

@@ -10,7 +10,6 @@ use plateau_io::run_file::{ReadError, RunFile, map_path};
 use plateau_io::surface::{Format, Measured};
 
 use super::super::runs::{moment, nearest, warn_of_times, warn_of_unfinished};
-use super::named;
 use crate::arguments::SurfaceArguments;
 use crate::failure::Failure;
 
@@ -51,7 +50,7 @@ pub fn of(path: &Path, arguments: &SurfaceArguments) -> Result<Option<Vec<NamedH
     let keys = arguments.reading.keys();
     if let Some((key, _)) = keys.iter().find(|(key, _)| *key != "dataset") {
         let option = key.replace('_', "-");
-        return Err(named(path, format_args!("a run file says what its heights are: leave out --{option}")));
+        return Err(Failure::of_file(path, format_args!("a run file says what its heights are: leave out --{option}")));
     }
     let dataset = arguments.reading.dataset.as_deref().map(|name| name.trim_start_matches('/'));
     let wanted: Vec<Map> = match dataset {
@@ -61,14 +60,14 @@ pub fn of(path: &Path, arguments: &SurfaceArguments) -> Result<Option<Vec<NamedH
     if wanted.is_empty() {
         let known = HEIGHTS.map(map_path).join(", ");
         let found = dataset.unwrap_or_default();
-        return Err(named(path, format_args!("--dataset \"{found}\": expected a map of heights: {known}")));
+        return Err(Failure::of_file(path, format_args!("--dataset \"{found}\": expected a map of heights: {known}")));
     }
     let maps: Vec<Map> = wanted.iter().copied().filter(|map| run.has_map(*map)).collect();
     let times = run.map_time().len();
     if maps.is_empty() || times == 0 {
         let names = wanted.iter().map(|map| map.name()).collect::<Vec<_>>().join(" or ");
         let what = if times == 0 && !maps.is_empty() { "no map yet".to_owned() } else { format!("no map {names}") };
-        return Err(named(
+        return Err(Failure::of_file(
             path,
             format_args!(
                 "this run file has {what}: output.maps of the scene says which are recorded, output.maps_at when"
@@ -99,7 +98,10 @@ fn heights(run: &RunFile, map: Map, index: usize) -> Result<Option<NamedHeights>
     // As they are stored, as they are read, and as they are described.
     refuse_beyond(3 * size_of::<f64>() as u64 * cells as u64).map_err(|no_room| {
         let name = map_path(map);
-        named(run.path(), format_args!("to read {name} needs {no_room}; free memory, or allow this process more of it"))
+        Failure::of_file(
+            run.path(),
+            format_args!("to read {name} needs {no_room}; free memory, or allow this process more of it"),
+        )
     })?;
     let Some(MapValues::Float(mut heights)) = run.map(map, index).map_err(Failure::input)? else { return Ok(None) };
     if body == Body::Pin {
