@@ -1,4 +1,4 @@
-//! What follows from each step beside wear: friction, heat and emission (model 10 to 12), where a scene asks for them.
+//! Friction, heat and emission that follow from each step beside wear (model 10 to 12), where a scene asks for them.
 //!
 //! All of it comes from sums that the load balance and the debris have anyway, so the engine and the plain model share
 //! it, and every worker of the engine keeps the same account.
@@ -24,49 +24,49 @@ pub struct Accounts {
     cycle: Option<Arc<Cycle>>,
     /// r̄, m.
     mean_radius: f64,
-    /// Steps of a revolution.
+    /// Steps per revolution.
     columns: u64,
     state: AccountsState,
 }
 
-/// What the accounts know of the steps so far.
+/// State of the accounts after the steps so far.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct AccountsState {
     friction: Option<FrictionAccount>,
     heat: Option<HeatAccount>,
     emission: Option<EmissionAccount>,
-    /// Whether pauses after the last step are still to be taken by the chain.
+    /// True if pauses after the last step are still to be taken by the chain.
     pause_due: bool,
 }
 
-/// What is reported of the accounts.
+/// Friction, heat and emission as they are reported.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct AccountsReport {
-    /// With friction.
+    /// Friction, where the scene asks for it.
     pub friction: Option<FrictionReport>,
-    /// With heat.
+    /// Heat, where the scene asks for it; it needs friction.
     pub heat: Option<HeatReport>,
-    /// With emission.
+    /// Emission, where the scene asks for it.
     pub emission: Option<EmissionReport>,
 }
 
 /// A step as the accounts see it.
 #[derive(Debug, Clone, Copy)]
 pub struct StepFacts<'a> {
-    /// Its number, from 1.
+    /// Number of the step, from 1.
     pub number: u64,
     /// m Δθ, rad.
     pub angle: f64,
-    /// Its load and time.
+    /// Load and times of the step.
     pub operation: &'a StepOperation,
-    /// What touched.
+    /// Sums over its cells in contact.
     pub contact: &'a ContactSums,
-    /// What it moved.
+    /// Volumes that it moved, m³.
     pub moved: &'a Volumes,
 }
 
 impl Accounts {
-    /// Those of a scene at t = 0; none where it asks for neither friction nor emission.
+    /// Accounts of a scene at t = 0; none where it asks for neither friction nor emission.
     pub fn of(parameters: &Parameters) -> Option<Self> {
         let Parameters { mesh, friction, emission, cycle, .. } = parameters;
         if friction.is_none() && emission.is_none() {
@@ -91,12 +91,12 @@ impl Accounts {
         })
     }
 
-    /// What is known of the steps so far.
+    /// Returns the state after the steps so far.
     pub fn state(&self) -> &AccountsState {
         &self.state
     }
 
-    /// Goes on from what was kept.
+    /// Goes on from a state that was kept.
     pub fn restore(&mut self, state: AccountsState) {
         self.state = state;
     }
@@ -111,7 +111,7 @@ impl Accounts {
         self.state.heat.as_ref().map_or(1.0, |heat| heat.factors().wear_rate)
     }
 
-    /// Before a step, by number and angle (rad): the pauses that came after the step before it.
+    /// Takes the pauses between the step before and this one, given by its number, from 1, and angle (rad).
     pub fn begin(&mut self, number: u64, angle: f64) {
         let (Some(cycle), Some(model), Some(heat)) = (&self.cycle, &self.heat, &mut self.state.heat) else { return };
         if !std::mem::take(&mut self.state.pause_due) {
@@ -124,7 +124,7 @@ impl Accounts {
         heat.begin_event(model);
     }
 
-    /// Takes a step.
+    /// Adds a step.
     pub fn record(&mut self, step: &StepFacts) {
         let mut work = 0.0;
         if let (Some(law), Some(friction)) = (&self.friction, &mut self.state.friction) {
@@ -159,7 +159,7 @@ impl Accounts {
         }
     }
 
-    /// What is reported at a time (s), after so many steps of this angle (rad): their end, or a time in a pause before
+    /// Reports the accounts at a time (s), after so many steps of this angle (rad): their end, or a time in a pause before
     /// or after it.
     pub fn report(&self, steps: u64, angle: f64, time: f64, pause: Option<Kind>) -> AccountsReport {
         if self.heat.is_none() || (!self.state.pause_due && pause.is_none()) {
@@ -187,15 +187,15 @@ impl Accounts {
 /// A pause may have very many rows, each with samples, so the chain takes each row once.
 #[derive(Debug, Clone)]
 pub struct Resting {
-    /// As they are when the first `over` pauses are.
+    /// Accounts after the first `over` pauses.
     accounts: Accounts,
-    /// All that may come.
+    /// All pauses that may come.
     pauses: Vec<Pause>,
     over: usize,
 }
 
 impl Resting {
-    /// After so many steps of this angle (rad), in a `pause` or at the end of the last step.
+    /// Begins after so many steps of this angle (rad), in a `pause` or at the end of the last step.
     pub fn new(mut accounts: Accounts, steps: u64, angle: f64, pause: Option<Kind>) -> Self {
         let mut pauses = Vec::new();
         if let (Some(cycle), true) = (accounts.cycle.clone(), accounts.heat.is_some()) {
@@ -213,7 +213,7 @@ impl Resting {
         Self { accounts, pauses, over: 0 }
     }
 
-    /// What is reported at a time (s), not before that of the last report.
+    /// Reports the accounts at a time (s), not before that of the last report.
     pub fn report(&mut self, time: f64, pause: Option<Kind>) -> AccountsReport {
         let Self { accounts, pauses, over } = self;
         while let (Some(next), Some(model)) = (pauses.get(*over), &accounts.heat) {

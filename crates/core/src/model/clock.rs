@@ -1,13 +1,13 @@
-//! Physical time of steps, and what a step is told of the operation (model 4.6 and 9).
+//! Physical time of steps, and load and times of one step (model 4.6 and 9).
 
 use serde::{Deserialize, Serialize};
 
-/// At which physical time steps end, from the last change of the acceleration on.
+/// Physical time at the ends of steps since the time of a step changed last.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Clock {
-    /// The step after which it changed.
+    /// Steps done when the time of a step changed last.
     step: u64,
-    /// t at its end, s.
+    /// t then, s.
     time: f64,
     /// m Δt, s.
     step_time: f64,
@@ -41,7 +41,7 @@ impl Clock {
         self.step.saturating_add(((time - self.time) / self.step_time - 1e-9).ceil().max(0.0) as u64)
     }
 
-    /// The same clock whose steps take `step_time` (s) after `step`.
+    /// Clock that goes on with steps of `step_time` (s) after `step`.
     pub fn changed(&self, step: u64, step_time: f64) -> Self {
         // Nothing is rounded once more where nothing changes.
         if step_time == self.step_time { *self } else { Self { step, time: self.time_at(step), step_time } }
@@ -51,37 +51,37 @@ impl Clock {
 /// Load and speed of the coming steps, set between two steps in place of those of the scene.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Operation {
-    /// F_N, N, or where the brake is told its torque, that, N m.
+    /// F_N, N, or the braking torque where that is given, N m.
     pub load: f64,
     /// ω, rad/s.
     pub angular_velocity: f64,
-    /// None where they are those of the scene.
+    /// Record of the changes; none where load and speed are those of the scene.
     pub control: Option<Control>,
 }
 
-/// What is known of a simulation whose load and speed are set between steps.
+/// Record of load and speed that were set between steps.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Control {
-    /// Steps done when the angle of a step changed.
+    /// Steps done from which the angle is counted on.
     pub steps: u64,
-    /// How far the disc had turned then, rad.
+    /// Angle by which the disc had turned then, rad.
     pub angle: f64,
-    /// The largest load so far, N or N m: what sums are multiples of goes by it.
+    /// The largest load so far, N or N m: it sets the quantum of sums.
     pub largest_load: f64,
 }
 
-/// What a step is told of the operation.
+/// Load and times of a step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StepOperation {
     /// t at its end, s.
     pub end: f64,
     /// F_N, or F̄_n of a cycle, N.
     pub load: f64,
-    /// For how long the pin stands on the disc before the step turns it, s.
+    /// Time for which the pin stands on the disc before the step turns it, s.
     pub standing_before: f64,
-    /// For how long it is on the disc from then to the end of the step, s.
+    /// Time for which the pin is on the disc from then to the end of the step, s.
     pub loaded: f64,
-    /// For how long there is load and speed in the step, s.
+    /// Time with load and speed in the step, s.
     pub active: f64,
 }
 

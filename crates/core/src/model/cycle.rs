@@ -22,19 +22,19 @@ use crate::model::clock::StepOperation;
 /// it.
 const SLACK: f64 = 1e-9;
 
-/// Each event has a row in the run file, and there may be as many events as intervals.
+/// Most intervals of a cycle: each event has a row in the run file, and there may be as many events as intervals.
 const MOST_INTERVALS: u64 = 1_000_000;
 
-/// What is between two nodes.
+/// Load and speed between two nodes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Interpolation {
     /// Straight lines.
     Linear,
-    /// The values of the first; the last node only ends the cycle.
+    /// Values of the first node; the last node only ends the cycle.
     Hold,
 }
 
-/// Why a table is no cycle. Rows are counted from 0.
+/// Error in the table of a cycle. Rows are counted from 0.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 #[allow(missing_docs)] // The messages say what they mean.
 pub enum CycleError {
@@ -69,7 +69,7 @@ pub struct Cycle {
 struct Place {
     round: u64,
     interval: usize,
-    /// Since the start of the interval, s.
+    /// Time since the start of the interval, s.
     time: f64,
 }
 
@@ -99,7 +99,7 @@ impl Cycle {
         Ok(Self { intervals, rounds, period: nodes[nodes.len() - 1].time, angle })
     }
 
-    /// When it ends, s.
+    /// Duration of all rounds, s.
     pub fn duration(&self) -> f64 {
         self.rounds as f64 * self.period
     }
@@ -122,14 +122,14 @@ impl Cycle {
         round as f64 * self.angle + self.intervals[interval].angle_after(time)
     }
 
-    /// F and ω at a time (s), and what happens then; at a jump, what begins.
+    /// F and ω at a time (s), and the kind of its interval; at a jump, those of the later interval.
     pub fn at(&self, time: f64) -> (Node, Kind) {
         let Place { interval, time: since, .. } = self.place(time);
         let interval = &self.intervals[interval];
         (Node { time, ..interval.after(since) }, interval.kind)
     }
 
-    /// What happens right before a time (s); at t = 0, what begins.
+    /// Kind of the interval right before a time (s); at t = 0, of the first one.
     pub fn before(&self, time: f64) -> Kind {
         let Place { round, interval, time: since } = self.place(time);
         let is_first = (round, interval) == (0, 0);
@@ -138,12 +138,12 @@ impl Cycle {
         self.intervals[interval].kind
     }
 
-    /// For how long the pin was on the disc until a time (s), moving or not, s.
+    /// Time for which the pin was on the disc until a time (s), moving or not, s.
     pub fn loaded_until(&self, time: f64) -> f64 {
         self.loaded_at(self.place(time))
     }
 
-    /// The same since the first step began, s: before it no contact is known.
+    /// Time on the disc until a time (s), since the first step began, s: before it no contact is known.
     pub fn contact_time_until(&self, time: f64) -> f64 {
         let first = self.intervals.iter().find(|interval| interval.kind == Kind::Active);
         (self.loaded_until(time) - first.map_or(0.0, |first| first.loaded_after(0.0))).max(0.0)
@@ -156,13 +156,13 @@ impl Cycle {
         round as f64 * whole + self.intervals[interval].road_after(time)
     }
 
-    /// For how long there is load and speed, s.
+    /// Time with load and speed in all rounds, s.
     pub fn active_time(&self) -> f64 {
         let active = self.intervals.iter().filter(|interval| interval.kind == Kind::Active);
         self.rounds as f64 * active.map(Interval::length).sum::<f64>()
     }
 
-    /// F̄ of a step of angle `step` (rad), N, and ω at its end, rad/s; in a `pause` at a time (s) what is then: without load none.
+    /// F̄ of a step of angle `step` (rad), N, and ω at its end, rad/s; in a `pause` ω at a time (s), and no load if it is lifted.
     pub fn operation_at(&self, number: u64, step: f64, time: f64, pause: Option<Kind>) -> [f64; 2] {
         let load = if number == 0 || pause == Some(Kind::Lifted) { 0.0 } else { self.step(number, step).load };
         let speed = if pause.is_some() {
@@ -242,23 +242,23 @@ impl Cycle {
         parts.filter(|(place, end)| self.intervals[place.interval].kind == Kind::Active && *end > place.time)
     }
 
-    /// By how much an angle (rad) may be off by rounding, in steps of angle `step` (rad).
+    /// Tolerance of an angle (rad) for rounding, rad, in steps of angle `step` (rad).
     fn slack(angle: f64, step: f64) -> f64 {
         // Many steps on, the angle itself is rounded by more.
         (SLACK * step).max(Self::rounding(angle))
     }
 
-    /// By how much an angle (rad), or a time (s), may be rounded that is a multiple of a rounded one.
+    /// Largest rounding of an angle (rad), or a time (s), that is a multiple of a rounded one, in the same unit.
     fn rounding(multiple: f64) -> f64 {
         4.0 * f64::EPSILON * multiple
     }
 
-    /// Where so many steps of angle `step` (rad) are done first.
+    /// Finds the place at which so many steps of angle `step` (rad) are first done.
     fn reached(&self, number: u64, step: f64) -> Place {
         self.turned_to(number, step, Self::slack(number as f64 * step, step))
     }
 
-    /// Where the disc first has turned by so many steps of angle `step` (rad), or by less than `slack` (rad) short of that.
+    /// Finds the place at which the disc has first turned by so many steps of angle `step` (rad), or by less than `slack` (rad) less.
     fn turned_to(&self, number: u64, step: f64, slack: f64) -> Place {
         if number == 0 {
             return Place { round: 0, interval: 0, time: 0.0 };
@@ -274,8 +274,8 @@ impl Cycle {
         Place { round: round as u64, interval: place, time }
     }
 
-    /// By how much so many steps of angle `step` (rad) turn the disc beyond so many whole rounds, rad: both products are taken with
-    /// all their digits.
+    /// Angle by which so many steps of angle `step` (rad) turn the disc beyond so many whole rounds, rad: both products are
+    /// taken with all their digits.
     fn angle_in_round(&self, number: u64, step: f64, round: u64) -> f64 {
         let (number, round) = (number as f64, round as f64);
         let (angle, before) = (number * step, round * self.angle);
@@ -293,7 +293,7 @@ impl Cycle {
         iter::successors(Some(from), next)
     }
 
-    /// Where a time (s) is; where two intervals meet, in the later one. A time that is the end of an interval but for rounding is
+    /// Finds the place of a time (s); where two intervals meet, in the later one. A time that is the end of an interval but for rounding is
     /// that end.
     fn place(&self, time: f64) -> Place {
         let rounding = Self::rounding(time);
@@ -346,13 +346,13 @@ const LEAST_REVOLUTIONS: f64 = 10.0;
 /// A maximal stretch of active intervals, such as one stop of a car.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Event {
-    /// When it begins, with F and ω then.
+    /// Time, F and ω at the start.
     pub start: Node,
-    /// When it ends, with F and ω then.
+    /// Time, F and ω at the end.
     pub end: Node,
-    /// ψ at its start, rad.
+    /// ψ at the start, rad.
     pub start_angle: f64,
-    /// By how much the disc turns in it, rad.
+    /// Angle by which the disc turns in the event, rad.
     pub angle: f64,
 }
 
@@ -400,7 +400,7 @@ impl Cycle {
         angles.fold(f64::INFINITY, f64::min) / (LEAST_REVOLUTIONS * TAU)
     }
 
-    /// How many of the events until a time (s) have fewer, with an acceleration.
+    /// Number of events until a time (s) with fewer than ten simulated revolutions at this acceleration.
     pub fn short_events(&self, until: f64, acceleration: f64) -> usize {
         let least = acceleration * LEAST_REVOLUTIONS * TAU * (1.0 - 1e-9);
         self.events(until).iter().filter(|event| event.angle < least).count()

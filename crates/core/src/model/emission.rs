@@ -6,12 +6,12 @@ use crate::model::sums::RunningSum;
 use crate::model::thermal::Factor;
 use crate::model::totals::Volumes;
 
-/// How much of the emitted debris is airborne, and as how many particles.
+/// Parameters of airborne emission (model 12).
 #[derive(Debug, Clone, PartialEq)]
 pub struct Emission {
-    /// φ₁₀.
+    /// φ₁₀, 1: PM10 as a fraction of the emitted mass.
     pub pm10_fraction: f64,
-    /// φ₂.₅.
+    /// φ₂.₅, 1: PM2.5 as a fraction of the emitted mass.
     pub pm25_fraction: f64,
     /// n₁₀, 1/kg: particles for each mass of PM10.
     pub number_per_mass: f64,
@@ -35,17 +35,17 @@ impl Emission {
     }
 }
 
-/// What was emitted in the steps so far.
+/// Mass and particles emitted in the steps so far.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct EmissionAccount {
     /// Σ Δm_e, kg.
     mass: RunningSum,
-    /// Of which the particles are not counted yet, kg: with temperatures they are, interval by interval.
+    /// Mass whose particles are not counted yet, kg: with temperatures they are counted interval by interval.
     open: f64,
     number: RunningSum,
 }
 
-/// What is reported of emission.
+/// Emission since t = 0 as it is reported.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct EmissionReport {
     /// m_e, kg.
@@ -54,7 +54,7 @@ pub struct EmissionReport {
     pub pm10: f64,
     /// φ₂.₅ m_e, kg.
     pub pm25: f64,
-    /// N.
+    /// N: number of airborne particles.
     pub number: f64,
 }
 
@@ -72,7 +72,7 @@ impl EmissionAccount {
         self.number.add(emission.number_per_mass * pm10 * factor);
     }
 
-    /// What is reported after the last step.
+    /// Reports the emission up to the last step.
     pub fn report(&self, emission: &Emission) -> EmissionReport {
         let mass = self.mass.amount();
         EmissionReport {

@@ -1,8 +1,8 @@
-//! Why a load balance fails, and a simulation cannot start or go on.
+//! Errors of a load balance that fails, and of a simulation that cannot start or go on.
 
 use thiserror::Error;
 
-/// Why no displacement carries the load.
+/// Error of a load that no displacement carries.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[allow(missing_docs)] // The messages say what they mean.
 pub enum ContactError {
@@ -18,7 +18,7 @@ pub enum ContactError {
     NotCarried { displacement: f64, normal_force: f64 },
 }
 
-/// Why a simulation cannot start or go on.
+/// Error of a simulation that cannot start or go on.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[allow(missing_docs)] // The messages say what they mean.
 pub enum SimulationError {
@@ -76,14 +76,14 @@ pub enum SimulationError {
     /// A worker failed.
     #[error("{message}")]
     Worker {
-        /// Which, and what it said.
+        /// Number of the worker, and its message.
         message: String,
     },
     #[error("cannot start {workers} worker threads: {message}; ask for fewer workers")]
     Threads { workers: usize, message: String },
 }
 
-/// Why a simulation cannot go on from a checkpoint.
+/// Error of a checkpoint that is of another mesh.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error("the checkpoint is of another mesh: {found} {body} cells, expected {expected}")]
 pub struct WrongMesh {

@@ -7,7 +7,7 @@ use crate::model::material::Status;
 use crate::model::parameters::Parameters;
 use crate::model::state::{Base, InitialSurfaces};
 
-/// What touches in the first step.
+/// Contact of the first step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FirstContact {
     /// δ, m.

@@ -8,7 +8,7 @@ use crate::model::sums::{Revolution, RunningSum};
 /// The stress that resists sliding, τ = τ₀ + α p.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FrictionLaw {
-    /// α.
+    /// α, 1.
     pub pressure_coefficient: f64,
     /// τ₀, Pa.
     pub shear_strength: f64,
@@ -17,17 +17,17 @@ pub struct FrictionLaw {
 /// Friction of each status of the pin.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Friction {
-    /// Of fibres.
+    /// Law of fibres.
     pub primary: FrictionLaw,
-    /// Of compacted debris.
+    /// Law of compacted debris.
     pub secondary: FrictionLaw,
-    /// Of bare resin.
+    /// Law of bare resin.
     pub resin: FrictionLaw,
     /// μ_max; infinite where there is no ceiling.
     pub maximum: f64,
 }
 
-/// What touches of the cells of one status.
+/// Contact of the cells of one status.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct StatusContact {
     /// A_s, m².
@@ -36,24 +36,24 @@ pub struct StatusContact {
     pub load: f64,
 }
 
-/// What friction must know of the contact of a step.
+/// Sums over the contact of a step that friction needs.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ContactSums {
     /// F̄, N.
     pub load: f64,
     /// A_c, m².
     pub area: f64,
-    /// By [`Status`] of the pin; none where one law holds for all.
+    /// Sums by [`Status`] of the pin; none where one law holds for all.
     pub statuses: Option<[StatusContact; 3]>,
 }
 
 impl Friction {
-    /// The same law for every status.
+    /// Friction with the same law for every status.
     pub fn of(law: FrictionLaw, maximum: f64) -> Self {
         Self { primary: law, secondary: law, resin: law, maximum }
     }
 
-    /// Whether the law depends on the status, so that the sums of each are needed.
+    /// Tells whether the law depends on the status, so that the sums of each are needed.
     pub fn depends_on_status(&self) -> bool {
         self.secondary != self.primary || self.resin != self.primary
     }
@@ -97,7 +97,7 @@ pub struct FrictionAccount {
     loads: Revolution,
 }
 
-/// What is reported of friction.
+/// Friction as it is reported.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct FrictionReport {
     /// μ of the step; no number before the first.
@@ -111,7 +111,7 @@ pub struct FrictionReport {
 }
 
 impl FrictionAccount {
-    /// No step yet; a revolution has so many steps.
+    /// Account before the first step; a revolution has so many steps.
     pub fn new(steps_per_revolution: usize) -> Self {
         let revolution = || Revolution::new(steps_per_revolution);
         let (work, load_work) = (RunningSum::default(), RunningSum::default());
@@ -123,7 +123,7 @@ impl FrictionAccount {
         self.coefficient
     }
 
-    /// Adds a step with this μ and F̄ (N) over a distance (m) at the mean radius; its work, J.
+    /// Adds a step with this μ and F̄ (N) over a distance (m) at the mean radius; returns its work, J.
     pub fn record(&mut self, coefficient: f64, load: f64, distance: f64) -> f64 {
         let work = coefficient * load * distance;
         self.coefficient = Some(coefficient);
@@ -134,7 +134,7 @@ impl FrictionAccount {
         work
     }
 
-    /// What is reported after the last step.
+    /// Reports friction up to the last step.
     pub fn report(&self) -> FrictionReport {
         FrictionReport {
             coefficient: self.coefficient.unwrap_or(f64::NAN),

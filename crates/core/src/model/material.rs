@@ -1,6 +1,6 @@
 //! Status of a cell, material properties by (body, status), stiffness of a pair (model sections 2 and 4.1; paper Eq. 5).
 
-/// What a cell is: resin, fibre or coating, or compacted wear debris.
+/// Status of a cell: resin, fibre or coating, or compacted wear debris.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[repr(u8)]
 pub enum Status {
@@ -17,7 +17,7 @@ pub enum Status {
 pub struct Material {
     /// E, Pa.
     pub youngs_modulus: f64,
-    /// ν.
+    /// ν, 1.
     pub poisson_ratio: f64,
     /// κ, 1/Pa = m³/(N·m). Not used for resin.
     pub specific_wear_rate: f64,
@@ -78,14 +78,14 @@ impl Materials {
         against_secondary.filter(|_| disc_secondary).unwrap_or(self.pin(pin).specific_wear_rate)
     }
 
-    /// Whether a pin cell wears in another way on compacted debris than on the coating.
+    /// Tells whether a pin cell wears in another way on compacted debris than on the coating.
     pub fn wears_by_counterface(&self) -> bool {
         [Status::Primary, Status::Secondary]
             .into_iter()
             .any(|pin| self.pin_wear_rate(pin, true) != self.pin_wear_rate(pin, false))
     }
 
-    /// The same with the wear rates of the pin's plateaus multiplied by a factor.
+    /// Materials with the wear rates of the pin's plateaus multiplied by a factor.
     pub fn with_wear_rate_factor(&self, factor: f64) -> Self {
         let mut materials = *self;
         let Self { pin_primary, pin_secondary, pin_primary_against_secondary, pin_secondary_against_secondary, .. } =

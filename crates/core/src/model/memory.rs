@@ -1,4 +1,4 @@
-//! What a simulation keeps between two steps, whatever takes its steps: what the steps so far were like; contact area over them: mean over
+//! Memory of a simulation between two steps, whatever takes its steps: course of the steps so far; contact area over them: mean over
 //! the last revolution and integral over time (model section 5).
 
 use serde::{Deserialize, Serialize};
@@ -21,24 +21,24 @@ pub struct Heights {
     pub pin_substrate: Vec<f64>,
 }
 
-/// What is kept beside the heights.
+/// State of a simulation beside its heights.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Memory {
-    /// What the steps so far were like.
+    /// Course of the steps so far.
     pub course: Course,
-    /// When steps end.
+    /// Physical time at the ends of steps.
     pub clock: Clock,
-    /// m.
+    /// m: time acceleration, 1.
     pub time_acceleration: f64,
-    /// What was moved.
+    /// Debris in the pools, and volumes moved.
     pub account: Account,
     /// Contact area over the steps so far.
     pub history: History,
-    /// Of friction, heat and emission, where the scene asks for any.
+    /// Accounts of friction, heat and emission, where the scene asks for any.
     pub accounts: Option<AccountsState>,
 }
 
-/// What the steps so far were like.
+/// Course of the steps so far.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct Course {
     /// Steps done.
@@ -59,7 +59,7 @@ pub struct Course {
     pub extra_readings: u64,
 }
 
-/// What a sample needs to know of the steps before its own.
+/// Contact area over the steps so far.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct History {
     /// Contact area of the steps of the last revolution, m².
@@ -69,12 +69,12 @@ pub struct History {
 }
 
 impl History {
-    /// No step yet.
+    /// History before the first step.
     pub fn new(steps_per_revolution: usize) -> Self {
         Self { revolution: Revolution::new(steps_per_revolution), integral: RunningSum::default() }
     }
 
-    /// Adds a step.
+    /// Adds a step with this contact area (m²).
     pub fn record(&mut self, contact_area: f64, operation: &StepOperation) {
         if operation.standing_before > 0.0 {
             self.integral.add(self.revolution.newest().unwrap_or(0.0) * operation.standing_before);

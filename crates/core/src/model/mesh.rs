@@ -5,7 +5,7 @@ use std::ops::Range;
 
 use thiserror::Error;
 
-/// Why a mesh cannot be made.
+/// Error of a mesh that cannot be made.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[allow(missing_docs)] // The messages say what they mean.
 pub enum MeshError {
@@ -53,7 +53,7 @@ pub struct Mesh {
 const MOST_ROWS: usize = 1 << 22;
 const MOST_COLUMNS: usize = 1 << 24;
 
-/// What rounding may add to a diameter that is as large as the track is wide.
+/// Relative rounding that a diameter as large as the track is wide may have.
 const ROUNDING: f64 = 1e-9;
 
 impl Mesh {
@@ -92,7 +92,7 @@ impl Mesh {
         Ok(Self { rows, disc_columns, pin_columns, inner_radius, outer_radius, radius, area, outline, chords })
     }
 
-    /// The same under a pin of this outline.
+    /// Mesh with a pin of this outline.
     ///
     /// # Errors
     /// [`MeshError`] when the outline goes beyond the pin's rows or columns, or no cell lies within it.
@@ -121,7 +121,7 @@ impl Mesh {
         self.outline
     }
 
-    /// Whether all cells of the pin's rows and columns are there.
+    /// Tells whether all cells of the pin's rows and columns are there.
     pub fn is_rectangle(&self) -> bool {
         self.chords.is_empty()
     }
@@ -131,7 +131,7 @@ impl Mesh {
         self.chords.get(row).cloned().unwrap_or(0..self.pin_columns)
     }
 
-    /// Whether a cell of the pin is there, by its number.
+    /// Tells whether a cell of the pin is there, by its number.
     pub fn is_present(&self, cell: usize) -> bool {
         self.is_rectangle() || self.chord(cell % self.rows).contains(&(cell / self.rows))
     }
@@ -252,7 +252,7 @@ pub enum Outline {
 }
 
 impl Outline {
-    /// Whether a cell is there whose centre lies so far (m) from the middle: `along` the sliding direction as arc length at the
+    /// Tells whether a cell is there whose centre lies so far (m) from the middle: `along` the sliding direction as arc length at the
     /// cell's own radius, `across` it as a difference of radii.
     fn contains(self, along: f64, across: f64) -> bool {
         match self {
@@ -276,7 +276,7 @@ impl Outline {
     }
 }
 
-/// How many columns of the angle `column_angle` (rad) a circle of this radius (m) about the mean radius (m) takes: its longest
+/// Number of columns of the angle `column_angle` (rad) that a circle of this radius (m) about the mean radius (m) takes: its longest
 /// arc, which lies a little inward of its middle, in columns, rounded. No cell of the circle is left out, and no column is
 /// empty for want of one. `None` where the circle reaches the axis.
 pub fn columns_of_disc(radius: f64, mean_radius: f64, column_angle: f64) -> Option<f64> {

@@ -1,4 +1,4 @@
-//! Everything a simulation is told before its first step, apart from the initial surfaces (model section 3).
+//! Parameters of a simulation, apart from the initial surfaces (model section 3).
 
 use std::sync::Arc;
 
@@ -11,18 +11,18 @@ use crate::model::material::Materials;
 use crate::model::mesh::Mesh;
 use crate::model::thermal::Thermal;
 
-/// Where what wears is compacted (model 4L and 4P).
+/// Rule for the place where debris is compacted (model 4L and 4P).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum DebrisRule {
-    /// In the gap behind the cell that wears, in the same step; what finds no room leaves the contact.
+    /// Gap behind the cell that wears, in the same step; what finds no room leaves the contact.
     Local,
-    /// In all open cells evenly, out of one pool for the whole contact.
+    /// All open cells evenly, out of one pool for the whole contact.
     Contact,
-    /// In all open cells of a row evenly, out of one pool for each row.
+    /// All open cells of a row evenly, out of one pool for each row.
     Track,
 }
 
-/// How the wear of one step follows from its contact (model 4.2).
+/// Rule by which the wear of one step follows from its contact (model 4.2).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Integrator {
     /// Δh = κ p ds: the paper's rule. Unstable when the stiffness number Π exceeds 2.
@@ -34,19 +34,19 @@ pub enum Integrator {
 /// Formation and destruction of secondary plateaus (model 4L and 4P).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PlateauRules {
-    /// How debris travels.
+    /// Rule for the place where debris is compacted.
     pub debris: DebrisRule,
     /// η: fraction of the worn volume that stays in the contact (pools) or may be compacted (local debris).
     pub captured_fraction: f64,
-    /// η of what wears off resin, where that is another.
+    /// η of what wears off resin, where it has one of its own.
     pub captured_resin_fraction: Option<f64>,
     /// β: the pin's share of a deposit where both surfaces can form a plateau; pools only.
     pub pad_share: f64,
-    /// Whether plateaus form; without it captured debris stays in its pool, and with local debris all leaves the contact.
+    /// True if plateaus form; without it captured debris stays in its pool, and with local debris all leaves the contact.
     pub formation: bool,
-    /// Whether unsupported plateaus of the pin go back to their pool; pools only.
+    /// True if unsupported plateaus of the pin go back to their pool; pools only.
     pub destruction: bool,
-    /// ℓ, m: over which length debris is gathered and spread; local debris only, which without it goes from one cell to the
+    /// ℓ, m: length over which debris is gathered and spread; local debris only, which without it goes from one cell to the
     /// next.
     pub transport_length: Option<f64>,
 }
@@ -82,15 +82,15 @@ pub const LEAST_FRICTION: f64 = 0.01;
 pub struct Parameters {
     /// Ring mesh.
     pub mesh: Mesh,
-    /// F_N, N, or where the brake is told its torque, that, N m; where there is a cycle, that takes its place.
+    /// F_N, N, or the braking torque where that is given, N m; a cycle takes its place.
     pub normal_force: f64,
-    /// Whether load is a braking torque, N m, that friction has to give (model 9); it needs friction.
+    /// True if load is a braking torque, N m, that friction has to give (model 9); it needs friction.
     pub by_torque: bool,
-    /// ω, rad/s; where there is a cycle, that takes its place.
+    /// ω, rad/s; a cycle takes its place.
     pub angular_velocity: f64,
     /// Load and speed that change with time (model 9).
     pub cycle: Option<Arc<Cycle>>,
-    /// Where load and speed are set between steps ([`Simulation::operate`](crate::simulation::Simulation::operate)).
+    /// Record of load and speed that were set between steps ([`Simulation::operate`](crate::simulation::Simulation::operate)).
     pub control: Option<Control>,
     /// h, m: height of the elastic foundation.
     pub foundation_height: f64,
@@ -98,9 +98,9 @@ pub struct Parameters {
     pub materials: Materials,
     /// Formation and destruction.
     pub plateaus: PlateauRules,
-    /// m ≥ 1: how many revolutions one simulated revolution stands for (model 4.6).
+    /// m ≥ 1: number of revolutions that one simulated revolution stands for (model 4.6).
     pub time_acceleration: f64,
-    /// How wear follows from contact.
+    /// Rule by which wear follows from contact.
     pub integrator: Integrator,
     /// Friction, where it is reckoned (model 10).
     pub friction: Option<Friction>,
@@ -111,18 +111,18 @@ pub struct Parameters {
 }
 
 impl Parameters {
-    /// The same with the wear rates of the pin's plateaus multiplied by f_κ (model 11, feedback).
+    /// Parameters with the wear rates of the pin's plateaus multiplied by f_κ (model 11, feedback).
     pub fn with_wear_rate_factor(&self, factor: f64) -> Self {
         Self { materials: self.materials.with_wear_rate_factor(factor), ..self.clone() }
     }
 
-    /// The same under another load and at another rotational speed.
+    /// Parameters under another load (N, or N m of a braking torque) and at another rotational speed (rad/s).
     pub fn under(&self, operation: &Operation) -> Self {
         let Operation { load, angular_velocity, control } = *operation;
         Self { normal_force: load, angular_velocity, control, ..self.clone() }
     }
 
-    /// The same whose coming steps stand for `time_acceleration` revolutions each, after so many.
+    /// Parameters with this time acceleration in the coming steps, after so many.
     pub fn accelerated(&self, time_acceleration: f64, steps: u64) -> Self {
         let is_same = time_acceleration == self.time_acceleration;
         let changed = |control| Control { steps, angle: self.angle_turned(steps, f64::NAN), ..control };
@@ -211,7 +211,7 @@ impl Parameters {
         }
     }
 
-    /// m Δθ, rad: by how much one step turns the disc.
+    /// m Δθ, rad: angle that one step stands for.
     pub fn step_angle(&self) -> f64 {
         self.time_acceleration * self.mesh.column_angle()
     }
@@ -242,7 +242,7 @@ impl Parameters {
         self.load_by(self.normal_force, None, 1).unwrap_or(f64::NAN)
     }
 
-    /// What no load of any step is above, N.
+    /// Upper bound of the load of any step, N.
     pub fn largest_load(&self) -> f64 {
         let set = self.control.map_or(self.normal_force, |control| control.largest_load);
         let largest = self.cycle.as_ref().map_or(set, |cycle| cycle.largest_force());

@@ -15,7 +15,7 @@ pub enum Base {
 }
 
 impl Base {
-    /// Whether the base is resin.
+    /// Tells whether the base is resin.
     #[inline(always)]
     pub fn is_resin(self) -> bool {
         self == Self::Resin
@@ -101,14 +101,14 @@ pub fn reported_pin_status(height: f64, substrate: f64, is_resin: bool) -> Statu
 pub struct InitialSurfaces {
     /// z_d of every disc cell, m.
     pub disc_height: Vec<f64>,
-    /// z_p of every pin cell, m; beyond the pin's outline of no meaning, also of what follows.
+    /// z_p of every pin cell, m; without meaning beyond the pin's outline, as are the bases.
     pub pin_height: Vec<f64>,
     /// Base of every pin cell.
     pub pin_base: Vec<Base>,
 }
 
 impl InitialSurfaces {
-    /// Whether every field has the size that the mesh asks for.
+    /// Tells whether every field has the size that the mesh asks for.
     pub fn fits(&self, mesh: &Mesh) -> bool {
         self.disc_height.len() == mesh.disc_cells()
             && self.pin_height.len() == mesh.pin_cells()
@@ -139,7 +139,7 @@ pub struct State {
 }
 
 impl State {
-    /// n = 0: b = z in every cell, M = 0.
+    /// State at n = 0: b = z in every cell, M = 0.
     pub fn new(parameters: &Parameters, surfaces: InitialSurfaces) -> Self {
         let reference_height = surfaces.reference_height();
         let InitialSurfaces { disc_height, pin_height, pin_base } = surfaces;

@@ -15,7 +15,7 @@ use crate::model::totals::Volumes;
 /// Displacements from this size on are out of the range of the model, m.
 pub const REACH: f64 = 1e199;
 
-/// What a step found and did.
+/// Contact of a step, and volumes moved in it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Step {
     /// F_N, or F̄_n of a cycle, N.
@@ -24,16 +24,16 @@ pub struct Step {
     pub displacement: f64,
     /// p of every pin cell, Pa; 0 where it does not touch.
     pub pressure: Vec<f64>,
-    /// Whether a pin cell touches.
+    /// True where a pin cell touches.
     pub contact: Vec<bool>,
     /// Status of every pin cell at the start of the step.
     pub pin_status: Vec<Status>,
-    /// What was moved.
+    /// Volumes moved, m³.
     pub moved: Volumes,
 }
 
 impl Step {
-    /// What friction must know of the contact (model 10).
+    /// Sums over the contact for friction (model 10).
     pub fn sums(&self, parameters: &Parameters) -> ContactSums {
         let mut statuses = [StatusContact::default(); 3];
         let cells = self.contact.iter().zip(&self.pressure).zip(&self.pin_status);
@@ -67,13 +67,13 @@ pub struct Pair {
     pub gap: f64,
     /// k, Pa/m.
     pub stiffness: f64,
-    /// Whether the neighbour in the sliding direction is a plateau; where there is none it is not.
+    /// True if the neighbour in the sliding direction is a plateau; false where there is none.
     pub plateau_ahead: bool,
     /// Place of the neighbour's pair among the pairs, if there is one.
     pub ahead: Option<usize>,
 }
 
-/// What a pair really loses in a step, m.
+/// Actual losses of a pair in a step, m.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Loss {
     /// Δh_p of a plateau.
@@ -86,7 +86,7 @@ pub struct Loss {
     pub returned: f64,
 }
 
-/// One step under the load of the operation, which is no braking torque.
+/// Takes one step under the load of the operation, which is no braking torque.
 ///
 /// # Errors
 /// [`ContactError`] when no displacement carries the load.
@@ -94,7 +94,7 @@ pub fn advance(parameters: &Parameters, state: &mut State) -> Result<Step, Conta
     advance_under(parameters.load_of(state.steps + 1), parameters, state)
 }
 
-/// One step under a load, N: every rule sees the statuses, gaps and contact of its start.
+/// Takes one step under a load, N: every rule sees the statuses, gaps and contact of its start.
 ///
 /// # Errors
 /// [`ContactError`] when no displacement carries the load.
@@ -191,7 +191,7 @@ pub fn balance(normal_force: f64, pairs: &[Pair]) -> Result<f64, ContactError> {
     Ok(displacement)
 }
 
-/// Model 4.2: wears a pair, if it overlaps, and tells what its two cells lost.
+/// Model 4.2: wears a pair, if it overlaps, and returns the losses of its two cells, m.
 pub fn wear(parameters: &Parameters, state: &mut State, pair: &Pair, overlap: f64) -> Loss {
     if overlap == 0.0 {
         return Loss::default();
@@ -236,7 +236,7 @@ pub fn wear(parameters: &Parameters, state: &mut State, pair: &Pair, overlap: f6
     }
 }
 
-/// Model 4.2a: build-up on resin that is pressed harder than its strength breaks away; what wear left of it, m.
+/// Model 4.2a: breaks away build-up on resin that is pressed harder than its strength; returns what wear left of it, m.
 pub fn break_away(parameters: &Parameters, state: &mut State, pair: &Pair, overlap: f64) -> f64 {
     let Some(strength) = parameters.materials.strength else { return 0.0 };
     let (pin, cell) = (&mut state.pin, pair.pin);
@@ -249,7 +249,7 @@ pub fn break_away(parameters: &Parameters, state: &mut State, pair: &Pair, overl
     build_up
 }
 
-/// What a cell loses of its build-up t and of its substrate, m: t first, then (1 − t/Δh) of the substrate's own raw loss.
+/// Losses of a cell from its build-up t and from its substrate, m: t first, then (1 − t/Δh) of the substrate's own raw loss.
 fn build_up_first(build_up: f64, raw: f64, raw_of_substrate: f64) -> [f64; 2] {
     match build_up {
         0.0 => [0.0, raw],
@@ -268,7 +268,7 @@ fn after([of_build_up, of_substrate]: [f64; 2], build_up: f64, height: f64, subs
     }
 }
 
-/// What of a loss is captured, m: η of it, with an η of its own for resin if it is given.
+/// Captured part of a loss, m: η of it, with an η of its own for resin if it is given.
 fn captured(parameters: &Parameters, loss: &Loss) -> f64 {
     let rules = &parameters.plateaus;
     rules.captured_fraction * (loss.pin + loss.disc) + rules.captured_of_resin() * loss.resin
@@ -321,7 +321,7 @@ fn compact(caught: f64, pair: &Pair, plateau: Option<f64>, displacement: f64, st
     moved.deposited_disc += pair.area * (deposit - on_pin);
 }
 
-/// What finds no room leaves the contact, m³.
+/// Volume that finds no room and leaves the contact, m³.
 fn emitted(moved: &Volumes) -> f64 {
     let Volumes { worn_pin, worn_resin, worn_disc, returned, deposited_pin, deposited_disc, .. } = moved;
     worn_pin + worn_resin + worn_disc + returned - deposited_pin - deposited_disc
@@ -395,7 +395,7 @@ pub fn pool(parameters: &Parameters, state: &mut State, pairs: &[Pair], displace
     all
 }
 
-/// Model 4P, destruction: build-up on resin that no plateau ahead supported falls; its volume, m³.
+/// Model 4P, destruction: takes off build-up on resin that no plateau ahead supported; returns its volume, m³.
 pub fn destroy(state: &mut State, pairs: &[&Pair]) -> f64 {
     let pin = &mut state.pin;
     let mut returned = 0.0;
@@ -409,7 +409,7 @@ pub fn destroy(state: &mut State, pairs: &[&Pair]) -> f64 {
     returned
 }
 
-/// Model 4P, formation: spreads a pool (m³) evenly over the cells that do not touch; the volumes on pin and disc, m³, and
+/// Model 4P, formation: spreads a pool (m³) evenly over the cells that do not touch; returns the volumes on pin and disc, m³, and
 /// whether every cell got its whole share.
 pub fn form(pad_share: f64, pool: f64, state: &mut State, pairs: &[&Pair], displacement: f64) -> ([f64; 2], bool) {
     let State { disc, pin, .. } = state;

@@ -41,9 +41,9 @@ impl From<f64> for RunningSum {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "Stored")]
 pub struct Revolution {
-    /// In a full revolution, the oldest is overwritten.
+    /// Values of the last steps; in a full revolution, the oldest is overwritten.
     values: Vec<f64>,
-    /// Where the next goes in a full revolution.
+    /// Place of the next value in a full revolution.
     oldest: usize,
     /// Steps of one revolution.
     steps: usize,
@@ -67,7 +67,7 @@ impl TryFrom<Stored> for Revolution {
 }
 
 impl Revolution {
-    /// No step yet; a revolution has so many.
+    /// Revolution before the first step; it has so many.
     pub fn new(steps: usize) -> Self {
         Self { values: Vec::new(), oldest: 0, steps }
     }

@@ -1,8 +1,8 @@
-//! What heat is told: substances, coating, disc and pin; and factors that depend on the temperature of the contact (model 11, feedback).
+//! Parameters of heat: substances, coating, disc and pin; and factors that depend on the temperature of the contact (model 11, feedback).
 
 use thiserror::Error;
 
-/// What conducts heat.
+/// Thermal properties of a substance.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Substance {
     /// λ, W/(m K).
@@ -30,44 +30,44 @@ impl Substance {
 pub struct Coating {
     /// d, m; 0 is none.
     pub thickness: f64,
-    /// What it is of.
+    /// Substance of the coating.
     pub substance: Substance,
 }
 
 /// The disc as heat sees it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Disc {
-    /// Below the coating.
+    /// Substance below the coating.
     pub substance: Substance,
     /// A_d, m².
     pub area: f64,
-    /// m.
+    /// Thickness, m.
     pub thickness: f64,
     /// H₀, W/K.
     pub cooling: f64,
     /// H₁, J/(K rad).
     pub cooling_per_speed: f64,
-    /// If it has one.
+    /// Coating, if the disc has one.
     pub coating: Option<Coating>,
 }
 
 /// The pin as heat sees it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pin {
-    /// All of it.
+    /// Substance of the whole pin.
     pub substance: Substance,
     /// A_p, m².
     pub area: f64,
-    /// m.
+    /// Length, m.
     pub length: f64,
     /// H_p, W/K.
     pub cooling: f64,
 }
 
-/// Where the heat of friction goes, and what temperature changes.
+/// Bodies that the heat of friction goes into, and factors that depend on temperature.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Thermal {
-    /// K.
+    /// Ambient temperature, K.
     pub ambient: f64,
     /// The disc.
     pub disc: Disc,
@@ -86,7 +86,7 @@ pub struct Factor {
     points: Vec<(f64, f64)>,
 }
 
-/// Why points are no factor. They are counted from 0.
+/// Error in the points of a factor. They are counted from 0.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 #[allow(missing_docs)] // The messages say what they mean.
 pub enum FactorError {
@@ -97,7 +97,7 @@ pub enum FactorError {
 }
 
 impl Factor {
-    /// Straight lines between points of temperature (K) and factor.
+    /// Factor with straight lines between points of temperature (K) and factor.
     ///
     /// # Errors
     /// [`FactorError`] when temperatures do not rise or a factor is negative.
@@ -114,12 +114,12 @@ impl Factor {
         Ok(Self { points })
     }
 
-    /// Its points: temperature, K, increasing, and factor.
+    /// Points of the factor: temperature, K, increasing, and factor.
     pub fn points(&self) -> &[(f64, f64)] {
         &self.points
     }
 
-    /// Whether it is 1 at every temperature.
+    /// Tells whether the factor is 1 at every temperature.
     pub fn is_one(&self) -> bool {
         self.points.iter().all(|(_, factor)| *factor == 1.0)
     }

@@ -9,19 +9,19 @@ use crate::model::sums::RunningSum;
 /// Volumes that one step moves, m³: worn + returned = deposited + emitted + what the pools gained.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Volumes {
-    /// Worn off plateaus of the pin.
+    /// Volume worn off plateaus of the pin.
     pub worn_pin: f64,
-    /// Worn off resin.
+    /// Volume worn off resin.
     pub worn_resin: f64,
-    /// Worn off the disc.
+    /// Volume worn off the disc.
     pub worn_disc: f64,
-    /// Came off a surface without wearing, as a build-up does that lost its support; it is emitted or in a pool.
+    /// Volume that came off a surface without wearing, as a build-up does that lost its support; it is emitted or in a pool.
     pub returned: f64,
-    /// Compacted on the pin.
+    /// Volume compacted on the pin.
     pub deposited_pin: f64,
-    /// Compacted on the disc.
+    /// Volume compacted on the disc.
     pub deposited_disc: f64,
-    /// Left the contact.
+    /// Volume that left the contact.
     pub emitted: f64,
 }
 
@@ -44,19 +44,19 @@ impl Add for Volumes {
 /// Volumes moved since t = 0, m³.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct Totals {
-    /// Worn off plateaus of the pin.
+    /// Volume worn off plateaus of the pin.
     pub worn_pin: RunningSum,
-    /// Worn off resin.
+    /// Volume worn off resin.
     pub worn_resin: RunningSum,
-    /// Worn off the disc.
+    /// Volume worn off the disc.
     pub worn_disc: RunningSum,
     /// Build-up of the pin that lost its support or broke away.
     pub returned: RunningSum,
-    /// Compacted on the pin.
+    /// Volume compacted on the pin.
     pub deposited_pin: RunningSum,
-    /// Compacted on the disc.
+    /// Volume compacted on the disc.
     pub deposited_disc: RunningSum,
-    /// Left the contact.
+    /// Volume that left the contact.
     pub emitted: RunningSum,
 }
 
@@ -72,7 +72,7 @@ impl Totals {
         self.emitted.add(moved.emitted);
     }
 
-    /// Of the worn volume the share that is missing, with this much (m³) in the pools, and `lost` (m³) the volume that the
+    /// Missing share of the worn volume, 1, with this much (m³) in the pools, and `lost` (m³) the volume that the
     /// heights of both surfaces say has gone; 0 if nothing is worn. The larger of what lacks in the account, worn + returned
     /// − deposited − emitted − pool, and of what it has lost more than the surfaces, worn + returned − deposited − lost.
     pub fn balance_residual(&self, pool: f64, lost: f64) -> f64 {
@@ -101,12 +101,12 @@ impl Totals {
     }
 }
 
-/// What pools hold, and what was moved since t = 0.
+/// Debris in the pools, and volumes moved since t = 0, m³.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Account {
     /// M, m³: none with local debris, else one pool, or one per row.
     pub pools: Vec<RunningSum>,
-    /// Volumes moved since t = 0.
+    /// Volumes moved since t = 0, m³.
     pub totals: Totals,
 }
 
@@ -116,7 +116,7 @@ impl Account {
         self.pools.iter().map(RunningSum::value).sum()
     }
 
-    /// Of the worn volume the share that is missing: see [`Totals::balance_residual`].
+    /// Missing share of the worn volume, 1: see [`Totals::balance_residual`].
     pub fn balance_residual(&self, lost: f64) -> f64 {
         self.totals.balance_residual(self.pool(), lost)
     }

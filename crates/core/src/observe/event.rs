@@ -1,4 +1,4 @@
-//! What is reported of each event of a cycle (model 9): its ends, what was worn in it, and the contact at its ends.
+//! Records of the events of a cycle (model 9): the ends of each, the wear in it, and the contact at its ends.
 
 use serde::{Deserialize, Serialize};
 
@@ -11,12 +11,12 @@ use crate::model::parameters::Parameters;
 use crate::model::sums::RunningSum;
 use crate::observe::extra::{EMISSION, FRICTION, HEAT};
 
-/// What is reported of an event, in SI units.
+/// Record of an event, in SI units.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct EventRecord {
-    /// When it began, s.
+    /// Start, s.
     pub start: f64,
-    /// When it ended, s.
+    /// End, s.
     pub end: f64,
     /// ω at its start, rad/s.
     pub initial_speed: f64,
@@ -53,7 +53,7 @@ pub struct EventQuantity {
     pub name: &'static str,
     /// SI unit as UDUNITS writes it.
     pub unit: &'static str,
-    /// What it is, in words.
+    /// Meaning, in words.
     pub long_name: &'static str,
     /// The part of the model that brings it; none where every run with a cycle has it.
     pub part: Option<&'static Extra>,
@@ -73,7 +73,7 @@ macro_rules! quantities {
     };
 }
 
-/// What is reported of every event, in this order.
+/// Quantities that are reported of every event, in this order.
 pub const EVENT_QUANTITIES: &[EventQuantity] = quantities! {
     start, "s", "time at the start of the event", None;
     end, "s", "time at the end of the event", None;
@@ -92,7 +92,7 @@ pub const EVENT_QUANTITIES: &[EventQuantity] = quantities! {
     particle_number, "1", "number of airborne particles of the simulated pin", Some(&EMISSION);
 };
 
-/// What is reported of events in a run with these series besides those of every run.
+/// Quantities of events in a run with these series besides those of every run.
 pub fn event_quantities(extras: &[&Extra]) -> impl Iterator<Item = &'static EventQuantity> {
     EVENT_QUANTITIES.iter().filter(|quantity| quantity.part.is_none_or(|part| extras.contains(&part)))
 }
@@ -107,15 +107,15 @@ pub fn event_quantity(name: &str) -> Option<&'static EventQuantity> {
 struct Planned {
     event: Event,
     distance: f64,
-    /// Steps done before its first.
+    /// Steps done before the first of the event.
     before: u64,
-    /// Its last step.
+    /// Last step of the event.
     last: u64,
     /// The start of the pause that ends it, where the step around that pause is not taken any more.
     closing: Option<Moment>,
 }
 
-/// What an event that has begun needs to know of its start.
+/// Sums, contact area and temperature at the start of an event that has begun.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 struct Begun {
     sums: Sums,
@@ -123,7 +123,7 @@ struct Begun {
     temperature: Option<f64>,
 }
 
-/// What grows from step to step, as far as a sample has it.
+/// Sums that grow from step to step, as far as a sample has them.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 struct Sums {
     worn: f64,
@@ -144,21 +144,21 @@ impl Sums {
     }
 }
 
-/// How far the events of a run have come: what a checkpoint keeps.
+/// Progress of the events of a run: what a checkpoint keeps.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct EventProgress {
-    /// Those that have ended.
+    /// Records of the events that have ended.
     pub records: Vec<EventRecord>,
     begun: Option<Begun>,
-    /// Those of them with the last step: the end of a run may have cut them short, and the next one begins with the sums of the last.
+    /// Events that ended with the last step: the end of a run may have cut them short, and the next one begins with the sums of the last.
     ended: Vec<Ended>,
 }
 
-/// What an event that has ended leaves.
+/// Start and sums of an event that has ended.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 struct Ended {
     begun: Begun,
-    /// Its last step.
+    /// Last step of the event.
     step: u64,
     sums: Sums,
 }
@@ -195,7 +195,7 @@ impl EventLog {
         log
     }
 
-    /// What has ended so far.
+    /// Returns the events that have ended so far.
     pub fn progress(&self) -> &EventProgress {
         &self.progress
     }

@@ -1,4 +1,4 @@
-//! The series that not every run has: what it takes to be one, their table, and what measures them.
+//! Series that not every run has: their type, their table, and the functions that measure them.
 
 use crate::model::mesh::Mesh;
 use crate::model::parameters::Parameters;
@@ -11,22 +11,22 @@ use crate::surface::Body;
 pub struct Extra {
     /// Name; of one on request that of its switch, `output.NAME` in a scene.
     pub name: &'static str,
-    /// What is written with every sample.
+    /// Quantities that are written with every sample.
     pub quantities: &'static [Quantity],
-    /// How it is asked for and measured; none where a run has it for another reason.
+    /// Request by a switch, with its measurement; none where a run has it for another reason.
     pub request: Option<Request>,
-    /// What of a scene it needs, in words, besides a switch; empty where it needs nothing.
+    /// Needs of the series in a scene, in words, besides a switch; empty where it has none.
     pub needs: &'static str,
 }
 
 /// A series on request.
 #[derive(Debug, Clone, Copy)]
 pub struct Request {
-    /// What it is, as in "roughness with every sample".
+    /// Name in words, as in "roughness with every sample".
     pub what: &'static str,
-    /// What its switch means.
+    /// Meaning of its switch.
     pub meaning: &'static str,
-    /// The fields that it is measured of, which are gathered for it: what it costs.
+    /// Fields that it is measured of; gathering them is its cost.
     pub maps: &'static [Map],
     /// Measures it of these fields, column by column: one value for each quantity.
     pub measure: fn(&Parameters, &[Vec<f64>]) -> Vec<f64>,
@@ -92,7 +92,7 @@ pub const CYCLE: Extra = Extra {
     needs: "a cycle, table [operation.cycle]",
 };
 
-/// How far the vehicle has come, where its speed is given.
+/// Distance that the vehicle has travelled, m, where its speed is given.
 pub const ROAD: Extra = Extra {
     name: "road",
     quantities: &[Quantity::extra("road_distance", "m", "distance that the vehicle has travelled")],
@@ -116,8 +116,8 @@ pub fn quantities(extras: &[&Extra]) -> impl Iterator<Item = &'static Quantity> 
     QUANTITIES.iter().chain(extras.iter().flat_map(|extra| extra.quantities))
 }
 
-/// Roughness of both bodies while they wear (ISO 25178-2:2021, 4.2), with every sample, peaks positive on either: of the whole ring, since all of it passes under the pin,
-/// and of the whole pin.
+/// Roughness of both bodies while they wear (ISO 25178-2:2021, 4.2), with every sample, peaks positive on either: of the whole ring,
+/// since all of it passes under the pin, and of the whole pin.
 pub const ROUGHNESS: Extra = Extra {
     name: "roughness",
     quantities: &[
@@ -261,7 +261,7 @@ macro_rules! of {
     };
 }
 
-/// With `[friction]`.
+/// Coefficient and work of friction, with `[friction]`.
 pub const FRICTION: Extra = Extra {
     name: "friction",
     quantities: &[
@@ -278,7 +278,7 @@ pub const FRICTION: Extra = Extra {
     needs: "a law of friction, table [friction]",
 };
 
-/// With `[thermal]`.
+/// Temperatures and balance of heat, with `[thermal]`.
 pub const HEAT: Extra = Extra {
     name: "heat",
     quantities: &[
@@ -292,7 +292,7 @@ pub const HEAT: Extra = Extra {
     needs: "heat, table [thermal]",
 };
 
-/// With `[emission]`.
+/// Airborne emission of the simulated pin, with `[emission]`.
 pub const EMISSION: Extra = Extra {
     name: "emission",
     quantities: &[
@@ -305,7 +305,7 @@ pub const EMISSION: Extra = Extra {
     needs: "airborne emission, table [emission]",
 };
 
-/// With `[brake]`.
+/// Wear of the pads, with `[brake]`.
 pub const PADS: Extra = Extra {
     name: "pads",
     quantities: &[Quantity::extra("pad_wear", "m", "thickness that the pads have lost, mean over their area")],
@@ -313,7 +313,7 @@ pub const PADS: Extra = Extra {
     needs: "a brake, table [brake]",
 };
 
-/// With `[brake]` and `[friction]`.
+/// Braking torque, with `[brake]` and `[friction]`.
 pub const BRAKE_TORQUE: Extra = Extra {
     name: "brake_torque",
     quantities: &[Quantity::extra("brake_torque", "N m", "braking torque of the whole brake")],
@@ -321,7 +321,7 @@ pub const BRAKE_TORQUE: Extra = Extra {
     needs: "a brake and a law of friction, tables [brake] and [friction]",
 };
 
-/// With `[brake]` and `[emission]`.
+/// Airborne emission of the whole brake, with `[brake]` and `[emission]`.
 pub const BRAKE_EMISSION: Extra = Extra {
     name: "brake_emission",
     quantities: &[
@@ -338,7 +338,7 @@ pub const BRAKE_EMISSION: Extra = Extra {
     needs: "a brake and airborne emission, tables [brake] and [emission]",
 };
 
-/// With `[brake]` and the speed on the road.
+/// Wear of the pads over the distance of the vehicle, with `[brake]` and the speed on the road.
 pub const PADS_ON_ROAD: Extra = Extra {
     name: "pads_on_road",
     quantities: &[
@@ -353,7 +353,7 @@ pub const PADS_ON_ROAD: Extra = Extra {
     needs: "a brake and a cycle with the speed on the road, table [brake] and column road_speed",
 };
 
-/// With `[brake]`, `[emission]` and the speed on the road.
+/// Emission of the brake over the distance of the vehicle, with `[brake]`, `[emission]` and the speed on the road.
 pub const EMISSION_ON_ROAD: Extra = Extra {
     name: "emission_on_road",
     quantities: &[
@@ -385,7 +385,7 @@ pub const EMISSION_ON_ROAD: Extra = Extra {
 /// The series of a brake.
 pub const OF_BRAKES: &[&Extra] = &[&PADS, &PADS_ON_ROAD, &BRAKE_TORQUE, &BRAKE_EMISSION, &EMISSION_ON_ROAD];
 
-/// Over the contact temperature map, which is written, too.
+/// Mean and largest contact temperature, K, over its map, which is written, too.
 pub const CONTACT_TEMPERATURE: Extra = Extra {
     name: "contact_temperature",
     quantities: &[

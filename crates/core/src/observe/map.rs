@@ -34,7 +34,7 @@ impl Map {
         Self::Temperature,
     ];
 
-    /// Those that a scene chooses among: all but the one that a series on request brings.
+    /// Maps that a scene chooses among: all but the one that a series on request brings.
     pub const CHOICES: [Self; 7] = {
         let [choices @ .., _] = Self::ALL;
         choices
@@ -54,12 +54,12 @@ impl Map {
         }
     }
 
-    /// Whether the map covers the disc ring; else it covers the pin.
+    /// Tells whether the map covers the disc ring; else it covers the pin.
     pub fn on_disc(self) -> bool {
         matches!(self, Self::DiscHeight | Self::DiscSubstrate | Self::DiscStatus)
     }
 
-    /// Whether the values are statuses; else they are floating-point numbers.
+    /// Tells whether the values are statuses; else they are floating-point numbers.
     pub fn is_status(self) -> bool {
         matches!(self, Self::DiscStatus | Self::PinStatus)
     }
@@ -71,14 +71,14 @@ pub const ABSENT: u8 = 3;
 /// The values of one map, column by column; disc columns in the disc's own frame.
 #[derive(Debug, Clone, PartialEq)]
 pub enum MapValues {
-    /// Heights, pressures or temperatures.
+    /// Heights, m, pressures, Pa, or temperatures, K.
     Float(Vec<f64>),
     /// Statuses, as the discriminants of [`crate::model::material::Status`], or [`ABSENT`].
     Status(Vec<u8>),
 }
 
 impl MapValues {
-    /// All of them as numbers.
+    /// Returns all of them as numbers.
     pub fn into_numbers(self) -> Vec<f64> {
         match self {
             Self::Float(values) => values,

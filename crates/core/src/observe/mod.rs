@@ -1,14 +1,14 @@
-//! What a simulation reports: samples of its quantities and maps of its fields (model section 5).
+//! Reports of a simulation: samples of its quantities and maps of its fields (model section 5).
 //!
 //! | file | what is in it |
 //! |---|---|
-//! | `sample.rs` | what every run reports: the fields of a sample, and their names and units |
+//! | `sample.rs` | quantities of every run: the fields of a sample, and their names and units |
 //! | `extra.rs` | series that not every run has: on request, or of runs with friction, heat or emission |
 //! | `brake.rs` | series of the brake of whose pads the pin is a piece |
-//! | `event.rs` | what is reported of each event of a cycle |
+//! | `event.rs` | records of the events of a cycle |
 //! | `map.rs` | fields that can be recorded as maps |
-//! | `schedule.rs` | when samples and maps are due |
-//! | `window_mean.rs`, `running_in.rs` | what is made of series and maps afterwards |
+//! | `schedule.rs` | times at which samples and maps are due |
+//! | `window_mean.rs`, `running_in.rs` | evaluation of series and maps afterwards |
 
 pub mod brake;
 pub mod event;

@@ -1,4 +1,4 @@
-//! Running in: whether a run is still at it, by what its mean contact area changed by in its second half, and how long that takes to rise
+//! Running in: whether a run is still at it, by the change of its mean contact area in its second half, and how long that takes to rise
 //! and fall once; and the time after which a quantity has come to a fraction of its value at the end of the run. The one definition for the
 //! summary, the report and `reaches` of studies.
 
@@ -22,7 +22,7 @@ const BEYOND_RANGE: f64 = 0.25;
 /// Part of the later windows that may be short of the fraction again: with more, the first that is not is one by chance.
 const SHORT_AGAIN: f64 = 0.1;
 
-/// Why the time is not defined.
+/// Error of a time that is not defined, see [`time_to`].
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 #[allow(missing_docs)] // The messages say what they mean.
 pub enum NotDefined {
@@ -106,8 +106,8 @@ pub fn time_to(fraction: f64, samples: &Cumulative<'_>, pulse_time: Option<f64>)
     Ok((first as f64 + 0.5) * end / windows as f64)
 }
 
-/// The same of a run with a cycle, of which `contact_time` is the series (s, since t = 0): windows are parts of the time in contact, and
-/// the time in which the pin is lifted counts for nothing. The answer is a time of the run, s.
+/// Time as of [`time_to`] in a run with a cycle, of which `contact_time` is the series (s, since t = 0): windows are parts of the time in
+/// contact, and the time in which the pin is lifted counts for nothing. The answer is a time of the run, s.
 ///
 /// # Errors
 /// Those of [`time_to`].
@@ -132,8 +132,8 @@ const BEYOND_CHANCE: f64 = 2.0;
 /// and a run that may hide a larger one than the second tells nothing.
 const NEGLIGIBLE: f64 = 0.1;
 const OF_INTEREST: f64 = 0.5;
-/// What is missing where nothing else is asked: at the fraction of the running-in time of a summary. So 1 % is negligible and 5 % is of
-/// interest.
+/// Missing part of the last value where no fraction is asked for: that at the running-in time of a summary. So 1 % is negligible and
+/// 5 % is of interest.
 const MISSING: f64 = 1.0 - RUN_IN;
 
 /// The last quarter of a run beside the one before it.
@@ -145,30 +145,30 @@ pub struct Drift {
     pub last_quarter: WindowMean,
     /// Change from one to the other, as a part of the mean of the third.
     pub change: f64,
-    /// Its standard error, in the same measure: of what varies about a straight line through both quarters, for a steady rise is no
-    /// chance; as if both quarters were independent.
+    /// Standard error of the change, in the same measure: of what varies about a straight line through both quarters, for a steady rise
+    /// is no chance; as if both quarters were independent.
     pub standard_error: f64,
     /// Pulses of the contact area in a quarter, at most; none where nothing pulses or that is not known.
     pub pulses: Option<f64>,
 }
 
-/// What the change of a mean says.
+/// Trend of a mean, by its change.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Trend {
-    /// It rises by more than chance explains.
+    /// Rise by more than chance explains.
     Rises,
-    /// It falls by more than chance explains.
+    /// Fall by more than chance explains.
     Falls,
-    /// It changes by less than is of interest, and by no more than chance or next to nothing.
+    /// Change by less than is of interest, and by no more than chance or next to nothing.
     Steady,
     /// Chance may hide a change that is of interest.
     Unknown,
-    /// There are too few pulses in a quarter.
+    /// Quarters with too few pulses to tell.
     TooShort,
 }
 
 impl Drift {
-    /// What the samples of a run tell whose contact area pulses in this time, s, or longer; none where a quarter has too few samples or
+    /// Drift of a run whose contact area pulses in this time, s, or longer; none where a quarter has too few samples or
     /// simulated revolutions for a standard error, or nothing to compare with.
     pub fn of(samples: &Cumulative<'_>, pulse_time: Option<f64>) -> Option<Self> {
         let end = *samples.time.last()?;
@@ -189,12 +189,12 @@ impl Drift {
         })
     }
 
-    /// What the change says.
+    /// Trend by the change.
     pub fn trend(&self) -> Trend {
         self.trend_beside(MISSING)
     }
 
-    /// What the change says where this part of the last value is missing, or more than in [`trend`](Self::trend): less is finer.
+    /// Trend where this part of the last value is missing, but no more than in [`trend`](Self::trend): less is finer.
     pub(super) fn trend_beside(&self, missing: f64) -> Trend {
         let missing = missing.min(MISSING);
         let chance = BEYOND_CHANCE * self.standard_error;
@@ -209,7 +209,7 @@ impl Drift {
     }
 }
 
-/// What is left of values when their least-squares line is taken out.
+/// Residuals of values about their least-squares line.
 pub(super) fn beside_a_line(values: &[f64]) -> Vec<f64> {
     let middle = 0.5 * (values.len() as f64 - 1.0);
     let mean = values.iter().sum::<f64>() / values.len() as f64;

@@ -1,4 +1,4 @@
-//! What is reported at the end of a step by every run: the quantities, their names and units, and where a sample keeps them.
+//! Quantities that every run reports at the end of a step: their names and units, and their places in a sample.
 
 use serde::{Deserialize, Serialize};
 
@@ -58,9 +58,9 @@ pub struct Sample {
     pub filled_fraction: f64,
     /// |Σ k A u − F_N| / F_N.
     pub load_residual: f64,
-    /// (worn + returned − deposited − emitted − pool) / worn; 0 if nothing is worn.
+    /// Missing share of the worn volume, 1, see [`Totals`](crate::model::totals::Totals::balance_residual); 0 if nothing is worn.
     pub balance_residual: f64,
-    /// Of friction, heat and emission, where the scene asks for them.
+    /// Friction, heat and emission, where the scene asks for them.
     pub accounts: AccountsReport,
     /// Quantities that not every run has, by their names; none in a checkpoint.
     #[serde(skip)]
@@ -90,24 +90,24 @@ pub struct Quantity {
     pub name: &'static str,
     /// SI unit as UDUNITS writes it.
     pub unit: &'static str,
-    /// What it is, in words.
+    /// Meaning, in words.
     pub long_name: &'static str,
-    /// Where a sample keeps it; else it is among the extras.
+    /// Place in a sample; none if it is among the extras.
     field: Option<Field>,
 }
 
 impl Quantity {
-    /// One that not every run has, but whose place in a sample is known.
+    /// Quantity that not every run has, but whose place in a sample is known.
     pub const fn of(name: &'static str, unit: &'static str, long_name: &'static str, field: Field) -> Self {
         Self { name, unit, long_name, field: Some(field) }
     }
 
-    /// One that not every run has.
+    /// Quantity that not every run has, among the extras.
     pub const fn extra(name: &'static str, unit: &'static str, long_name: &'static str) -> Self {
         Self { name, unit, long_name, field: None }
     }
 
-    /// Whether a sample has it, be it as no number.
+    /// Tells whether a sample has it, be it as no number.
     pub fn is_of(&self, sample: &Sample) -> bool {
         self.found(sample).is_some()
     }

@@ -1,4 +1,4 @@
-//! When samples and maps are taken (docs/run-file.md).
+//! Times of samples and maps (docs/run-file.md).
 
 use std::sync::Arc;
 
@@ -6,7 +6,7 @@ use crate::model::clock::Clock;
 use crate::model::cycle::{Cycle, Kind};
 use crate::model::parameters::Parameters;
 
-/// When samples are taken.
+/// Interval between samples.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum SampleEvery {
     /// Physical time, s.
@@ -15,12 +15,12 @@ pub enum SampleEvery {
     Steps(u64),
 }
 
-/// When a run is over.
+/// End of a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum End {
-    /// After this physical time, s.
+    /// Physical time, s.
     Time(f64),
-    /// After so many steps.
+    /// Simulated steps.
     Steps(u64),
 }
 
@@ -33,9 +33,9 @@ pub struct Moment {
     pub time: f64,
     /// The kind of that pause.
     pub pause: Option<Kind>,
-    /// Whether a sample is due.
+    /// True if a sample is due.
     pub sample: bool,
-    /// Whether maps are due.
+    /// True if maps are due.
     pub maps: bool,
 }
 
@@ -50,7 +50,7 @@ pub struct Schedule {
     /// The last step.
     last: u64,
     maps_at: Vec<f64>,
-    /// When maps are due, in the order of time; the end of the run is always among them.
+    /// Moments at which maps are due, as step and time (s), in the order of time; the end of the run is always among them.
     map_moments: Vec<(u64, f64)>,
 }
 
@@ -100,7 +100,7 @@ impl Schedule {
         self.last
     }
 
-    /// Whether maps are due before the first step.
+    /// Tells whether maps are due before the first step.
     pub fn begins_with_maps(&self) -> bool {
         self.map_moments[0] == (0, 0.0)
     }
@@ -277,7 +277,7 @@ fn multiple_from(time: f64, every: f64) -> f64 {
     [0.0, 1.0].map(|more| (multiple + more) * every).into_iter().find(|at| *at >= time).unwrap_or(f64::INFINITY)
 }
 
-/// Whether a moment, as step and time, is later than another. Where both are known, time decides: a run that was ended in a pause
+/// Tells whether a moment, as step and time (s), is later than another. Where both are known, time decides: a run that was ended in a pause
 /// may go on with the step around it.
 fn is_after(one: (u64, f64), other: (u64, f64)) -> bool {
     one.1 > other.1 || (one.1 == other.1 && one.0 > other.0)

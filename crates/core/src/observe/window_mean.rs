@@ -19,7 +19,7 @@ pub const LEAST_PULSES: f64 = 3.0;
 /// Rounding of counts of revolutions.
 pub(super) const ROUNDING: f64 = 1e-9;
 
-/// What the samples of a run tell of a quantity, cumulatively, each as long as the others.
+/// Cumulative series of a quantity at the samples of a run, each as long as the others.
 #[derive(Debug, Clone, Copy)]
 pub struct Cumulative<'a> {
     /// Times of the samples, s, ascending.
@@ -33,9 +33,9 @@ pub struct Cumulative<'a> {
 /// Mean of a quantity over a part of a run.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct WindowMean {
-    /// Where the part begins, s.
+    /// Start of the part, s.
     pub from: f64,
-    /// Where it ends, s.
+    /// End of the part, s.
     pub to: f64,
     /// Simulated revolutions in it; none if they are not known.
     pub revolutions: Option<f64>,
@@ -50,14 +50,14 @@ pub struct WindowMean {
 }
 
 impl WindowMean {
-    /// The same where the contact area pulses in this time, s, or longer, if that is known: without a standard error if it has too few
+    /// Mean where the contact area pulses in this time, s, or longer, if that is known: without a standard error if it has too few
     /// pulses.
     pub fn of_pulses(self, pulse_time: Option<f64>) -> Self {
         let has_enough = pulse_time.is_none_or(|time| self.to - self.from >= LEAST_PULSES * time * (1.0 - ROUNDING));
         Self { standard_error: self.standard_error.filter(|_| has_enough), ..self }
     }
 
-    /// Whether there are as many revolutions in it as a mean needs; so if they are not known.
+    /// Tells whether the part has as many revolutions as a mean needs; true if they are not known.
     pub fn is_long(&self) -> bool {
         self.revolutions.is_none_or(|revolutions| revolutions > LEAST_REVOLUTIONS * (1.0 - ROUNDING))
     }
@@ -83,7 +83,7 @@ impl Cumulative<'_> {
         finite.then_some(WindowMean { from, to, revolutions, contact_time: None, mean, standard_error })
     }
 
-    /// The same over the time in contact alone, of which `contact_time` is the series (s, since t = 0): the time in which the pin was
+    /// The mean over the time in contact alone, of which `contact_time` is the series (s, since t = 0): the time in which the pin was
     /// lifted counts for nothing. None also where it was lifted all the time.
     pub fn mean_in_contact(&self, contact_time: &[f64], from: f64, to: f64) -> Option<WindowMean> {
         let in_order = 0.0 <= from && from < to && to <= self.time.last()? * (1.0 + ROUNDING);
@@ -169,7 +169,7 @@ pub fn standard_error(values: &[f64]) -> f64 {
     error_of_mean(&rest, values.len())
 }
 
-/// The same for the mean of n values, from residuals: those of the n values from their mean, or those of 2 n from a line. A
+/// Standard error of the mean of n values, from residuals: those of the n values from their mean, or those of 2 n from a line. A
 /// constant is estimated from every n of them in both cases, so that the divisor is the same.
 pub(super) fn error_of_mean(rest: &[f64], n: usize) -> f64 {
     let covariance =

@@ -1,4 +1,4 @@
-//! What is seen of a measured patch before anything is done to it: which form it has, whether there are spikes, how rough it is.
+//! Condition of a measured patch before anything is done to it: its form, its spikes and its roughness.
 
 use std::collections::BTreeSet;
 
@@ -14,20 +14,20 @@ const LEAST_LEFT: f64 = 0.7;
 const MOST_OF_ALL: f64 = 0.05;
 /// Points of a spike, at most, as of those that `outlier_slope` takes out: a peak, a groove or a scratch of the surface has more.
 const MOST_OF_ONE: usize = 9;
-/// How many times larger narrow spikes make the kurtosis, at least, or how many times farther than the limit one of them lies.
+/// Least factor by which narrow spikes raise the kurtosis, or by which one of them lies farther away than the limit.
 const LEAST_RISE: f64 = 1.5;
 const FARTHEST: f64 = 3.0;
 
 /// Points of a patch that lie far from all others.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Spikes {
-    /// How many points they are.
+    /// Number of points in spikes.
     pub count: usize,
     /// Points with a height.
     pub points: usize,
     /// Kurtosis of the levelled patch with them.
     pub kurtosis: f64,
-    /// Its rms height before and after they are taken out, m.
+    /// Rms height of the levelled patch before and after they are taken out, m.
     pub rms: [f64; 2],
 }
 
@@ -59,7 +59,7 @@ impl Spikes {
     }
 }
 
-/// How many of the points are in groups of few neighbours.
+/// Number of the points that are in groups of few neighbours.
 fn narrow(mut points: BTreeSet<usize>, rows: usize) -> usize {
     let mut narrow = 0;
     while let Some(first) = points.pop_first() {
@@ -91,12 +91,12 @@ pub struct Condition {
     pub form: Level,
     /// Rms height without spikes, m: with the plane taken out, and with second order.
     pub rms_of_forms: [f64; 2],
-    /// Its spikes, once the form is taken out.
+    /// Spikes of the patch, once the form is taken out.
     pub spikes: Option<Spikes>,
 }
 
 impl Condition {
-    /// That of heights in m, in columns of so many rows, NaN where a point is missing; none without heights.
+    /// Condition of heights in m, in columns of so many rows, NaN where a point is missing; none without heights.
     ///
     /// Form and spikes are looked for as `level` and `outliers` take them out, one after the other: spikes do not tell the form, and a bow
     /// does not hide them.
@@ -116,7 +116,7 @@ impl Condition {
     }
 }
 
-/// Whether the form of second order of a patch is one of each of its quarters, too: whether these are flatter without it, a plane taken
+/// Tells whether the form of second order of a patch is one of each of its quarters, too: these are flatter without it, a plane taken
 /// out of each. A quarter that has less than half of the curvature is not, and a groove or a wave has its curvature in some and the
 /// opposite one in others.
 fn is_in_every_quarter(heights: &[f64], rows: usize, has_spikes: bool) -> bool {

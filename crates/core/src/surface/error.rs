@@ -1,10 +1,10 @@
-//! Why a surface cannot be prepared or made.
+//! Errors of a surface that cannot be prepared or made.
 
 use thiserror::Error;
 
 use super::Length;
 
-/// Why a surface cannot be prepared.
+/// Error of a surface that cannot be prepared.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[allow(missing_docs)] // The messages say what they mean.
 pub enum PreparationError {
@@ -82,22 +82,22 @@ pub enum PreparationError {
     NotFinite { count: usize, points: usize, scale: f64 },
 }
 
-/// What to do about a patch that is smaller than the body.
+/// Advice about a patch that is smaller than the body.
 const LARGER: &str = "repeat = true tiles the patch at its own scale without a step at the seams, extend = \"statistics\" makes \
                       heights with its statistics";
 
-/// How many of the missing points are outliers, in words.
+/// Says how many of the missing points are outliers.
 fn as_outliers(outliers: usize) -> String {
     if outliers == 0 { String::new() } else { format!(", {outliers} of them as outliers") }
 }
 
-/// How many of the points, of which none is left, are outliers, in words, and what to do then.
+/// Says how many of the points, of which none is left, are outliers, and what to do then.
 fn as_all_outliers(outliers: usize) -> String {
     let advice = if outliers == 0 { "" } else { ": give outliers or outlier_slope a larger limit, or leave it out" };
     as_outliers(outliers) + advice
 }
 
-/// What part of a ring was not found, in words.
+/// Says what part of a ring was not found.
 fn not_found(radii: Option<[f64; 2]>) -> String {
     match radii {
         Some([inner, outer]) => {
@@ -107,7 +107,7 @@ fn not_found(radii: Option<[f64; 2]>) -> String {
     }
 }
 
-/// Why a synthetic surface cannot be made.
+/// Error of a synthetic surface that cannot be made.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[allow(missing_docs)] // The messages say what they mean.
 pub enum SynthesisError {

@@ -22,7 +22,7 @@ pub(crate) enum Fft {
     Chirp(Chirp),
 }
 
-/// What is transformed: one complex number, or one of each of several lines.
+/// Point of a transform: one complex number, or one of each of several lines.
 pub(crate) trait Point:
     Copy + Default + Add<Output = Self> + Sub<Output = Self> + Mul<Complex, Output = Self>
 {

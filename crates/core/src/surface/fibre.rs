@@ -1,4 +1,4 @@
-//! What lies under the pin's cells, fibre or resin: synthetic fibre maps, and what follows from a map for the surface.
+//! Fibre and resin under the pin's cells: synthetic fibre maps, and what follows from a map for the surface.
 
 use std::f64::consts::PI;
 use std::ops::Range;
@@ -81,7 +81,7 @@ pub struct FibreSynthesis {
     pub fibre_width: f64,
 }
 
-/// Why a fibre map cannot be made.
+/// Error of a fibre map that cannot be made.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[allow(missing_docs)] // The messages say what they mean.
 pub enum FibreError {
@@ -107,7 +107,7 @@ pub enum FibreError {
 
 /// Fibres after which the map is given up.
 const MOST_FIBRES: u32 = 20_000_000;
-/// Cells looked at after which it is, too: fibres far longer than the pin mostly miss it, and each is looked for in all of it. A
+/// Cells looked at after which it is given up, too: fibres far longer than the pin mostly miss it, and each is looked for in all of it. A
 /// map takes about as many as the pin has cells, times the length of a fibre over its width.
 const MOST_CELLS: u64 = 20_000_000_000;
 

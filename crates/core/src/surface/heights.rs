@@ -21,7 +21,7 @@ pub struct HeightParameters {
 }
 
 impl HeightParameters {
-    /// Those of the heights that are there, not NaN; none if there are none.
+    /// Moments of the heights that are there, not NaN; none if there are none.
     pub fn of(heights: &[f64]) -> Option<Self> {
         let [count, sum, _] = sums(heights, |z| [1.0, z, 0.0]);
         if count == 0.0 {
@@ -79,7 +79,7 @@ pub(super) fn rms(heights: &[f64]) -> f64 {
     (valid().map(|height| height * height).sum::<f64>() / valid().count() as f64).sqrt()
 }
 
-/// What a step made of the rms height.
+/// Says how a step changed the rms height.
 pub(super) fn change(before: f64, heights: &[f64]) -> String {
     format!("rms {} -> {}", Length(before), Length(rms(heights)))
 }

@@ -1,4 +1,4 @@
-//! What of measured heights can hardly be meant, another unit or a number that stands for no height, or is too little to go by.
+//! Doubts about measured heights: another unit, a number that stands for no height, or too little to go by.
 
 use super::heights::rms;
 use super::{Body, Length, Patch};
@@ -16,11 +16,11 @@ const FEWEST: usize = 5;
 const MOST_LOOKED_AT: usize = 100_000;
 /// Times the interquartile range of all others that this height is from their quartiles at least.
 const FAR: f64 = 10.0;
-/// The same of the height 0, from the nearest of the others: that is what most often stands for no height, and it may be near them.
+/// Times that range that the height 0 is from the nearest of the others at least: it most often stands for no height, and may be near.
 const GAP_OF_ZERO: f64 = 2.0;
 
-/// What of a measured surface hints at another unit: its pitch along x and y, if it is known, its rms height, both m, or its slopes, for heights in
-/// a wrong unit are steep as well. The heights are as of [`odd_slope`].
+/// Signs of another unit in a measured surface: in its pitch along x and y, if it is known, its rms height, both m, or its slopes, for
+/// heights in a wrong unit are steep as well. The heights are as of [`odd_slope`].
 pub fn odd_units(heights: &[f64], rows: usize, pitch: Option<[f64; 2]>, rms: f64) -> impl Iterator<Item = String> {
     let distances = pitch.and_then(|pitch| odd_pitch(&pitch, None));
     let steep = || pitch.and_then(|pitch| odd_slope(heights, rows, pitch));
@@ -130,10 +130,10 @@ const FEW: usize = 100;
 /// Heights that differ by less than this part of the largest differ by rounding.
 const ROUNDING: f64 = 1e-12;
 
-/// How many times the rms height before the filling it may be afterwards: a membrane is smooth, so gaps that it fills take rms away.
+/// Largest rms height after the filling over that before it: a membrane is smooth, so gaps that it fills take rms away.
 const MOST_BY_FILLING: f64 = 1.2;
 
-/// What a patch that is to become heights of `body`, times `scale`, is warned of; `missing` of its points had no height before they were
+/// Warnings about a patch that is to become heights of `body`, times `scale`; `missing` of its points had no height before they were
 /// filled.
 pub(super) fn warnings(patch: &Patch, missing: usize, scale: f64, body: Body, mesh: &Mesh) -> Vec<String> {
     let few = few_points(patch, missing);

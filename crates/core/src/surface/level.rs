@@ -1,6 +1,6 @@
 //! Levelling: the mean, the least-squares plane or the least-squares surface of second order is taken out.
 
-/// What is taken out of a surface before anything else.
+/// Form that is taken out of a surface.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Level {
     /// Nothing.
@@ -41,7 +41,7 @@ pub fn level(heights: &mut [f64], rows: usize, level: Level, closed: bool) {
     }
 }
 
-/// What rounding leaves of heights that are nothing but a form, by the largest of them: a few units of the last place, of
+/// Rounding that is left of heights that are nothing but a form, over the largest of them: a few units of the last place, of
 /// the heights themselves and of the sum of terms that is taken out.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
 
@@ -85,7 +85,7 @@ struct Form<'a> {
 }
 
 impl<'a> Form<'a> {
-    /// `None` without any point.
+    /// Form of the points that are there; `None` without any point.
     fn new(heights: &[f64], rows: usize, terms: &'a [Term]) -> Option<Self> {
         let (mut lowest, mut highest) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
         for (index, _) in heights.iter().enumerate().filter(|(_, z)| !z.is_nan()) {
@@ -111,7 +111,7 @@ impl<'a> Form<'a> {
         Some(form)
     }
 
-    /// From the lower half of the matrix to its factors, in place.
+    /// Turns the lower half of the matrix into its factors, in place.
     fn factorise(&mut self) {
         for i in 0..self.terms.len() {
             let whole = self.factors[i][i];

@@ -13,7 +13,7 @@ use super::{Extension, Length};
 use crate::model::mesh::Mesh;
 use crate::model::state::Base;
 
-/// How a picture becomes a fibre map; the steps are done in the order of the fields.
+/// Steps from a picture to a fibre map, done in the order of the fields.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Micrograph {
     /// Distance of neighbouring pixels, m.
@@ -24,15 +24,15 @@ pub struct Micrograph {
     pub smooth: Option<f64>,
     /// The grey level that parts fibre and resin.
     pub threshold: Threshold,
-    /// Which side of the threshold is fibre.
+    /// Side of the threshold that is fibre.
     pub fibres: Fibres,
     /// Area of the smallest region that stays, m²; first specks of fibre are removed, then holes in fibre.
     pub despeckle: Option<f64>,
-    /// What is made of a picture that is smaller than the pin; none where it is refused.
+    /// Enlargement of a picture that is smaller than the pin; none where it is refused.
     pub enlargement: Option<Enlargement>,
 }
 
-/// What is made of a picture that is smaller than the pin.
+/// Enlargement of a picture that is smaller than the pin.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Enlargement {
     /// The picture again and again, mirrored at the seams.
@@ -53,12 +53,12 @@ pub enum Threshold {
     Level(f64),
 }
 
-/// Which pixels are fibre.
+/// Pixels that are fibre.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Fibres {
-    /// Those brighter than the threshold.
+    /// Pixels brighter than the threshold.
     Bright,
-    /// Those not brighter than the threshold.
+    /// Pixels not brighter than the threshold.
     Dark,
 }
 
@@ -69,13 +69,13 @@ pub struct FibreMap {
     pub base: Vec<Base>,
     /// The picture's grey levels, turned.
     pub grey: Picture<f32>,
-    /// Where the turned picture shows fibre.
+    /// True where the turned picture shows fibre.
     pub fibre: Picture<bool>,
-    /// What was done, one step a line, for people.
+    /// Report of the steps, one a line, for people.
     pub report: Vec<String>,
 }
 
-/// Why a picture gives no fibre map.
+/// Error of a picture that gives no fibre map.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[allow(missing_docs)] // The messages say what they mean.
 pub enum MicrographError {
@@ -230,7 +230,7 @@ impl<T> Picture<T> {
 }
 
 impl<T: Copy> Picture<T> {
-    /// Turned counterclockwise by quarters of a turn.
+    /// Turns the picture counterclockwise by quarters of a turn.
     fn turned(self, quarters: u8) -> Self {
         let Self { width, height, ref pixels } = self;
         let old = |x: usize, y: usize| pixels[y * width + x];

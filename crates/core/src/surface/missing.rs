@@ -43,7 +43,7 @@ fn median(values: &mut [f64]) -> Option<f64> {
     Some(0.5 * lower + 0.5 * *upper)
 }
 
-/// What missing points get.
+/// Heights for missing points.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Fill {
     /// The mean of the other points.
@@ -167,7 +167,7 @@ fn span(grid: &Grid, gaps: &[usize], heights: &mut [f64]) {
 
 /// Most points that a spike has across.
 const WIDEST: usize = 3;
-/// With fewer points round a window than the corner of a patch has, nothing is told.
+/// Fewest points round a window that tell anything: as many as at the corner of a patch.
 const FEWEST_NEIGHBOURS: usize = 3;
 
 /// Makes spikes and pits missing; gives the number of their points.
@@ -207,7 +207,7 @@ impl Surface<'_> {
         })
     }
 
-    /// Whether the point is higher than all points right round the window, or lower than all.
+    /// Tells whether the point is higher than all points right round the window, or lower than all.
     fn stands_out(&self, index: usize, width: usize, before: [usize; 2]) -> bool {
         let [left, below] = before.map(|before| -(before as isize) - 1);
         let [right, above] = [left, below].map(|first| first + width as isize + 1);

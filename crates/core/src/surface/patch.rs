@@ -85,7 +85,7 @@ pub(super) fn neighbours(point: usize, line: usize, points: usize) -> [Option<us
     ]
 }
 
-/// Which surface of the pair.
+/// Body of the pair, disc or pin.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Body {
     /// The whole ring; x runs round it and closes.

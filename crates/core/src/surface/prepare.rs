@@ -37,7 +37,7 @@ pub struct Preparation {
     /// Takes out points further than this many robust standard deviations from the median of the levelled surface,
     /// which then is levelled once more without them.
     pub outliers: Option<f64>,
-    /// What missing points and outliers get; without it they are an error.
+    /// Filling of missing points and outliers; without it they are an error.
     pub fill: Option<Fill>,
     /// Reinterprets the distance of the points, m.
     pub pixel: Option<f64>,
@@ -56,7 +56,7 @@ pub struct Preparation {
 }
 
 impl Preparation {
-    /// Nothing is done.
+    /// Preparation that does nothing.
     pub const NONE: Self = Self {
         crop: None,
         unroll: None,
@@ -99,7 +99,7 @@ impl Preparation {
         }
     }
 
-    /// Gives the number of points that were missing and got a height.
+    /// Levels and fills the patch; gives the number of points that were missing and got a height.
     pub(super) fn level_and_fill(
         &self,
         patch: &mut Patch,
@@ -173,7 +173,7 @@ impl Preparation {
 }
 
 impl Default for Preparation {
-    /// [`Preparation::NONE`].
+    /// Returns [`Preparation::NONE`].
     fn default() -> Self {
         Self::NONE
     }
@@ -203,7 +203,7 @@ pub struct Prepared {
     pub heights: Vec<f64>,
     /// Fraction of the points that `cutoff` cut; none without it.
     pub cut: Option<f64>,
-    /// What was done, one step a line, for people, with the rms height (about the mean) that it left.
+    /// Report of the steps, one a line, for people, with the rms height (about the mean) after those that may change it.
     pub report: Vec<String>,
     /// The patch from which the heights come, prepared, before it was brought onto the mesh and scaled; none if they were on
     /// the mesh.
@@ -362,7 +362,7 @@ fn cut(heights: &mut [f64], cutoff: f64) -> f64 {
     count as f64 / points as f64
 }
 
-/// How the patch came onto the mesh, in words.
+/// Says how the patch came onto the mesh.
 fn laid(patch: &Patch, repeat: bool, body: Body, mesh: &Mesh) -> String {
     let sizes = [patch.length(), patch.height()];
     let times = [body.length(mesh) / sizes[0], mesh.rows() as f64 * mesh.row_height() / sizes[1]];
@@ -387,7 +387,7 @@ const SAME: f64 = 1e-9;
 /// Distances of points that differ from a cell by less than this part are about a cell.
 const ABOUT: f64 = 0.01;
 
-/// What was laid along the body, so many times if it is repeated.
+/// Says what was laid along the body, so many times if it is repeated.
 fn on_body(what: &str, repeat: bool, times: f64, across: &str, body: Body) -> String {
     match (repeat, body) {
         (true, Body::Disc) => format!("{what} repeated {times:.2} times round the ring{across}, mirrored at the seams"),
@@ -399,7 +399,7 @@ fn on_body(what: &str, repeat: bool, times: f64, across: &str, body: Body) -> St
     }
 }
 
-/// How the heights of cells come from those of points, in words.
+/// Says how the heights of cells come from those of points.
 fn heights_of_cells(patch: &Patch, mesh: &Mesh) -> String {
     let cell = [mesh.column_width(), mesh.row_height()];
     let way = |pitch: f64, cell: f64| {

@@ -3,7 +3,7 @@
 use rand_chacha::ChaCha12Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 
-/// Which source of a scene draws the numbers; equal seeds in different sources give unrelated numbers.
+/// Source of a scene that draws the numbers; equal seeds in different sources give unrelated numbers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[repr(u64)]
 pub(crate) enum Stream {
@@ -18,7 +18,7 @@ pub(crate) enum Stream {
 /// One random stream of one seed.
 pub(crate) struct Random {
     generator: ChaCha12Rng,
-    /// The polar method gives normal numbers in pairs; the second waits here.
+    /// Second normal number of a pair, as the polar method gives them; none once it is used.
     spare: Option<f64>,
 }
 
@@ -32,12 +32,12 @@ impl Random {
         Self { generator, spare: None }
     }
 
-    /// Uniform in [0, 1), a multiple of 2⁻⁵³.
+    /// Number uniform in [0, 1), a multiple of 2⁻⁵³.
     pub(crate) fn uniform(&mut self) -> f64 {
         (self.generator.next_u64() >> 11) as f64 * (1.0 / (1u64 << 53) as f64)
     }
 
-    /// Standard normal, by Marsaglia's polar method.
+    /// Standard normal number, by Marsaglia's polar method.
     pub(crate) fn normal(&mut self) -> f64 {
         if let Some(second) = self.spare.take() {
             return second;

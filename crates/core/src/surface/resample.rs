@@ -48,8 +48,8 @@ impl Patch {
         Some(cell_averages(self, mesh)).filter(|cells| !cells.heights.is_empty())
     }
 
-    /// Where the patch, laid on the disc as it is or repeated, meets itself or its mirror image: angles from the first column, rad,
-    /// and radii, m, both increasing.
+    /// Seams at which the patch, laid on the disc as it is or repeated, meets itself or its mirror image: angles from the first column,
+    /// rad, and radii, m, both increasing.
     pub fn seams(&self, repeat: bool, mesh: &Mesh) -> [Vec<f64>; 2] {
         let ring = Body::Disc.length(mesh);
         let mut places = vec![0.0];
@@ -92,7 +92,7 @@ pub(super) fn cell_averages(patch: &Patch, mesh: &Mesh) -> Patch {
     }
 }
 
-/// How many cells of the mesh lie in the patch whole, along and across sliding.
+/// Number of cells of the mesh that lie in the patch whole, along and across sliding.
 pub(super) fn whole_cells(patch: &Patch, mesh: &Mesh) -> [usize; 2] {
     axes(patch, mesh).map(|axis| axis.whole_cells())
 }
@@ -142,7 +142,7 @@ struct Axis {
 }
 
 impl Axis {
-    /// How many cells lie in the patch whole.
+    /// Number of cells that lie in the patch whole.
     fn whole_cells(&self) -> usize {
         (self.pixels as f64 * self.pitch / self.cell * (1.0 + SAME_LENGTH)) as usize
     }

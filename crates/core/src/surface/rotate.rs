@@ -87,7 +87,7 @@ impl Turn {
         Self { quarters: (quarters + 4.0) as u8 % 4, rest }
     }
 
-    /// Whether every point stays one of the grid, which keeps its shape.
+    /// Tells whether every point stays one of the grid, which keeps its shape.
     pub(super) fn is_half_turns(self) -> bool {
         self.rest == 0.0 && self.quarters.is_multiple_of(2)
     }

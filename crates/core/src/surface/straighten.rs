@@ -1,4 +1,4 @@
-//! How a patch comes to lie along the track: cropped, unrolled, turned, flipped.
+//! A patch brought to lie along the track: cropped, unrolled, turned, flipped.
 
 use super::error::PreparationError;
 use super::heights::{change, rms};
@@ -15,9 +15,9 @@ const SAME_LENGTH: f64 = 1e-9;
 /// before their points. A direction that is absent is kept whole.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Crop {
-    /// From where to where along the sliding direction, m.
+    /// Range along the sliding direction, m.
     pub along: Option<[f64; 2]>,
-    /// From where to where across it, outward, m.
+    /// Range across it, outward, m.
     pub across: Option<[f64; 2]>,
 }
 
@@ -68,14 +68,14 @@ fn points(
     if first < end { Ok([first, end]) } else { Err(PreparationError::CropWithoutPoint { key, from, to, pitch }) }
 }
 
-/// In which direction heights are reversed.
+/// Direction in which heights are reversed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Flip {
-    /// Along the sliding direction: the first column becomes the last.
+    /// Reversal along the sliding direction: the first column becomes the last.
     Along,
-    /// Across it: the innermost row becomes the outermost.
+    /// Reversal across it: the innermost row becomes the outermost.
     Across,
-    /// Both: half a turn.
+    /// Reversal in both directions: half a turn.
     Both,
 }
 

@@ -10,7 +10,7 @@ use super::patch::neighbours;
 use super::rotate::{height_at, place};
 use super::{Length, Patch};
 
-/// Whether each point lies within what was measured: all but the missing points that other missing points join to the edge
+/// Tells whether each point lies within what was measured: all but the missing points that other missing points join to the edge
 /// of the patch, or to the point with the index `outside`. Any other gap with measured points all round it lies within.
 fn within_measurement(patch: &Patch, outside: Option<usize>) -> Vec<bool> {
     let heights = &patch.heights;
@@ -84,7 +84,7 @@ const MOST_POINTS: f64 = 16.0;
 /// A width that is more than a whole number of pitches by less than this part of it is that many.
 const ROUNDING: f64 = 1e-9;
 
-/// How a sector of a ring becomes a patch.
+/// Unrolling of a sector of a ring into a patch.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Unroll {
     /// Centre of the ring, m along x and y from the patch's first corner before it was cropped.
@@ -154,7 +154,7 @@ impl Unroll {
     }
 }
 
-/// Where the measured points lie round the centre.
+/// Place of the measured points round the centre.
 struct Seen {
     /// Smallest and largest radius, m.
     radii: [f64; 2],
@@ -256,7 +256,7 @@ impl Polar {
         [0, 1].map(|axis| (self.centre[axis] + radius * direction[axis]) / pitches[axis] - 0.5)
     }
 
-    /// Whether the four points of the patch round each point of the grid lie within what was measured.
+    /// Tells whether the four points of the patch round each point of the grid lie within what was measured.
     fn within(&self, patch: &Patch) -> Vec<bool> {
         // The middle of a ring is outside, too, though there are points all round it.
         let middle = [

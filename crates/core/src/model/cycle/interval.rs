@@ -22,10 +22,10 @@ impl Node {
     }
 }
 
-/// What happens between two neighbouring nodes.
+/// Kind of the time between two neighbouring nodes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Kind {
-    /// Somewhere in it there is load, and somewhere speed: steps are taken.
+    /// Load somewhere in it, and speed somewhere: steps are taken.
     Active,
     /// A pause without load.
     Lifted,
@@ -48,7 +48,7 @@ pub(super) struct Interval {
 }
 
 impl Interval {
-    /// From one node to a later one, after an interval or none.
+    /// Interval from one node to a later one, after an interval or none.
     pub fn between(start: Node, end: Node, before: Option<&Self>) -> Self {
         let somewhere = |one: f64, other: f64| one > 0.0 || other > 0.0;
         let kind = match (somewhere(start.force, end.force), somewhere(start.speed, end.speed)) {
@@ -108,7 +108,7 @@ impl Interval {
         }
     }
 
-    /// How long after its start ψ has come to a value (rad), s: the root of ω₀ τ + (ω₁ − ω₀) τ²/(2 D) in the form that
+    /// Time after its start at which ψ has come to a value (rad), s: the root of ω₀ τ + (ω₁ − ω₀) τ²/(2 D) in the form that
     /// loses no digits.
     pub fn time_to(&self, angle: f64) -> f64 {
         let (angle, turned) = (angle - (self.angle - self.turned()), self.turned());

@@ -5,11 +5,11 @@ use super::{Cycle, Interval, Kind, Place};
 /// A pause: an interval between two neighbouring nodes without load, or without speed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pause {
-    /// When it begins, s.
+    /// Start, s.
     pub start: f64,
-    /// When it ends, s.
+    /// End, s.
     pub end: f64,
-    /// How long it is, s: with all digits, which its times do not have after a long while.
+    /// Length, s: with all digits, which its times do not have after a long while.
     pub length: f64,
     /// Lifted or standing.
     pub kind: Kind,
@@ -24,7 +24,7 @@ impl Cycle {
         self.resting_after(number, step).map(|place| self.pause(place)).collect()
     }
 
-    /// Whether there are any.
+    /// Tells whether a pause comes after the `number`-th step of angle `step` (rad).
     pub fn has_pause_after(&self, number: u64, step: f64) -> bool {
         self.resting_after(number, step).next().is_some()
     }
@@ -37,7 +37,7 @@ impl Cycle {
         pauses.find(|pause| pause.kind != Kind::Active && pause.end > time)
     }
 
-    /// When the last of the pauses ends, s, that follow one another from the one at a time (s) on and begin until another.
+    /// End, s, of the pauses that follow one another from `time` (s) on and begin by `until` (s); `time` where there are none.
     pub fn rests_to(&self, time: f64, until: f64) -> f64 {
         let last = Place { round: self.rounds - 1, interval: self.intervals.len() - 1, time: 0.0 };
         let pauses = self.path(self.place(time), last).map(|place| self.pause(place));
@@ -60,7 +60,7 @@ impl Cycle {
         found.map_or(0.0, |(round, end)| round as f64 * self.period + end)
     }
 
-    /// For how long there was a pause until a time (s), s.
+    /// Time in pauses until a time (s), s.
     pub fn resting_until(&self, time: f64) -> f64 {
         let Place { round, interval, time: since } = self.place(time);
         let of = |interval: &Interval| if interval.kind == Kind::Active { 0.0 } else { interval.length() };

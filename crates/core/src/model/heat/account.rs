@@ -1,4 +1,4 @@
-//! Heat, interval by interval, and what holds for the next one (model 11, order).
+//! Heat, interval by interval, and the factors that hold for the next one (model 11, order).
 
 use serde::{Deserialize, Serialize};
 
@@ -9,7 +9,7 @@ use crate::model::mesh::Mesh;
 use crate::model::parameters::Parameters;
 use crate::model::thermal::Thermal;
 
-/// What heat needs of a scene, made once.
+/// Thermal model of a scene, made once.
 #[derive(Debug, Clone, PartialEq)]
 pub struct HeatModel {
     thermal: Thermal,
@@ -17,7 +17,7 @@ pub struct HeatModel {
     passing: Passing,
     /// Columns of the pin.
     columns: usize,
-    /// Where the pin is no rectangle: areas of its cells by their place in their row, m²; else empty.
+    /// Areas of the pin's cells by their place in their row, m², where the pin is no rectangle; else empty.
     chords: Vec<f64>,
     /// Δθ, rad.
     column_angle: f64,
@@ -26,7 +26,7 @@ pub struct HeatModel {
 }
 
 impl HeatModel {
-    /// That of a scene, if heat is reckoned.
+    /// Thermal model of a scene, if heat is reckoned.
     pub fn of(parameters: &Parameters) -> Option<Self> {
         let thermal = parameters.thermal.as_deref()?;
         let mesh = &parameters.mesh;
@@ -49,7 +49,7 @@ impl HeatModel {
         self.passing.resistance_of_chords(&self.chords, self.column_angle, speed)
     }
 
-    /// How the surface of the disc answers a flux.
+    /// Response of the surface of the disc to a flux.
     pub fn passing(&self) -> &Passing {
         &self.passing
     }
@@ -70,7 +70,7 @@ struct Interval {
     steps: u64,
     /// Friction work, J.
     work: f64,
-    /// With load and speed, s.
+    /// Time with load and speed, s.
     time: f64,
     /// Δψ, rad.
     angle: f64,
@@ -100,7 +100,7 @@ pub struct HeatAccount {
     peak: Option<f64>,
 }
 
-/// What is reported of heat. Temperatures in K.
+/// Heat as it is reported. Temperatures in K.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct HeatReport {
     /// T_c; no number while the pin is lifted.
@@ -124,7 +124,7 @@ pub struct HeatReport {
 }
 
 impl HeatAccount {
-    /// All at ambient temperature.
+    /// Account with all at ambient temperature.
     pub fn new(model: &HeatModel) -> Self {
         Self {
             state: ChainState::at_rest(),
@@ -137,7 +137,7 @@ impl HeatAccount {
         }
     }
 
-    /// What holds for the coming steps.
+    /// Factors that hold for the coming steps.
     pub fn factors(&self) -> Factors {
         self.factors
     }
@@ -158,7 +158,7 @@ impl HeatAccount {
         self.open.steps
     }
 
-    /// Ends the interval: the chain takes its mean power over its time. T_c, K.
+    /// Ends the interval: the chain takes its mean power over its time. Returns T_c, K.
     pub fn end_interval(&mut self, model: &HeatModel) -> f64 {
         let Interval { work, time, angle, .. } = std::mem::take(&mut self.open);
         let (power, speed) = (work / time, angle / time);
@@ -172,7 +172,7 @@ impl HeatAccount {
         model.thermal.ambient + contact
     }
 
-    /// Takes the sub-steps of a pause that have ended until a time (s); whether that is all of them.
+    /// Takes the sub-steps of a pause that have ended until a time (s); tells whether that is all of them.
     pub fn pause(&mut self, model: &HeatModel, pause: &Pause, until: f64) -> bool {
         let (length, elapsed) = (pause.length, until - pause.start);
         let count = sub_steps(length);
@@ -197,13 +197,13 @@ impl HeatAccount {
         }
     }
 
-    /// An event begins, after a pause.
+    /// Begins an event, after a pause.
     pub fn begin_event(&mut self, model: &HeatModel) {
         self.start = self.state.contact.unwrap_or_else(|| model.chain.closing(&self.state, model.resistance(0.0)));
         self.peak = None;
     }
 
-    /// What is reported now.
+    /// Reports temperatures and heat as they are now.
     pub fn report(&self, model: &HeatModel) -> HeatReport {
         let ambient = model.thermal.ambient;
         let ChainReport { disc, pin, lost, residual } = model.chain.report(&self.state);

@@ -9,22 +9,22 @@ use crate::model::thermal::{Substance, Thermal};
 const NODES: usize = 16;
 /// Layers of each body.
 const LAYERS: usize = NODES / 2;
-/// By how much each layer is thicker than the one nearer to the contact.
+/// Thickness of each layer over that of the one nearer to the contact, 1.
 const GROWTH: f64 = 1.4;
 /// Longest sub-step, s.
 const LONGEST: f64 = 0.1;
-/// More sub-steps than these are taken at once (`Exchange`), at a cost that hardly depends on how many they are.
+/// Most sub-steps that are taken one by one; more are taken at once (`Exchange`), at a cost that hardly depends on how many they are.
 const MOST_ONE_BY_ONE: u64 = 10_000;
 
 /// θ of every node, K.
 type Excess = [f64; NODES];
 
-/// What the contact does to heat.
+/// Contact as a link of the chain.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Link {
-    /// It conducts through this resistance R of the disc's face, K/W.
+    /// Conduction through this resistance R of the disc's face, K/W.
     Closed(f64),
-    /// The pin is lifted.
+    /// No conduction: the pin is lifted.
     Open,
 }
 
@@ -33,9 +33,9 @@ pub enum Link {
 struct Body {
     /// Heat capacity of each layer, J/K.
     capacity: [f64; LAYERS],
-    /// From the middle of each layer to that of the next, W/K.
+    /// Conductance from the middle of each layer to that of the next, W/K.
     conductance: [f64; LAYERS - 1],
-    /// From the middle of the first layer to its face, K/W.
+    /// Resistance from the middle of the first layer to its face, K/W.
     face: f64,
 }
 
@@ -95,7 +95,7 @@ pub struct ChainState {
 }
 
 impl ChainState {
-    /// All at ambient temperature, and in contact.
+    /// State with all at ambient temperature, and in contact.
     pub fn at_rest() -> Self {
         Self { contact: Some(0.0), ..Self::default() }
     }
@@ -143,7 +143,7 @@ impl Chain {
         }
     }
 
-    /// What comes of a state after `count` sub-steps of `time` (s) each under a power (W) of friction, at a speed
+    /// Advances a state by `count` sub-steps of `time` (s) each under a power (W) of friction, at a speed
     /// (rad/s): implicit Euler.
     pub fn advance(&self, state: &mut ChainState, count: u64, time: f64, power: f64, speed: f64, link: Link) {
         let disc_cooling = self.disc_cooling + self.disc_cooling_per_speed * speed;
@@ -226,13 +226,13 @@ impl Chain {
 
 /// A sub-step of the chain under a power that does not change.
 struct SubStep {
-    /// Its length, s.
+    /// Length of the sub-step, s.
     pub time: f64,
-    /// Of each node, J/K.
+    /// Heat capacity of each node, J/K.
     pub capacity: [f64; NODES],
-    /// To the next node, W/K.
+    /// Conductance to the next node, W/K.
     pub conductance: [f64; NODES - 1],
-    /// To the ambient, W/K.
+    /// Conductance to the ambient, W/K.
     pub outward: [f64; NODES],
     /// Power of friction into each node, W.
     pub power: [f64; NODES],
@@ -240,7 +240,7 @@ struct SubStep {
 }
 
 impl SubStep {
-    /// Over a time (s) with these heat capacities (J/K), conductances to the next node and outward (W/K), and powers
+    /// Sub-step over a time (s) with these heat capacities (J/K), conductances to the next node and outward (W/K), and powers
     /// (W).
     pub fn new(
         time: f64,
@@ -253,7 +253,7 @@ impl SubStep {
         Self { time, capacity, conductance, outward, power, elimination }
     }
 
-    /// By how much each node gets warmer, K.
+    /// Rise of θ of every node, K.
     pub fn rise(&self, excess: &Excess) -> Excess {
         let mut gain = self.power;
         for node in 0..NODES {
@@ -283,10 +283,10 @@ impl SubStep {
 
 /// Gaussian elimination of a symmetric tridiagonal matrix, done once for many right-hand sides.
 struct Elimination {
-    /// Of each row, what the row before takes off it.
+    /// Factor by which the row before is added to each row.
     factor: [f64; NODES],
     pivot: [f64; NODES],
-    /// To the next row, negative off the diagonal.
+    /// Conductance to the next row, W/K; off the diagonal stands its negative.
     conductance: [f64; NODES - 1],
 }
 
@@ -325,15 +325,15 @@ impl Elimination {
 struct Exchange {
     /// Heat that a node at 1 K gives to each other one, J/K, and what stays in it.
     given: [[f64; NODES]; NODES],
-    /// Heat that it gives to the ambient, J/K.
+    /// Heat that a node at 1 K gives to the ambient, J/K.
     lost: [f64; NODES],
-    /// What the power alone makes of a chain at the temperature of the ambient, K.
+    /// θ of every node, K, when the power alone has heated a chain at the temperature of the ambient.
     heated: Excess,
     /// Heat of the power that goes to the ambient, J.
     lost_of_power: f64,
 }
 
-/// Takes so many sub-steps; the heat lost in them, J.
+/// Takes so many sub-steps; returns the heat lost in them, J.
 fn advance_repeatedly(step: &SubStep, excess: &mut Excess, count: u64) -> f64 {
     let (mut exchange, mut left, mut lost) = (Exchange::of(step), count, 0.0);
     loop {
@@ -354,7 +354,7 @@ fn dot(one: &[f64; NODES], other: &[f64; NODES]) -> f64 {
 }
 
 impl Exchange {
-    /// A single sub-step.
+    /// Exchange of a single sub-step.
     fn of(step: &SubStep) -> Self {
         let (mut given, mut lost) = ([[0.0; NODES]; NODES], [0.0; NODES]);
         for node in 0..NODES {
@@ -368,7 +368,7 @@ impl Exchange {
         Self::new(&step.capacity, given, lost, heated, step.lost(&heated))
     }
 
-    /// Of nodes with these capacities (J/K), with what stays in them.
+    /// Exchange of nodes with these capacities (J/K), with what stays in them.
     fn new(
         capacity: &[f64; NODES],
         given: [[f64; NODES]; NODES],
@@ -387,12 +387,12 @@ impl Exchange {
         Self { given, lost, heated, lost_of_power }
     }
 
-    /// θ of every node after them, K.
+    /// θ of every node after the sub-steps, K.
     fn after(&self, capacity: &[f64; NODES], excess: &Excess) -> Excess {
         std::array::from_fn(|node| dot(&self.given[node], excess) / capacity[node] + self.heated[node])
     }
 
-    /// Twice as many.
+    /// Exchange of twice as many sub-steps.
     fn twice(&self, capacity: &[f64; NODES]) -> Self {
         // θ of each node that a node at 1 K brings about, K.
         let excess = self.given.map(|given| std::array::from_fn(|node| given[node] / capacity[node]));

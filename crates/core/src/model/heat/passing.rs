@@ -7,7 +7,7 @@ use std::f64::consts::PI;
 use crate::model::mesh::Mesh;
 use crate::model::thermal::{Coating, Disc, Substance};
 
-/// How the surface of the disc answers a flux.
+/// Response of the surface of the disc to a flux.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Passing {
     substrate: Substance,
@@ -15,7 +15,7 @@ pub struct Passing {
 }
 
 impl Passing {
-    /// The answer of a disc.
+    /// Response of a disc.
     pub fn of(disc: &Disc) -> Self {
         let coating = disc.coating.filter(|coating| coating.thickness > 0.0);
         Self { substrate: disc.substance, coating }
@@ -44,7 +44,7 @@ impl Passing {
         sum / columns as f64 / area
     }
 
-    /// The same under a pin that is no rectangle: `areas` (m²) are those of its cells that are the first, second, … of their
+    /// R_v, K/W, under a pin that is no rectangle: `areas` (m²) are those of its cells that are the first, second, … of their
     /// row, counted from where the disc enters.
     pub fn moving_resistance_of_chords(&self, areas: &[f64], column_time: f64) -> f64 {
         let cells = areas.iter().zip(1..);
@@ -58,12 +58,12 @@ impl Passing {
         self.of_both(area, speed, || self.moving_resistance(columns, column_angle / speed, area))
     }
 
-    /// The same under a pin that is no rectangle, see [`Passing::moving_resistance_of_chords`].
+    /// R, K/W, under a pin that is no rectangle, see [`Passing::moving_resistance_of_chords`].
     pub fn resistance_of_chords(&self, areas: &[f64], column_angle: f64, speed: f64) -> f64 {
         self.of_both(areas.iter().sum(), speed, || self.moving_resistance_of_chords(areas, column_angle / speed))
     }
 
-    /// R of a pin of this area (m²) from R_v, if it moves.
+    /// R, K/W, of a pin of this area (m²) from R_v, if it moves.
     fn of_both(&self, area: f64, speed: f64, moving: impl Fn() -> f64) -> f64 {
         let at_rest = 0.479 / (self.substrate.conductivity * area.sqrt());
         if speed == 0.0 {

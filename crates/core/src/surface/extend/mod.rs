@@ -21,10 +21,10 @@ use super::synthesis::translation::Translation;
 use super::{Body, Length, Patch};
 use crate::model::mesh::Mesh;
 
-/// What is made of a patch that is smaller than the body.
+/// Extension of a patch that is smaller than the body.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Extension {
-    /// Random heights with its statistics.
+    /// Random heights with the statistics of the patch.
     Statistics {
         /// Seed of the random stream.
         seed: u64,
@@ -41,7 +41,7 @@ impl Extension {
     pub const FEWEST_CELLS: usize = 4;
 }
 
-/// What random heights are made from.
+/// Statistics from which random heights are made.
 struct Statistics {
     /// The grid of the field.
     grid: Grid,
@@ -99,7 +99,7 @@ pub(super) fn extend(
     Ok(quantiles.by_rank(&field))
 }
 
-/// Those of a patch; none if its cells are equal.
+/// Statistics of a patch; none if its cells are equal.
 fn statistics_of_patch(
     patch: &Patch,
     seed: u64,
@@ -131,7 +131,7 @@ fn statistics_of_patch(
     Ok(Some(Statistics { grid, correlation, quantiles }))
 }
 
-/// Those of a surface without a direction, of which the patch is a profile; none if its points are equal.
+/// Statistics of a surface without a direction, of which the patch is a profile; none if its points are equal.
 fn statistics_of_line(
     patch: &Patch,
     seed: u64,

@@ -1,4 +1,4 @@
-//! What a patch tells of a larger body: the distribution of its heights, their areal power spectrum at the harmonics of a larger grid,
+//! Statistics of a patch for a larger body: the distribution of its heights, their areal power spectrum at the harmonics of a larger grid,
 //! and, in numbers, what it cannot tell.
 //!
 //! Statistics of a surface without a direction, from heights along one line of it.
@@ -28,14 +28,14 @@ pub(super) struct Quantiles {
 }
 
 impl Quantiles {
-    /// Those of at least one height.
+    /// Quantiles of at least one height.
     pub(super) fn of(heights: &[f64]) -> Self {
         let mut ascending = heights.to_vec();
         ascending.sort_unstable_by(f64::total_cmp);
         Self { ascending }
     }
 
-    /// Whether there is one height only.
+    /// Tells whether there is one height only.
     pub(super) fn are_equal(&self) -> bool {
         self.ascending.first() == self.ascending.last()
     }
@@ -80,7 +80,7 @@ pub(super) struct Spectrum {
 }
 
 impl Spectrum {
-    /// That of a patch whose points are cells of the grid.
+    /// Spectrum of a patch whose points are cells of the grid.
     ///
     /// The transform at the harmonics of the grid of a patch that is longer than the grid is that of the patch wound round
     /// it.
@@ -163,7 +163,7 @@ const FEW: f64 = 10.0;
 /// a patch of equal heights would seem to be related as far.
 const WHOLE: f64 = 0.3;
 
-/// How far heights of a patch are related, and how much it has of them.
+/// Distances over which heights of a patch are related, and the error of their rms height.
 #[derive(Debug)]
 pub(super) struct Reach {
     /// Distance along and across sliding at which the autocorrelation falls to 0.2, m; none where it does not within the
@@ -174,7 +174,7 @@ pub(super) struct Reach {
 }
 
 impl Reach {
-    /// From the autocorrelation at every lag of the grid, column by column.
+    /// Reach by the autocorrelation at every lag of the grid, column by column.
     ///
     /// The mean square of N normal heights has the relative variance 2 Σ ρ²/N (Bartlett 1946), their rms half that error.
     pub(super) fn of(correlation: &[f64], grid: &Grid, cells: &Patch) -> Self {
@@ -189,7 +189,7 @@ impl Reach {
         Self { lengths, error: (0.5 * squares / cells.heights.len() as f64).sqrt() }
     }
 
-    /// What is to be said of it. That longer waves are missing is a warning where those as long as the patch have much of the height.
+    /// Remarks for the report. That longer waves are missing is a warning where those as long as the patch have much of the height.
     pub(super) fn remarks(&self, misses_much: bool, patch: &Patch, body: Body, mesh: &Mesh) -> Vec<String> {
         let mut remarks = Vec::new();
         let sizes = [patch.length(), patch.height()];
@@ -257,7 +257,7 @@ pub(super) struct Line<'a> {
 }
 
 impl<'a> Line<'a> {
-    /// The heights of a patch of one row.
+    /// Line of the heights of a patch of one row.
     pub(super) fn of(patch: &'a Patch) -> Self {
         let covariance = told(autocovariance(&patch.heights), patch.heights.len());
         Self { heights: &patch.heights, pitch: patch.column_pitch, covariance }

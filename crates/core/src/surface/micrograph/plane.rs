@@ -1,4 +1,4 @@
-//! Where a picture lies on the pin, and how much of every cell it shows as fibre.
+//! Place of a picture on the pin, and how much of every cell it shows as fibre.
 
 use super::{Enlargement, Micrograph, MicrographError, Picture};
 use crate::model::mesh::Mesh;
@@ -12,7 +12,7 @@ const MOST_POINTS: usize = 64;
 /// Lengths that differ by less than this are the same length.
 const SAME_LENGTH: f64 = 1e-9;
 
-/// Where the picture lies: its middle on the pin's middle (mean radius, middle of the columns), its lines along the
+/// Plane of the picture: its middle on the pin's middle (mean radius, middle of the columns), its lines along the
 /// sliding direction there, its top outward. The point at the radius r and the angle φ from the middle column has
 /// x = r sin φ and y = r cos φ − mean radius.
 #[derive(Debug, Clone, Copy)]
@@ -49,7 +49,7 @@ impl<'a> PinPlane<'a> {
         rows.fold((0.0, 0.0), |(across, up): (f64, f64), (own_across, own_up)| (across.max(own_across), up.max(own_up)))
     }
 
-    /// The same of so many columns between two radii, m.
+    /// Half the extent of so many columns between two radii, m.
     fn half_extent_of(&self, inner: f64, outer: f64, columns: usize) -> (f64, f64) {
         let mesh = self.mesh;
         let angle = 0.5 * columns as f64 * mesh.column_angle();
@@ -60,7 +60,7 @@ impl<'a> PinPlane<'a> {
         (across, (outer - mesh.mean_radius()).max(mesh.mean_radius() - lowest))
     }
 
-    /// Whether a picture of this width and height, m, covers the pin.
+    /// Tells whether a picture of this width and height, m, covers the pin.
     pub fn is_covered_by(&self, [width, height]: [f64; 2]) -> bool {
         let (across, up) = self.half_extent();
         0.5 * width >= across * (1.0 - SAME_LENGTH) && 0.5 * height >= up * (1.0 - SAME_LENGTH)

@@ -143,12 +143,12 @@ struct Autocorrelation {
     lags: [usize; 2],
     /// Values column by column, with y downward as in the picture.
     values: Vec<f64>,
-    /// Distance up to which they are told from none, m.
+    /// Distance up to which values are told from none, m.
     reach: f64,
 }
 
 impl Autocorrelation {
-    /// That of a picture whose pixels are this far apart, m, as finely as these cells, m, need it.
+    /// Autocorrelation of a picture whose pixels are this far apart, m, as finely as these cells, m, need it.
     fn of(picture: &Picture<bool>, pixel: f64, cell: [f64; 2]) -> Result<Self, MicrographError> {
         let every = cell.map(|cell| ((cell / (POINTS * pixel)) as usize).max(1));
         let points = [picture.width.div_ceil(every[0]), picture.height.div_ceil(every[1])];
@@ -231,7 +231,7 @@ impl Autocorrelation {
         (0..columns * rows).map(place).map(|(x, y)| self.at(x, y)).collect()
     }
 
-    /// What the picture is too small to tell.
+    /// Warnings of what the picture is too small to tell.
     fn warnings(&self, size: [f64; 2]) -> Vec<String> {
         let kept = [0, 1].map(|axis| (KEPT * self.points[axis] as f64) as usize + 1);
         let lengths = [
@@ -270,7 +270,7 @@ const NODES: [(f64, f64); 5] = [
     (0.906_179_845_938_664, 0.236_926_885_056_189_1),
 ];
 
-/// How the autocorrelation of a Gaussian field changes when it is cut at a level.
+/// Change of the autocorrelation of a Gaussian field when it is cut at a level.
 struct Cut {
     /// t².
     square: f64,
@@ -279,7 +279,7 @@ struct Cut {
 }
 
 impl Cut {
-    /// That at the level above which the field is with this probability, between 0 and 1.
+    /// Cut at the level above which the field is with this probability, between 0 and 1.
     fn of(fraction: f64) -> Self {
         let (mut low, mut high) = (-40.0, 40.0);
         for _ in 0..100 {
@@ -332,7 +332,7 @@ impl Cut {
     }
 }
 
-/// Where a panel begins.
+/// Angle θ at which a panel begins, rad.
 fn angle(panel: usize) -> f64 {
     FRAC_PI_2 * (2.0 * panel as f64 / PANELS as f64 - 1.0)
 }

@@ -42,7 +42,7 @@ const HALVINGS: usize = 64;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Johnson {
     Normal,
-    /// With γ = 0; the other sign for negative skewness.
+    /// Lognormal heights, γ = 0; the other sign for negative skewness.
     Lognormal {
         sign: f64,
         delta: f64,
@@ -127,7 +127,7 @@ impl Johnson {
     }
 }
 
-/// Where a condition that holds at `low` and not at `high` ceases to hold.
+/// Finds the place where a condition that holds at `low` and not at `high` ceases to hold.
 fn bisect(mut low: f64, mut high: f64, holds: impl Fn(f64) -> bool) -> f64 {
     for _ in 0..HALVINGS {
         let middle = 0.5 * (low + high);

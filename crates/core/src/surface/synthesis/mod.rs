@@ -24,7 +24,7 @@ pub struct HeightSynthesis {
     pub seed: u64,
     /// Realised rms height, m.
     pub rms_height: f64,
-    /// How heights at neighbouring places are related.
+    /// Autocorrelation or spectrum of the heights.
     pub texture: Texture,
     /// Skewness of the distribution of heights, 0 for a symmetric one.
     pub skewness: f64,
@@ -34,7 +34,7 @@ pub struct HeightSynthesis {
     pub patch: Option<f64>,
 }
 
-/// How heights at neighbouring places are related.
+/// Autocorrelation or spectrum of a random field.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Texture {
     /// Autocorrelation exp(−(x/ℓx)² − (y/ℓy)²).
@@ -51,7 +51,7 @@ pub enum Texture {
         hurst: f64,
         /// Wavelength 2π/q_r, m.
         roll_off: f64,
-        /// Shorter wavelengths are left out, m.
+        /// Shortest wavelength that is kept, m.
         short_cutoff: Option<f64>,
     },
 }

@@ -22,7 +22,7 @@ pub(in crate::surface) struct Grid {
     pub(in crate::surface) column_width: f64,
     /// Height of a row, m.
     pub(in crate::surface) row_height: f64,
-    /// How many times the field repeats along the padded columns.
+    /// Number of times that the field repeats along the padded columns.
     pub(in crate::surface) repeats: usize,
 }
 
@@ -40,7 +40,7 @@ impl Grid {
         Self { columns, rows, padded_columns, padded_rows, column_width, row_height, repeats }
     }
 
-    /// Whether the field would be far larger than the body.
+    /// Tells whether the field would be far larger than the body.
     pub(in crate::surface) fn is_too_large(&self) -> bool {
         let most = Self::MOST_CELLS.max(8 * self.columns * self.rows);
         self.padded_columns.checked_mul(self.padded_rows).is_none_or(|cells| cells > most)
@@ -138,7 +138,7 @@ pub(in crate::surface) fn field(
     columns.flat_map(|column| column.iter().take(grid.rows).map(|value| value.re)).collect()
 }
 
-/// From the spectrum that the translated field shall have to that of the Gaussian field.
+/// Turns the spectrum that the translated field shall have into that of the Gaussian field.
 ///
 /// The inverse of the translation need not be an autocorrelation: where its spectrum is negative, no Gaussian field has
 /// it, and the nearest that one has is 0 there.
@@ -162,7 +162,7 @@ pub(in crate::surface) struct Plane {
 }
 
 impl Plane {
-    /// That of so many columns and rows.
+    /// Plane of so many columns and rows.
     pub(in crate::surface) fn new(columns: usize, rows: usize) -> Self {
         Self { columns, rows, along_y: Fft::new(rows), along_x: Fft::new(columns) }
     }
@@ -230,7 +230,7 @@ impl Plane {
         values.into_iter().map(|value| value.re).collect()
     }
 
-    /// From the power at every harmonic to the autocorrelation at every lag, 1 at none, column by column.
+    /// Turns the power at every harmonic into the autocorrelation at every lag, 1 at none, column by column.
     pub(in crate::surface) fn autocorrelation(&self, power: Vec<f64>) -> Vec<f64> {
         let values = self.of_symmetric(power);
         let variance = values[0];
@@ -298,7 +298,7 @@ struct Filter {
 }
 
 impl Filter {
-    /// A line of `points` points with ℓ in points; keeps only the harmonics that are multiples of `repeats`.
+    /// Filter of a line of `points` points with ℓ in points; keeps only the harmonics that are multiples of `repeats`.
     fn new(points: usize, length: f64, repeats: usize) -> Self {
         // The transform back leaves out 1/N.
         let gain = gaussian(points, length, repeats).map(|power| power.sqrt() / points as f64).collect();

@@ -1,4 +1,4 @@
-//! How the autocorrelation of a Gaussian field changes when its heights are given another distribution.
+//! Change of the autocorrelation of a Gaussian field when its heights are given another distribution.
 //!
 //! A field T(g) of a Gaussian field g of unit variance and autocorrelation r has the autocorrelation
 //!
@@ -30,7 +30,7 @@ impl Translation {
         Self::of(|x| distribution.height(x), step, 2.0 / distribution.delta())
     }
 
-    /// That of the heights T(x) by quadrature with this step; T may grow beyond any bound if `growth` adds to the range of x
+    /// Map f for the heights T(x) by quadrature with this step; T may grow beyond any bound if `growth` adds to the range of x
     /// what it needs.
     pub(in crate::surface) fn of(height: impl Fn(f64) -> f64, step: f64, growth: f64) -> Self {
         // The product of He_k and the normal density falls as exp(−x²/4) beyond 2√k.
