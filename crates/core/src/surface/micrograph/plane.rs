@@ -1,6 +1,6 @@
 //! Place of a picture on the pin, and how much of every cell it shows as fibre.
 
-use super::{Enlargement, Micrograph, MicrographError, Picture};
+use super::picture::{MicrographError, Picture};
 use crate::model::mesh::Mesh;
 
 /// Points of a cell along either direction: at least this many, and at least [`PER_PIXEL`] for every pixel, up to
@@ -74,14 +74,13 @@ impl<'a> PinPlane<'a> {
 /// Fraction of every pin cell that is set, column by column: the mean over points that stand for equal shares of angle
 /// and radius, weighted by the radius. Where a repeated picture ends, its mirror image begins.
 pub(super) fn fractions(
-    micrograph: &Micrograph,
     picture: &Picture<bool>,
+    pixel: f64,
+    repeats: bool,
     mesh: &Mesh,
 ) -> Result<Vec<f64>, MicrographError> {
-    let pixel = micrograph.pixel;
     let plane = PinPlane::new(mesh);
     let [width, height] = picture.size(pixel);
-    let repeats = micrograph.enlargement == Some(Enlargement::Tiles);
     if !repeats && !plane.is_covered_by([width, height]) {
         let (across, up) = plane.half_extent();
         return Err(MicrographError::Small { width, height, pin: (2.0 * across, 2.0 * up) });
