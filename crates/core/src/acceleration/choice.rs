@@ -28,9 +28,9 @@ const WINDOWS: f64 = 50.0;
 const REVOLUTIONS_PER_WINDOW: f64 = 3.0;
 /// Stiffness number of the scout that the explicit rule may reach: above 1 it overshoots.
 const LARGEST_STIFFNESS_NUMBER: f64 = 0.5;
-/// What is aimed at, of the tolerance: the error is only estimated.
+/// Fraction of the tolerance that is aimed at, 1: the error is only estimated.
 const AIM: f64 = 0.7;
-/// Acceleration changes at most by this factor, or its inverse, at a time.
+/// Largest factor by which the acceleration changes at a time, up or down.
 const LARGEST_CHANGE: f64 = 2.0;
 /// Smaller changes are not worth it: they would follow the noise.
 const SMALLEST_CHANGE: f64 = 1.2;
@@ -40,12 +40,12 @@ const GROWTH: f64 = 3.5;
 const LEAST: f64 = 2.0;
 /// Growth of the time passed from an end of the acceleration to its next start, at least.
 const PAUSE: f64 = 1.1;
-/// What a start may add to the error of the run at least, of what is aimed at, however large that error is already estimated.
+/// Error that a start may add at least, over the error aimed at, 1, however large that of the run is already estimated.
 const LEAST_SHARE: f64 = 0.5;
 /// Part of a window, or of m, below which times and accelerations are the same: they are rounded.
 const ROUNDING: f64 = 1e-6;
 
-/// What the user asks of a run that chooses its acceleration.
+/// Settings of a run that chooses its acceleration.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Adaptive {
     /// Largest relative error of the contact area's history: root mean square over windows of a fiftieth of the duration,
@@ -61,20 +61,20 @@ pub struct Choice {
     tolerance: f64,
     /// Largest acceleration for which the history has windows and the scout is stable.
     largest: f64,
-    /// A window of the history, s.
+    /// Length of a window of the history, s.
     window: f64,
-    /// A revolution with m = 1, s.
+    /// Time of a revolution with m = 1, s.
     revolution: f64,
     /// m that was wanted, before it was rounded to whole revolutions in a window.
     wanted: f64,
     acceleration: f64,
-    /// Relative difference from the scout's contact area, since the scout began.
+    /// Relative difference of the scout's contact area from the run's since the scout began, 1.
     difference: FadingMean,
-    /// Square of that mean.
+    /// Mean of the square of that mean.
     square: FadingMean,
-    /// When the acceleration began or ended last, s.
+    /// Time at which the acceleration began or ended last, s.
     since: f64,
-    /// Estimate of the error that the run had then.
+    /// Estimate of the relative error that the run had at that time, 1.
     carried: f64,
     /// Largest m so far.
     largest_taken: f64,
@@ -83,10 +83,10 @@ pub struct Choice {
     noted: f64,
 }
 
-/// What the acceleration of a run was like.
+/// Record of the acceleration of a run.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Chosen {
-    /// What the scene asks for.
+    /// Relative error that the scene allows, 1.
     pub tolerance: f64,
     /// Smallest m: every run begins with 1.
     pub smallest: f64,
@@ -96,12 +96,12 @@ pub struct Chosen {
     pub last: f64,
     /// Estimate of the relative error of the contact area's history: root mean square of [`Choice::error`] over the time.
     pub estimated_error: f64,
-    /// Whether that is within the tolerance.
+    /// True if the estimated error is within the tolerance.
     pub met: bool,
 }
 
 impl Chosen {
-    /// That of a run that goes with m = 1 all the time.
+    /// Returns the record of a run that goes with m = 1 all the time.
     pub fn never(tolerance: f64) -> Self {
         Self { tolerance, smallest: 1.0, largest: 1.0, last: 1.0, estimated_error: 0.0, met: true }
     }
@@ -146,12 +146,12 @@ impl Choice {
         self.acceleration
     }
 
-    /// Whether there is a choice at all.
+    /// Tells whether the run may be accelerated at all.
     pub fn is_free(&self) -> bool {
         self.largest >= LEAST
     }
 
-    /// What the acceleration was like until a time, s.
+    /// Returns the record of the acceleration up to a time, s.
     pub fn chosen(&self, time: f64) -> Chosen {
         let square_integral = self.square_integral + self.error().powi(2) * (time - self.noted).max(0.0);
         let estimated_error = if time > 0.0 { (square_integral / time).sqrt() } else { 0.0 };
@@ -184,7 +184,7 @@ impl Choice {
         self.begin(self.noted, 1.0);
     }
 
-    /// Goes on from a time (s) on with this m, and what is seen from then on is new.
+    /// Goes on from a time (s) with this m; what is seen from then on is new.
     fn begin(&mut self, time: f64, acceleration: f64) {
         (self.carried, self.since) = (self.error(), time);
         (self.difference, self.square) = Default::default();
@@ -197,8 +197,8 @@ impl Choice {
         (GROWTH * self.tolerance * time / self.revolution).min(self.largest)
     }
 
-    /// Takes note that the run came to a time (s) with m = 1, and begins to accelerate it where that is allowed (again); whether it
-    /// does. A scout with the surfaces of the run is to begin then.
+    /// Takes note that the run came to a time (s) with m = 1, and begins to accelerate it where that is allowed (again). Returns whether
+    /// it does; a scout with the surfaces of the run is to begin then.
     pub fn start(&mut self, time: f64) -> bool {
         self.integrate(time);
         let starts = time >= PAUSE * self.since && self.allowed_at(time) >= LEAST;
@@ -283,7 +283,7 @@ impl FadingMean {
         self.sum *= factor;
     }
 
-    /// 0 before anything was added.
+    /// Mean of what was added; 0 before anything was.
     fn value(&self) -> f64 {
         if self.weight > 0.0 { self.sum / self.weight } else { 0.0 }
     }

@@ -30,14 +30,14 @@ use crate::simulation::{Simulation, SimulationError};
 /// physical time passes. While the run goes with m = 1, the scout rests.
 #[derive(Debug)]
 pub struct Scout {
-    /// None where the run will not be accelerated any more.
+    /// Simulation of the scout; none where the run will not be accelerated any more.
     simulation: Option<Simulation>,
     choice: Choice,
     smoothness: Option<Smoothness>,
     idle: Option<Idle>,
-    /// Where the run was when the two were compared last.
+    /// Moment of the run at the last comparison.
     run: Mark,
-    /// Where the scout was.
+    /// Moment of the scout at the last comparison.
     scout: Mark,
 }
 
@@ -51,10 +51,10 @@ pub struct ScoutCheckpoint {
     scout: Mark,
 }
 
-/// Why a run is not accelerated (any more).
+/// Reason that a run is not accelerated (any more).
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub enum Idle {
-    /// No m above 1 is possible.
+    /// No m from 2 on is possible, and below that a scout does not pay.
     Limited,
     /// The disc is too smooth since this time (s): see [`crate::acceleration::scout`].
     Smooth(f64),
@@ -108,7 +108,7 @@ impl Scout {
         Ok(Self { simulation, choice, smoothness, idle, run: Mark::default(), scout: Mark::default() })
     }
 
-    /// Why the run is not accelerated, if so.
+    /// Returns the reason that the run is not accelerated, if there is one.
     pub fn idle(&self) -> Option<Idle> {
         self.idle
     }
@@ -118,7 +118,7 @@ impl Scout {
         &self.choice
     }
 
-    /// Whether the scout goes beside the run.
+    /// Tells whether the scout goes beside the run.
     fn is_at_work(&self) -> bool {
         self.choice.acceleration() > 1.0
     }
@@ -129,7 +129,7 @@ impl Scout {
         Some(self.run.steps + u64::from(RATIO) * revolution)
     }
 
-    /// Takes at most `steps` steps; whether it is where the two are compared, or rests.
+    /// Takes at most `steps` steps. Returns whether the scout has come to where the two are compared, or rests.
     ///
     /// # Errors
     /// As [`Simulation::advance`].
@@ -165,7 +165,7 @@ impl Scout {
         Ok(())
     }
 
-    /// Compares the run with the scout, if that goes beside it, chooses the acceleration anew and changes that of both; whether it
+    /// Compares the run with the scout, if that goes beside it, chooses the acceleration anew and changes that of both. Returns whether it
     /// changed.
     ///
     /// # Errors
@@ -211,28 +211,28 @@ fn revolution(simulation: &Simulation) -> u64 {
     simulation.parameters().mesh.disc_columns() as u64
 }
 
-/// Whether the disc is too smooth now.
+/// Returns [`Idle::Smooth`] if the disc is too smooth now.
 fn too_smooth(smoothness: Option<Smoothness>, simulation: &mut Simulation) -> Result<Option<Idle>, SimulationError> {
     let Some(smoothness) = smoothness else { return Ok(None) };
     let disc_height = simulation.disc_height()?;
     Ok(smoothness.forbids(simulation.parameters(), &disc_height).then(|| Idle::Smooth(simulation.time())))
 }
 
-/// How much rougher a disc must be than the pin wears down in a revolution with m = 1.
+/// Least ratio of a disc's roughness to the pin's recession in a revolution with m = 1.
 ///
-/// Of the paper's discs the roughest is 75 times as rough, and 62 times after 3000 s: waves grow, and are lost among its
-/// asperities. The others begin with 7.5 and 0.75 times, and end as waves (docs/evidence/accuracy.md).
+/// Of the paper's discs the roughest has 75, and 62 after 3000 s: waves grow, and are lost among its
+/// asperities. The others begin with 7.5 and 0.75, and end as waves (docs/evidence/accuracy.md).
 const ROUGH_ENOUGH: f64 = 20.0;
 
 /// The roughness below which a disc is too smooth to accelerate its run.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Smoothness {
-    /// By how much the pin's fibres recede in a revolution with m = 1, if they carry the load alone, m.
+    /// Recession of the pin's fibres in a revolution with m = 1, if they carry the load alone, m.
     recession: f64,
 }
 
 impl Smoothness {
-    /// That of a pin; none where no resin wears, its debris is not compacted, or debris is local.
+    /// Returns the least roughness for a pin; none where no resin wears, its debris is not compacted, or debris is local.
     pub fn of(parameters: &Parameters, pin_base: &[Base]) -> Option<Self> {
         let Parameters { mesh, materials, .. } = parameters;
         let base = || pin_base.iter().zip(mesh.pin_areas()).filter(|(_, area)| *area > 0.0);
@@ -247,13 +247,13 @@ impl Smoothness {
         Some(Self { recession: materials.pin_primary.specific_wear_rate * pressure * TAU * radius })
     }
 
-    /// Whether a run that begins with these surfaces is not accelerated for it.
+    /// Tells whether a run that begins with these surfaces is not accelerated because its disc is too smooth.
     pub fn forbids_from_the_start(parameters: &Parameters, surfaces: &InitialSurfaces) -> bool {
         Self::of(parameters, &surfaces.pin_base)
             .is_some_and(|smoothness| smoothness.forbids(parameters, &surfaces.disc_height))
     }
 
-    /// Whether a disc of these heights (m, column by column) is too smooth.
+    /// Tells whether a disc of these heights (m, column by column) is too smooth.
     pub(crate) fn forbids(&self, parameters: &Parameters, disc_height: &[f64]) -> bool {
         root_mean_square_along_tracks(&parameters.mesh, disc_height) < ROUGH_ENOUGH * self.recession
     }

@@ -11,12 +11,12 @@ impl StatusPair {
     /// Number of different pairs: three statuses of the pin times two of the disc.
     pub const COUNT: usize = 6;
 
-    /// The pair of these two statuses.
+    /// Pair of these two statuses.
     pub fn new(pin: Status, disc_secondary: bool) -> Self {
         Self(2 * pin as u8 + u8::from(disc_secondary))
     }
 
-    /// Every pair with its statuses.
+    /// Returns every pair as the status of the pin and whether the disc is secondary.
     pub fn all() -> impl Iterator<Item = (Status, bool)> {
         [Status::Resin, Status::Primary, Status::Secondary].into_iter().flat_map(|pin| [(pin, false), (pin, true)])
     }
@@ -36,15 +36,15 @@ pub type Table = [Vec<f64>; StatusPair::COUNT];
 /// these tables and nothing else.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Coefficients {
-    /// k A, N/m, with k = E*/h.
+    /// Stiffness k A, N/m, with k = E*/h.
     pub stiffness: Table,
-    /// Raw loss of the pin cell per overlap; 0 for resin, which loses the wear height instead.
+    /// Raw loss of the pin cell per overlap, 1; 0 for resin, which loses the wear height instead.
     pub pin: Table,
-    /// Raw loss of the disc cell per overlap.
+    /// Raw loss of the disc cell per overlap, 1.
     pub disc: Table,
-    /// Raw loss of the fibre below the pin cell's build-up over that of the build-up, Δh_sub/Δh.
+    /// Raw loss of the fibre below the pin cell's build-up over that of the build-up, Δh_sub/Δh, 1.
     pub fibre: Table,
-    /// Raw loss of the coating below the disc cell's build-up over that of the build-up, Δh_sub/Δh.
+    /// Raw loss of the coating below the disc cell's build-up over that of the build-up, Δh_sub/Δh, 1.
     pub coating: Table,
 }
 
@@ -77,7 +77,7 @@ impl Coefficients {
         tables
     }
 
-    /// The largest loss of pin and disc per overlap that any pair can have: that of what is there, or of what lies below.
+    /// Largest loss of pin and disc per overlap that any pair can have, 1: that of what is there, or of what lies below.
     pub fn largest_losses(&self) -> [f64; 2] {
         let largest = |own: &Table, below: &Table| {
             let pairs = own.iter().flatten().zip(below.iter().flatten());
@@ -86,12 +86,12 @@ impl Coefficients {
         [largest(&self.pin, &self.fibre), largest(&self.disc, &self.coating)]
     }
 
-    /// The largest loss of pin and disc together per overlap.
+    /// Largest loss of pin and disc together per overlap, 1.
     pub fn largest_loss(&self) -> f64 {
         self.largest_losses().into_iter().sum()
     }
 
-    /// The largest loss of pin and disc together that each kind of pairs can have.
+    /// Largest loss of pin and disc together that each kind of pairs can have.
     pub fn pair_losses(&self) -> [PairLoss; StatusPair::COUNT] {
         std::array::from_fn(|pair| {
             let pin = self.pin[pair].iter().zip(&self.fibre[pair]);
@@ -106,7 +106,7 @@ impl Coefficients {
         })
     }
 
-    /// k A of the softest pair with a plateau of the pin, N/m.
+    /// Stiffness k A of the softest pair with a plateau of the pin, N/m.
     pub fn least_plateau_stiffness(&self) -> f64 {
         let plateaus = StatusPair::all().filter(|(pin, _)| *pin != Status::Resin);
         let rows = plateaus.flat_map(|(pin, disc)| &self.stiffness[StatusPair::new(pin, disc).index()]);
@@ -114,21 +114,21 @@ impl Coefficients {
     }
 }
 
-/// What is there loses so much per overlap, or what lies below it.
+/// Larger loss per overlap of what is there (`own`) and of what lies below it (`own` times `below`), 1.
 fn most(own: &f64, below: &f64) -> f64 {
     own * below.max(1.0)
 }
 
-/// The largest loss of pin and disc together of one kind of pairs.
+/// Largest loss of pin and disc together of one kind of pairs.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct PairLoss {
-    /// Per overlap.
+    /// Loss per overlap, 1.
     pub per_overlap: f64,
-    /// Per load of the cell, m/N.
+    /// Loss per load of the cell, m/N.
     pub per_load: f64,
 }
 
-/// Loss per overlap of a cell with wear rate `own` (1/Pa) against one with `other`; `stiffness_sliding` is k ds, Pa.
+/// Loss per overlap, 1, of a cell with wear rate `own` (1/Pa) against one with `other`; `stiffness_sliding` is k ds, Pa.
 fn wear_factor(integrator: Integrator, own: f64, other: f64, stiffness_sliding: f64) -> f64 {
     match integrator {
         Integrator::Explicit => own * stiffness_sliding,

@@ -1,4 +1,4 @@
-//! What the workers of one simulation tell each other.
+//! Communication between the workers of one simulation.
 
 pub(crate) mod threads;
 
@@ -9,7 +9,7 @@ use thiserror::Error;
 
 use crate::model::error::SimulationError;
 
-/// Why workers cannot go on together.
+/// Reason that workers cannot go on together.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[allow(missing_docs)] // The messages say what they mean.
 pub enum CommError {
@@ -26,24 +26,24 @@ impl From<CommError> for SimulationError {
     }
 }
 
-/// What a worker exchanged with the others so far.
+/// Time and bytes of a worker's exchange with the others so far.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Exchange {
-    /// Time in which it waited for them.
+    /// Time that the worker waited for the others.
     pub waited: Duration,
-    /// Bytes that it handed over boundaries between sectors.
+    /// Bytes that the worker handed over boundaries between sectors.
     pub halo_bytes: u64,
 }
 
-/// How a worker reaches the others.
+/// Connection of a worker to the others.
 ///
 /// All workers take the same steps and call [`Communicator::all_gather`] equally often; so nobody is more than one
 /// call ahead.
 pub trait Communicator: Debug + Send {
-    /// Which of the workers this one is.
+    /// Returns the number of this worker, from 0.
     fn rank(&self) -> usize;
 
-    /// How many workers there are.
+    /// Returns the number of workers.
     fn size(&self) -> usize;
 
     /// Hands what crosses a boundary between sectors to worker `to`.
@@ -55,7 +55,7 @@ pub trait Communicator: Debug + Send {
     /// [`CommError`] when a worker failed.
     fn send_halo(&mut self, boundary: usize, to: usize, words: &[u64]) -> Result<(), CommError>;
 
-    /// What worker `from` handed over at this boundary in this step.
+    /// Receives what worker `from` handed over at this boundary in this step.
     ///
     /// # Errors
     /// [`CommError`] when a worker failed.
@@ -69,7 +69,7 @@ pub trait Communicator: Debug + Send {
     fn all_gather(&mut self, words: &[u64], each: &mut dyn FnMut(usize, &[u64])) -> Result<(), CommError>;
 }
 
-/// Nobody else to talk to.
+/// Connection of a worker that is alone.
 #[derive(Debug, Clone, Copy)]
 pub struct Single;
 

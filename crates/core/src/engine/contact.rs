@@ -16,7 +16,7 @@ use crate::model::error::ContactError;
 use crate::model::friction::{ContactSums, StatusContact};
 use crate::model::material::Status;
 
-/// What a reading says about the balance.
+/// Result of solving the balance with one reading.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Verdict {
     /// The balance is solved.
@@ -27,51 +27,51 @@ pub enum Verdict {
     Apart,
 }
 
-/// What touches, and what it loses.
+/// Areas in contact and raw losses there.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct Touching {
-    /// Σ A over cells in contact, in units of the area.
+    /// Area Σ A over cells in contact, in units of the area.
     pub area: i128,
-    /// Σ A over bare resin in contact, in units of the area.
+    /// Area Σ A over bare resin in contact, in units of the area.
     pub resin_area: i128,
     /// Raw volume that plateaus of the pin lose; only where build-up has the properties of what it lies on.
     pub pin_loss: RawLoss,
-    /// Raw volume that the disc loses, m³; only there, too.
+    /// Raw volume that the disc loses, m³; only where build-up has the properties of what it lies on.
     pub disc_loss: f64,
 }
 
-/// What all cells carry at a displacement.
+/// Loads that all cells carry at a displacement.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Carried {
-    /// δ, m.
+    /// Displacement δ, m.
     pub displacement: f64,
-    /// Σ k A u by pair, N.
+    /// Load Σ k A u by pair, N.
     pub loads: [f64; StatusPair::COUNT],
-    /// |Σ k A u − F_N| / F_N.
+    /// Residual |Σ k A u − F_N| / F_N, 1.
     pub residual: f64,
 }
 
 /// The contact of one step: the displacement that carries the load, and what touches there.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Contact {
-    /// δ, m; none before the first step.
+    /// Displacement δ, m; none before the first step.
     displacement: Option<f64>,
-    /// Σ k A u, N.
+    /// Load Σ k A u, N.
     load: f64,
-    /// Σ k A over cells in contact, N/m.
+    /// Slope Σ k A over cells in contact, N/m.
     slope: f64,
-    /// What the rounding of the overlaps may hide of the load, N.
+    /// Part of the load that the rounding of the overlaps may hide, N.
     doubt: f64,
-    /// |Σ k A u − F_N| / F_N, and what that may hide of it.
+    /// Residual |Σ k A u − F_N| / F_N, 1; unless refined, with the doubt over F_N.
     residual: f64,
-    /// δ above the lower end of the bracket, m.
+    /// Distance of δ above the lower end of the bracket, m.
     above: f64,
-    /// Of which overlaps at the lower end are multiples, m.
+    /// Quantum of the overlaps at the lower end, m.
     quantum: f64,
     touching: Touching,
-    /// What a unit of the area is worth, m².
+    /// Area of one unit, m².
     area_unit: f64,
-    /// By status of the pin, where friction differs between them.
+    /// Load and area by status of the pin, where friction differs between them.
     statuses: Option<[StatusContact; 3]>,
 }
 
@@ -92,7 +92,7 @@ impl Contact {
         }
     }
 
-    /// Whether it has sums by status.
+    /// Tells whether the contact has sums by status.
     pub fn has_statuses(&self) -> bool {
         self.statuses.is_some()
     }
@@ -235,7 +235,7 @@ impl Contact {
         }
     }
 
-    /// The same by status of the pin, where friction asks for it.
+    /// Takes the sums by status of the pin to the displacement, where friction asks for them.
     fn settle_statuses(
         &mut self,
         weights: &RowWeights,
@@ -262,7 +262,7 @@ impl Contact {
         }
     }
 
-    /// Which kinds of pairs touch, by the sums and the near pairs that the balance was solved with.
+    /// Tells which kinds of pairs touch, by the sums and the near pairs that the balance was solved with.
     pub fn touching_pairs(&self, sums: &Sums, near: &[NearPair]) -> [bool; StatusPair::COUNT] {
         let mut touching = sums.pairs.map(|sums| sums != PairSums::default());
         for near in near.iter().take_while(|near| near.gap < self.displacement()) {
@@ -271,22 +271,22 @@ impl Contact {
         touching
     }
 
-    /// How much of an overlap rounding may make up, m.
+    /// Part of an overlap that may be rounding, m.
     pub fn rounding(&self) -> f64 {
         2.0 * self.quantum + 4.0 * f64::EPSILON * self.displacement().abs()
     }
 
-    /// What friction must know of the contact under a load, N.
+    /// Returns the sums of the contact under a load (N) that friction needs.
     pub fn sums(&self, load: f64) -> ContactSums {
         ContactSums { load, area: self.area(), statuses: self.statuses }
     }
 
-    /// δ, m; 0 before the first step.
+    /// Displacement δ, m; 0 before the first step.
     pub fn displacement(&self) -> f64 {
         self.displacement.unwrap_or(0.0)
     }
 
-    /// What touches, and what it loses.
+    /// Returns the areas in contact and the raw losses there.
     pub fn touching(&self) -> &Touching {
         &self.touching
     }
@@ -296,7 +296,7 @@ impl Contact {
         float(self.touching.area) * self.area_unit
     }
 
-    /// Σ p A, N.
+    /// Load Σ p A, N.
     pub fn load(&self) -> f64 {
         self.load
     }
@@ -314,17 +314,17 @@ impl Contact {
         low * weights.pin_loss[PLATEAU].unit() + weights.raw.value(near)
     }
 
-    /// What the rounding of the overlaps may hide of the load, N.
+    /// Part of the load that the rounding of the overlaps may hide, N.
     pub fn doubt(&self) -> f64 {
         self.doubt
     }
 
-    /// Σ k A over cells in contact, N/m.
+    /// Slope Σ k A over cells in contact, N/m.
     pub fn slope(&self) -> f64 {
         self.slope
     }
 
-    /// |Σ k A u − F_N| / F_N of the last balance, and what the rounding of the overlaps may hide of it.
+    /// Residual |Σ k A u − F_N| / F_N of the last balance, 1; unless refined, with the doubt over F_N.
     pub fn residual(&self) -> f64 {
         self.residual
     }
@@ -344,8 +344,8 @@ fn sorted_up_to(bound: f64, near: &mut [NearPair]) -> &[NearPair] {
     sorted
 }
 
-/// Σ k A (low − g)₊, its slope, and what the rounding of the overlaps may hide of it: four standard deviations of what so
-/// many roundings of up to half a quantum carry.
+/// Returns Σ k A (low − g)₊ (N), its slope (N/m), and the part of the load that the rounding of the overlaps may hide (N): four
+/// standard deviations of what so many roundings of up to half a quantum carry.
 fn load_at_low(weights: &RowWeights, sums: &Sums, bracket: &Bracket) -> (f64, f64, f64) {
     let (mut load, mut slope, mut squares) = (0.0, 0.0, 0.0);
     for pair in weights.pairs {
@@ -359,7 +359,7 @@ fn load_at_low(weights: &RowWeights, sums: &Sums, bracket: &Bracket) -> (f64, f6
     (load, slope, 4.0 * bracket.quantum.value() * (squares / 12.0).sqrt())
 }
 
-/// Whether the pin of a pair is bare resin.
+/// Tells whether the pin of a pair is bare resin.
 fn is_bare_resin(pair: usize) -> bool {
     status_of(pair) == Status::Resin as u8
 }

@@ -16,23 +16,23 @@ pub struct Debris {
     captured_fraction: f64,
     captured_resin_fraction: f64,
     needs: Needs,
-    /// h_m, m.
+    /// Wear height h_m, m.
     wear_height: f64,
     /// Terms that a sum of a row may have: the columns of the pin, more if there are so many rows that the sums of all of
     /// them would not fit 127 bits.
     terms: usize,
-    /// What a unit of the area is worth, m².
+    /// Area of one unit, m².
     area_unit: f64,
-    /// The largest loss of pin or disc per overlap.
+    /// Largest loss of pin or disc per overlap, 1.
     largest_loss: f64,
-    /// Of every kind of pairs, where the kinds are so unlike that one may hide the losses of another; else none.
+    /// Losses of every kind of pairs, where the kinds are so unlike that one may hide the losses of another; else none.
     unlike: Option<[PairLoss; StatusPair::COUNT]>,
-    /// What of the loss of a pair of plateaus may be compacted, per overlap.
+    /// Largest part of the loss of a pair of plateaus that may be compacted, per overlap, 1.
     largest_deposit: f64,
-    /// Of which the deposits of the step are counted as multiples.
+    /// Quantum of the deposits of the step, m.
     deposit_quantum: Quantum,
-    /// Of which losses of the step are counted as multiples, and what that leaves of them; only where build-up has
-    /// properties of its own.
+    /// Coarse quantum of the losses of the step, and fine one of what that leaves of them, m; only where build-up has properties of
+    /// its own.
     loss_quanta: [Quantum; 2],
     account: Account,
 }
@@ -41,7 +41,7 @@ pub struct Debris {
 const ROWS: usize = 1 << 10;
 
 impl Debris {
-    /// Nothing moved yet.
+    /// Creates the account of a scene in which nothing has moved yet.
     pub fn new(parameters: &Parameters, coefficients: &Coefficients, weights: &RowWeights) -> Self {
         let Parameters { mesh, plateaus: rules, .. } = parameters;
         // Where nothing forms, debris of a pool stays in it: one serves for all rows.
@@ -69,7 +69,7 @@ impl Debris {
         self.largest_deposit = self.captured_fraction * coefficients.largest_loss();
     }
 
-    /// What was moved since t = 0.
+    /// Returns what the pools hold, and the volumes moved since t = 0, m³.
     pub fn account(&self) -> &Account {
         &self.account
     }
@@ -79,8 +79,8 @@ impl Debris {
         self.account = account;
     }
 
-    /// Makes ready for the losses and deposits of a step in whose contact no overlap is more than `largest_overlap` (m),
-    /// and which pairs of these kinds touch.
+    /// Makes ready for the losses and deposits of a step in whose contact no overlap is more than `largest_overlap` (m), and in which
+    /// pairs of these kinds touch.
     pub fn prepare(
         &mut self,
         contact: &Contact,
@@ -110,12 +110,12 @@ impl Debris {
         }
     }
 
-    /// Of which this step's deposits are counted as multiples.
+    /// Quantum of this step's deposits, m.
     pub fn deposit_quantum(&self) -> Quantum {
         self.deposit_quantum
     }
 
-    /// Of which this step's losses are counted as multiples, and what that leaves of them.
+    /// Coarse quantum of this step's losses, and fine one of what that leaves of them, m.
     pub fn loss_quanta(&self) -> [Quantum; 2] {
         self.loss_quanta
     }
@@ -155,7 +155,7 @@ impl Debris {
         moved
     }
 
-    /// What of the worn volume stays in a pool and what leaves the contact, m³: η and 1 − η of it, each for resin and plateaus.
+    /// Parts the worn volume into what stays in a pool and what leaves the contact, m³: η and 1 − η of it, each for resin and plateaus.
     fn part(&self, &Volumes { worn_pin, worn_resin, worn_disc, .. }: &Volumes) -> [f64; 2] {
         let (of_plateaus, of_resin) = (self.captured_fraction, self.captured_resin_fraction);
         // Summed first: apart, a scene without the second fraction would get other bits than it always had.
@@ -168,7 +168,7 @@ impl Debris {
     }
 }
 
-/// By how much a bound of losses must be closer than the usual one to take its place.
+/// Factor by which a bound of losses must be closer than the usual one to take its place.
 const UNLIKE: f64 = (1 << 20) as f64;
 
 /// The losses of all kinds of pairs, if some kind loses so much more per overlap than another that it could hide it.
@@ -179,7 +179,7 @@ fn unlike(coefficients: &Coefficients) -> Option<[PairLoss; StatusPair::COUNT]> 
     (most > UNLIKE * least).then_some(losses)
 }
 
-/// The largest loss of pin or disc per overlap.
+/// Largest loss of pin or disc per overlap, 1.
 fn largest_loss(coefficients: &Coefficients) -> f64 {
     let [pin, disc] = coefficients.largest_losses();
     pin.max(disc)

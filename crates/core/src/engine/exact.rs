@@ -70,12 +70,12 @@ impl Quantum {
         Self { exponent, value: libm::ldexp(1.0, exponent), anchor: libm::ldexp(anchor, exponent), room }
     }
 
-    /// A coarser one, for terms up to 2^`bits` times as large.
+    /// Coarser quantum, for terms up to 2^`bits` times as large.
     pub fn coarser(self, bits: i32) -> Self {
         Self::of_exponent(self.exponent.saturating_add(bits), self.room)
     }
 
-    /// The quantum.
+    /// Value of the quantum, in the unit of the terms.
     pub fn value(self) -> f64 {
         self.value
     }
@@ -97,17 +97,17 @@ impl Quantum {
         (self.anchor + number) - self.anchor
     }
 
-    /// How large a number may be that is anchored beside a term.
+    /// Largest number that may be anchored beside a term.
     pub fn reach(self) -> f64 {
         libm::ldexp(1.0, self.exponent + 50)
     }
 
-    /// Whether the sum of `terms` anchored terms up to `largest` leaves room for their number.
+    /// Tells whether the sum of `terms` anchored terms up to `largest` leaves room for their number.
     pub fn holds(self, largest: f64, terms: usize) -> bool {
         largest * (terms as f64) < libm::ldexp(1.0, self.exponent + self.room as i32)
     }
 
-    /// From the sum of the bits of anchored terms, none negative: how many they are, and what they add up to in quanta.
+    /// Returns a function that splits the sum of the bits of anchored terms, none negative, into their number and their sum in quanta.
     pub fn split(self) -> impl Fn(i64) -> (i64, i64) {
         // The bits of the anchor are an odd number times 2^room. Its inverse tells from the upper bits of the sum, which
         // what is added up does not reach, how often it was added.
@@ -137,17 +137,17 @@ fn room(terms: usize) -> u32 {
 pub struct RowIntegers(pub Vec<IntegerChunk>);
 
 impl RowIntegers {
-    /// All 0.
+    /// Creates integers of so many strips, all 0.
     pub fn new(strips: usize) -> Self {
         Self(vec![[0; LANES]; strips])
     }
 
-    /// All 0 again.
+    /// Sets all of them to 0 again.
     pub fn clear(&mut self) {
         self.0.fill([0; LANES]);
     }
 
-    /// Those of some rows.
+    /// Integers of some rows.
     pub fn rows(&self, rows: Range<usize>) -> &[i64] {
         &self.0.as_flattened()[rows]
     }
@@ -165,14 +165,14 @@ const SPARE_BITS: i32 = 12;
 const BITS: i32 = 126;
 
 impl Unit {
-    /// 2^`finest`, or what is so much coarser that a sum may be 2^12 times as large as `size`.
+    /// Unit of 2^`finest`, or of what is so much coarser that a sum may be 2^12 times as large as `size`.
     pub fn new(finest: i32, size: f64) -> Self {
         let needed = if size > 0.0 { libm::ilogb(size).saturating_add(1 + SPARE_BITS - BITS) } else { finest };
         // 2^126 of the coarsest is still a number.
         Self { exponent: needed.clamp(finest, 800) }
     }
 
-    /// A value to the last whole unit.
+    /// Cuts a value to the last whole unit.
     #[inline]
     pub fn exact(self, value: f64) -> ExactSum {
         // Mantissa and exponent: a conversion of the product would be a call of a routine.
@@ -200,12 +200,12 @@ pub struct ExactSum(i128);
 impl ExactSum {
     const OUT_OF_RANGE: Self = Self(i128::MIN);
 
-    /// Adds another.
+    /// Adds another sum.
     pub fn add(&mut self, other: Self) {
         *self = self.with(other, i128::checked_add);
     }
 
-    /// Takes another off.
+    /// Subtracts another sum.
     pub fn subtract(&mut self, other: Self) {
         *self = self.with(other, i128::checked_sub);
     }
@@ -217,12 +217,12 @@ impl ExactSum {
         operation(self.0, other.0).map_or(Self::OUT_OF_RANGE, Self)
     }
 
-    /// The integer.
+    /// Number of whole units.
     pub fn integer(self) -> i128 {
         self.0
     }
 
-    /// From the integer.
+    /// Returns the sum of so many whole units.
     pub fn of_integer(integer: i128) -> Self {
         Self(integer)
     }
@@ -267,7 +267,7 @@ impl Weights {
         (0..weights.len()).map(|row| product(weights[row], counts[row])).sum()
     }
 
-    /// What one unit is worth.
+    /// Value of one unit.
     pub fn unit(&self) -> f64 {
         self.unit
     }
@@ -284,7 +284,7 @@ pub fn of_words(words: &mut impl Iterator<Item = u64>) -> i128 {
     ((u128::from(high) << 64) | u128::from(low)) as i128
 }
 
-/// weight · count.
+/// Product weight · count.
 #[inline(always)]
 pub fn product(weight: i64, count: i64) -> i128 {
     i128::from(weight) * i128::from(count)

@@ -1,4 +1,4 @@
-//! How the steps of a simulation are taken.
+//! Engine, workers and instruction set with which the steps of a simulation are taken.
 
 use std::fmt;
 
@@ -6,7 +6,7 @@ use crate::engine::kernel::InstructionSet;
 use crate::engine::parts::Needs;
 use crate::model::parameters::Parameters;
 
-/// What takes the steps.
+/// Implementation of the model that takes the steps.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Engine {
     /// Eight cells at a time, on any number of workers: one pass over the pin a step. It has local debris (model 4L).
@@ -17,7 +17,7 @@ pub enum Engine {
 }
 
 impl Engine {
-    /// Its name on the command line.
+    /// Name on the command line.
     pub fn name(self) -> &'static str {
         match self {
             Self::Fast => "fast",
@@ -25,7 +25,7 @@ impl Engine {
         }
     }
 
-    /// What takes the steps of a scene where this is asked for: the plain model where debris is pooled (model 4P).
+    /// Returns the engine of a scene where this one is asked for: the plain model where debris is pooled (model 4P).
     pub fn of(self, parameters: &Parameters) -> Self {
         if Needs::of(parameters).pools { Self::Plain } else { self }
     }
@@ -49,10 +49,10 @@ pub enum Decomposition {
     Bands,
 }
 
-/// How a simulation is carried out. Nothing of it shows in the results, but that the two engines round differently.
+/// Settings by which a simulation is carried out. Nothing of them shows in the results, but that the two engines round differently.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Execution {
-    /// What takes the steps.
+    /// Engine that takes the steps.
     pub engine: Engine,
     /// Workers that share the ring, at least 1: threads or ranks of a job.
     pub workers: usize,
@@ -60,14 +60,14 @@ pub struct Execution {
     pub instructions: InstructionSet,
     /// Division of the mesh among the workers.
     pub decomposition: Decomposition,
-    /// Whether each worker stays on a core of its own.
+    /// True if each worker stays on a core of its own.
     pub pin: bool,
-    /// Whether cells to which nothing out of the ordinary happens are swept with few instructions: false is for tests.
+    /// True if cells to which nothing out of the ordinary happens are swept with few instructions: false is for tests.
     pub shortcut: bool,
 }
 
 impl Execution {
-    /// With what the steps are taken: the name of the instruction set, or `plain model`.
+    /// Returns what the steps are taken with: the name of the instruction set, or `plain model`.
     pub fn means(&self) -> &'static str {
         match self.engine {
             Engine::Fast => self.instructions.name(),

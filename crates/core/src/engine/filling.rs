@@ -1,4 +1,4 @@
-//! How far the lowlands of the disc are filled, how much of it is covered, and what both surfaces have lost by their heights
+//! Filling of the lowlands of the disc, coverage of the disc, and the volume that both surfaces have lost by their heights
 //! (model section 5).
 
 use std::ops::Range;
@@ -13,21 +13,21 @@ use crate::model::state::{InitialSurfaces, reported_disc_status};
 /// Exponent of the unit of areas and volumes of the whole ring, where that of a scene need not be larger.
 const FINEST: i32 = -110;
 
-/// Exact sums over cells of the ring and of the pin.
+/// Exact sums over cells of the ring and of the pin, in whole units of volume and area.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct RingSums {
-    /// Σ A (z_ref − z_d)₊.
+    /// Volume Σ A (z_ref − z_d)₊ that is open below z_ref.
     pub open_volume: ExactSum,
-    /// Σ A (z_d − z_ref)₊.
+    /// Volume Σ A (z_d − z_ref)₊ above z_ref.
     pub volume_above: ExactSum,
-    /// Σ A over secondary cells of the disc.
+    /// Area Σ A over secondary cells of the disc.
     pub secondary_area: ExactSum,
-    /// Σ A (z_p − the pin's highest initial height).
+    /// Volume Σ A (z_p − the pin's highest initial height).
     pub pin_volume: ExactSum,
 }
 
 impl RingSums {
-    /// All of them, for a message or a sum.
+    /// Returns each of the sums, for a message or a sum.
     pub fn each(&mut self) -> [&mut ExactSum; 4] {
         let Self { open_volume, volume_above, secondary_area, pin_volume } = self;
         [open_volume, volume_above, secondary_area, pin_volume]
@@ -48,11 +48,11 @@ pub struct Filling {
     pin_reference: f64,
     volume_unit: Unit,
     area_unit: Unit,
-    /// At the start, of the whole disc and the whole pin.
+    /// Sums of the whole disc and the whole pin at the start.
     initial: RingSums,
-    /// Of every own column of the disc.
+    /// Sums of every own column of the disc.
     columns: Vec<RingSums>,
-    /// Of all own columns of the disc.
+    /// Sums of all own columns of the disc.
     own: RingSums,
     /// Steps up to which the columns are up to date.
     up_to: u64,
@@ -188,12 +188,12 @@ impl Filling {
         self.own
     }
 
-    /// Σ A over secondary cells of the disc, m².
+    /// Area Σ A over secondary cells of the disc, m².
     pub fn secondary_area(&self, whole: &RingSums) -> f64 {
         self.area_unit.value(whole.secondary_area)
     }
 
-    /// 1 − V(t)/V(0) with V(t) the open volume of the whole disc; 0 when nothing was open at the start.
+    /// Filled fraction 1 − V(t)/V(0), 1, with V(t) the open volume of the whole disc; 0 when nothing was open at the start.
     pub fn filled_fraction(&self, whole: &RingSums) -> f64 {
         let initial = self.volume_unit.value(self.initial.open_volume);
         if initial == 0.0 { 0.0 } else { 1.0 - self.volume_unit.value(whole.open_volume) / initial }
@@ -210,7 +210,7 @@ impl Filling {
     }
 }
 
-/// How far the initial heights of disc and pin are apart, from the lowest to the highest of each, m.
+/// Relief of the initial surfaces, m: from the lowest to the highest height of the disc, plus the same of the pin.
 pub fn relief(mesh: &Mesh, surfaces: &InitialSurfaces) -> f64 {
     let mut pin = (0..mesh.pin_cells()).filter(|cell| mesh.is_present(*cell)).map(|cell| surfaces.pin_height[cell]);
     let range = |heights: &mut dyn Iterator<Item = f64>| {

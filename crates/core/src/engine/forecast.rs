@@ -1,4 +1,4 @@
-//! Where the displacement of the next step is expected.
+//! Forecast of the displacement of the next step.
 //!
 //! After a revolution the pin faces the same columns again, and the displacement follows the same course with a drift;
 //! so it is foretold much better by the last revolutions than by the last step. A good forecast saves time and nothing
@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 /// Ways to foretell: by the last step, by the change one revolution ago, and by that change and how it changed.
 const WAYS: usize = 3;
 
-/// How much of an error is forgotten in a step.
+/// Fraction of an error that is forgotten in a step, 1.
 const FORGOTTEN: f64 = 1.0 / 64.0;
 
 /// Steps before errors mean anything.
@@ -21,7 +21,7 @@ pub struct Forecast {
     revolution: usize,
     /// The last displacements, m; the oldest is overwritten.
     past: Vec<f64>,
-    /// Where the next one goes.
+    /// Index in `past` at which the next displacement is stored.
     next: usize,
     steps: u64,
     /// Largest error of each way, slowly forgotten, m.
@@ -29,7 +29,7 @@ pub struct Forecast {
 }
 
 impl Forecast {
-    /// Nothing known yet.
+    /// Creates a forecast that knows no displacement yet.
     pub fn new(steps_per_revolution: usize) -> Self {
         let past = vec![0.0; places(steps_per_revolution)];
         Self { revolution: steps_per_revolution, past, next: 0, steps: 0, errors: [0.0; WAYS] }
@@ -47,7 +47,7 @@ impl Forecast {
         self.past[if index < self.past.len() { index } else { index - self.past.len() }]
     }
 
-    /// What each way foretells, as far as it reaches back to known steps.
+    /// Returns the displacement that each way foretells, m, and the number of ways that reach back to known steps.
     fn ways(&self) -> ([f64; WAYS], usize) {
         let revolution = self.revolution as u64;
         let known = if self.steps > 2 * revolution {
@@ -78,7 +78,7 @@ impl Forecast {
         (ways[best], (1.5 * self.errors[best]).max(least))
     }
 
-    /// Takes note of a displacement.
+    /// Takes note of the displacement of a step, m.
     pub fn record(&mut self, displacement: f64) {
         let (ways, known) = self.ways();
         for (error, way) in self.errors.iter_mut().zip(&ways[..known]) {
@@ -90,7 +90,7 @@ impl Forecast {
     }
 }
 
-/// Displacements of two revolutions, and the one before.
+/// Number of displacements kept: those of two revolutions, and the one before.
 fn places(revolution: usize) -> usize {
     revolution.saturating_mul(2).saturating_add(1)
 }

@@ -16,9 +16,9 @@ use crossbeam::utils::CachePadded;
 
 use crate::engine::comm::{CommError, Communicator, Exchange};
 
-/// Looks at a counter before sleeping, where every worker has a core of its own: some 30 µs, several steps of a small mesh.
+/// Number of looks at a counter before sleeping, where every worker has a core of its own: some 30 µs, several steps of a small mesh.
 const SPINS: u32 = 2000;
-/// Looks at a counter after which the clock is read: some 0.1 µs.
+/// Number of looks at a counter after which the clock is read: some 0.1 µs.
 const LOOKS_PER_TIME: u32 = 8;
 /// Words of a message that are gathered at a time.
 const WORDS_AT_A_TIME: usize = 4096;
@@ -45,14 +45,14 @@ impl Place {
     }
 }
 
-/// What a worker exchanged so far; nobody else writes it.
+/// Time and bytes of a worker's exchange so far; nobody else writes them.
 #[derive(Debug, Default)]
 struct Exchanged {
     waited_nanoseconds: AtomicU64,
     halo_bytes: AtomicU64,
 }
 
-/// What the threads share.
+/// State that the threads share.
 #[derive(Debug)]
 struct Shared {
     /// Two places for each worker's part of a gathering: while the slowest still reads one, the fastest writes the next.
@@ -66,14 +66,14 @@ struct Shared {
     spins: u32,
 }
 
-/// One thread's end.
+/// One thread's end of the connection.
 #[derive(Debug)]
 pub struct Threads {
     rank: usize,
     shared: Arc<Shared>,
     /// Gatherings so far.
     gatherings: u64,
-    /// Columns received at each boundary so far.
+    /// Messages received at each boundary so far.
     received: Vec<u64>,
     /// The messages of all workers, as far as they have come.
     messages: Vec<Vec<u64>>,
@@ -104,7 +104,7 @@ impl Threads {
         (0..workers).map(end).collect()
     }
 
-    /// Something to tell the others of a failure with.
+    /// Returns an alarm, to tell the others of a failure with.
     pub fn alarm(&self) -> Alarm {
         Alarm { rank: self.rank, shared: self.shared.clone() }
     }
@@ -221,7 +221,7 @@ pub struct Alarm {
 }
 
 impl Alarm {
-    /// Raises it; the first message stays.
+    /// Raises the alarm; the first message stays.
     pub fn raise(&self, message: String) {
         let mut failure = self.shared.failure.lock().unwrap_or_else(PoisonError::into_inner);
         failure.get_or_insert(CommError::Worker { worker: self.rank, message });
@@ -229,7 +229,7 @@ impl Alarm {
         self.shared.parking.wake_all();
     }
 
-    /// What the worker exchanged so far.
+    /// Returns the time and bytes of the worker's exchange so far.
     pub fn exchange(&self) -> Exchange {
         let Exchanged { waited_nanoseconds, halo_bytes } = &*self.shared.exchanged[self.rank];
         Exchange {
@@ -239,25 +239,25 @@ impl Alarm {
     }
 }
 
-/// After so long a sleeper looks by itself, whatever happens.
+/// Longest sleep: after it a sleeper looks by itself, whatever happens.
 const LONGEST: Duration = Duration::from_millis(20);
 
-/// What a sleeper waits for while it waits for nothing.
+/// Value of `waits_for` while a worker waits for nothing.
 const NOTHING: usize = 0;
 
 /// A worker that may sleep.
 #[derive(Debug, Default)]
 struct Sleeper {
     thread: OnceLock<Thread>,
-    /// The number of the place that it waits for, plus one.
+    /// Number of the place that the worker waits for, plus one.
     waits_for: AtomicUsize,
 }
 
-/// Where workers sleep, by rank.
+/// Workers that may sleep, by rank.
 #[derive(Debug)]
 pub(super) struct Parking {
     sleepers: Box<[CachePadded<Sleeper>]>,
-    /// How many sleep.
+    /// Number of workers that sleep.
     sleeping: CachePadded<AtomicUsize>,
 }
 
@@ -291,7 +291,7 @@ impl Parking {
         }
     }
 
-    /// Wakes all.
+    /// Wakes all that sleep.
     pub fn wake_all(&self) {
         self.unpark(|waits_for| waits_for != NOTHING);
     }
