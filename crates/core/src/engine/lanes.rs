@@ -20,7 +20,7 @@ pub(crate) use whole::Avx512;
 /// Rows of a strip, which the kernels do at a time.
 pub const LANES: usize = 8;
 
-/// Bytes of which a processor tells at a time which are set.
+/// Number of bytes in which a processor looks for set bits at a time.
 pub const BYTES: usize = 32;
 
 /// Eight numbers of one strip in one column.
@@ -63,68 +63,68 @@ pub fn second_cache() -> usize {
 /// Eight integers of one strip.
 pub type IntegerChunk = [i64; LANES];
 
-/// Which of eight cells are meant.
+/// Mask that chooses some of eight cells.
 pub(crate) trait Mask: Copy + BitAnd<Output = Self> + BitOr<Output = Self> + Not<Output = Self> {
-    /// Whether any is.
+    /// Tells whether any cell is chosen.
     fn any(self) -> bool;
-    /// One bit for each, the first row lowest.
+    /// Returns one bit for each cell, the first row lowest.
     fn byte(self) -> u8;
-    /// From one bit for each.
+    /// Makes the mask of one bit for each cell.
     fn of_byte(byte: u8) -> Self;
 }
 
 /// Eight 64-bit integers, which wrap.
 pub(crate) trait Integers: Copy {
-    /// What goes with which of them.
+    /// Mask for these integers.
     type Mask;
     /// The same number eight times.
     fn splat(value: i64) -> Self;
-    /// From memory.
+    /// Loads the integers from memory.
     fn load(chunk: &IntegerChunk) -> Self;
-    /// To memory.
+    /// Stores the integers in memory.
     fn store(self, chunk: &mut IntegerChunk);
     /// Sums.
     fn plus(self, other: Self) -> Self;
     /// Differences.
     fn minus(self, other: Self) -> Self;
-    /// Sums where the mask says so, else as they are.
+    /// Adds where the mask says so, and leaves the others as they are.
     fn plus_where(self, mask: Self::Mask, other: Self) -> Self;
 }
 
 /// Eight double-precision numbers.
 pub(crate) trait Lanes: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> {
-    /// Which of eight rows they are, one bit each.
+    /// Rows of a strip that these numbers belong to, one bit each.
     const ROWS: u8 = u8::MAX;
-    /// The first half of them, the others being left alone, where two halves are two registers.
+    /// First half of the numbers, the others being left alone, where two halves are two registers.
     type First: Lanes;
-    /// The second half.
+    /// Second half of the numbers.
     type Second: Lanes;
-    /// Which of them are meant.
+    /// Mask for these numbers.
     type Mask: Mask;
-    /// Their bits.
+    /// Integers for the bits of these numbers.
     type Integers: Integers<Mask = Self::Mask>;
     /// The same number eight times.
     fn splat(value: f64) -> Self;
-    /// From memory.
+    /// Loads the numbers from memory.
     fn load(chunk: &Chunk) -> Self;
-    /// To memory.
+    /// Stores the numbers in memory.
     fn store(self, chunk: &mut Chunk);
     /// self < other.
     fn below(self, other: Self) -> Self::Mask;
     /// self ≥ other.
     fn at_least(self, other: Self) -> Self::Mask;
-    /// The lesser of each; `other` where they are equal.
+    /// Lesser of each; `other` where they are equal.
     fn lesser(self, other: Self) -> Self;
-    /// The greater of each; `other` where they are equal.
+    /// Greater of each; `other` where they are equal.
     fn greater(self, other: Self) -> Self;
-    /// `yes` where the mask says so, else `no`.
+    /// Selects `yes` where the mask says so, else `no`.
     fn select(mask: Self::Mask, yes: Self, no: Self) -> Self;
-    /// Their bits as integers.
+    /// Returns the bits as integers.
     fn bits(self) -> Self::Integers;
-    /// Which of so many bytes, with a bit for each row, have one of these rows set, the first byte lowest.
+    /// Tells which of so many bytes, with a bit for each row, have one of these rows set, the first byte lowest.
     fn some_of(bytes: &[u8; BYTES]) -> u32;
 
-    /// In memory.
+    /// Returns the numbers as they lie in memory.
     #[inline(always)]
     fn chunk(self) -> Chunk {
         let mut chunk = Chunk([0.0; LANES]);
@@ -132,13 +132,13 @@ pub(crate) trait Lanes: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Out
         chunk
     }
 
-    /// Sums where the mask says so, else as they are.
+    /// Adds where the mask says so, and leaves the others as they are.
     #[inline(always)]
     fn plus_where(self, mask: Self::Mask, other: Self) -> Self {
         Self::select(mask, self + other, self)
     }
 
-    /// As they are where the mask says so, else 0.
+    /// Keeps the numbers where the mask says so, and makes the others 0.
     #[inline(always)]
     fn only(self, mask: Self::Mask) -> Self {
         Self::select(mask, self, Self::splat(0.0))

@@ -1,4 +1,4 @@
-//! Which parts of the model a scene needs, and which it leaves out.
+//! Parts of the model that a scene needs, and those that it leaves out.
 
 use crate::model::parameters::{DebrisRule, Integrator, Parameters};
 use crate::model::state::Base;
@@ -9,46 +9,46 @@ pub const ACCELERATION: &str = "time acceleration";
 /// A part of the model that a scene can do without.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Part {
-    /// What it is called.
+    /// Name of the part.
     pub name: &'static str,
-    /// Whether this scene needs it.
+    /// True if this scene needs the part.
     pub needed: bool,
-    /// What in the scene decides.
+    /// Setting of the scene that decides.
     pub reason: &'static str,
 }
 
-/// What the update of the cells has to do.
+/// Parts of the model that the update of the cells has to carry out.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Needs {
-    /// Build-up can exist and differs from what it lies on.
+    /// True if build-up can exist and differs from what it lies on.
     pub distinct: bool,
-    /// It can break away.
+    /// True if build-up can break away.
     pub breaks: bool,
-    /// The disc can wear.
+    /// True if the disc can wear.
     pub disc_wears: bool,
-    /// Plateaus can form.
+    /// True if plateaus can form.
     pub forms: bool,
-    /// They form of pooled debris (model 4P).
+    /// True if plateaus form of pooled debris (model 4P).
     pub pools: bool,
     /// Columns over which debris is gathered and spread, L or as many as the pin has, for it has no more to gather or to fill;
     /// none where it goes from one cell to the next.
     pub transport: Option<usize>,
 }
 
-/// What build-up asks of the kernels, which are compiled for each.
+/// Kinds of build-up, for each of which the kernels are compiled.
 pub mod build_up {
-    /// There is none: b = z everywhere, and substrates are not kept.
+    /// No build-up: b = z everywhere, and substrates are not kept.
     pub const NONE: u8 = 0;
-    /// It has the properties of what it lies on.
+    /// Build-up with the properties of what it lies on.
     pub const ALIKE: u8 = 1;
-    /// The same, and it breaks away where it is pressed harder than its strength.
+    /// Build-up with the properties of what it lies on, which breaks away where it is pressed harder than its strength.
     pub const BRITTLE: u8 = 2;
-    /// It has properties of its own, and may have a strength.
+    /// Build-up with properties of its own, and perhaps a strength.
     pub const DISTINCT: u8 = 3;
 }
 
 impl Needs {
-    /// What these parameters ask for.
+    /// Returns the needs of a scene with these parameters.
     pub fn of(parameters: &Parameters) -> Self {
         let rules = &parameters.plateaus;
         let materials = &parameters.materials;
@@ -71,7 +71,7 @@ impl Needs {
         }
     }
 
-    /// What build-up asks of the kernels.
+    /// Kind of build-up for which the kernels are compiled.
     pub fn build_up(self) -> u8 {
         match self {
             Self { forms: false, .. } => build_up::NONE,

@@ -33,13 +33,13 @@ pub struct Partition {
 /// Columns of the pin that lie over one sector.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Segment {
-    /// Which sector.
+    /// Number of the sector.
     pub sector: usize,
     /// Columns of the pin.
     pub pin: Range<usize>,
     /// Column within the sector under the first of them.
     pub over: usize,
-    /// Whether the sector's column before that is at rest, so that the pass itself can read its pair of the next step.
+    /// True if the sector's column before that is at rest, so that the pass itself can read its pair of the next step.
     pub joined: bool,
 }
 
@@ -105,7 +105,7 @@ impl Partition {
         self.strips.div_ceil(self.bands) as f64 * (self.mean_largest_load() + boundary_cost)
     }
 
-    /// What each worker has, in words.
+    /// Describes in words which part of the mesh each worker has.
     pub fn told(&self) -> String {
         let part = |count: usize, name: &str| (count > 1).then(|| format!("{count} {name}"));
         let sectors = if self.groups() > 1 { part(self.sectors(), "sectors") } else { None };
@@ -216,13 +216,13 @@ impl Partition {
         })
     }
 
-    /// Those of the segments that belong to a group.
+    /// Segments that belong to a group.
     pub fn segments_of(&self, group: usize, first: usize) -> impl Iterator<Item = Segment> + '_ {
         self.segments(first).filter(move |segment| self.group(segment.sector) == group)
     }
 
-    /// What enters where: of each segment that is not joined the first pin column, which in the next step lies over the
-    /// disc column before.
+    /// Returns the pin columns that no pass can read for the next step: of each segment that is not joined, the first, which then lies
+    /// over the disc column before.
     pub fn entering(&self, first: usize) -> impl Iterator<Item = Entering> + '_ {
         self.segments(first).filter(|segment| !segment.joined).map(|Segment { sector, pin, over, .. }| {
             if over > 0 {

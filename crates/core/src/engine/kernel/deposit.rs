@@ -104,14 +104,14 @@ fn deposit_on_rows<L: Lanes, const BUILD_UP: u8, const DISC_WEARS: bool, const T
     add::<L>(&mut moved.deposited_disc.0[index], rules.deposits(deposits.on_discs, count));
 }
 
-/// What is compacted on a strip, anchored.
+/// Sums of the deposits on a strip, anchored.
 struct Deposits<L: Lanes> {
     on_pins: L::Integers,
     on_discs: L::Integers,
 }
 
 impl<L: Lanes> Deposits<L> {
-    /// Nothing yet.
+    /// Returns empty sums.
     #[inline(always)]
     fn new() -> Self {
         Self { on_pins: L::Integers::splat(0), on_discs: L::Integers::splat(0) }
@@ -151,10 +151,10 @@ impl<L: Lanes> Deposits<L> {
 
 /// Eight cells after a deposit.
 struct Filled<L: Lanes> {
-    /// z_p and z_d, m.
+    /// Heights z_p and z_d, m.
     height: L,
     disc_height: L,
-    /// What is compacted on pin and disc, m.
+    /// Deposits on pin and disc, m.
     on_pin: L,
     on_disc: L,
 }

@@ -1,63 +1,63 @@
-//! What lies ahead of a span, for the cells behind it (model 4.2 and 4L), and how that crosses to another worker; and what is found on the way.
+//! Heights and losses ahead of a span, for the cells behind it (model 4.2 and 4L), as they cross to another worker; edges of a strip.
 
 use crate::engine::lanes::{Chunk, LANES};
 
-/// What the columns ahead of a span mean to it, strip by strip.
+/// Heights and losses of the columns ahead of a span, strip by strip.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Edge {
     pub(super) strips: Vec<Reach>,
 }
 
-/// What eight cells must know of the cells ahead of them in their rows, at the start of a step.
+/// Heights and losses of the cells ahead of eight cells in their rows, from the state at the start of a step.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Reach {
     /// z_p of the next column after wear and before any deposit, m; out of reach where it was no plateau.
     pub height: Chunk,
     /// v̄ of the edge that the next column is fed from, m; of no meaning where debris is spread over one column.
     pub share: Chunk,
-    /// Which cells touch in each of the next L columns, one bit each.
+    /// Cells that touch in each of the next L columns, one bit each.
     pub touches: Vec<u8>,
-    /// v of each of these columns, m.
+    /// v of each of these columns, m; without a transport length what the next column loses and may be compacted behind, m.
     pub lost: Vec<Chunk>,
 }
 
-/// What is found of the edges of a strip; the next strip overwrites it.
+/// Edges found on a strip; the next strip overwrites them.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(super) struct Edges {
-    /// Which cells touch in each column of the strip and in L columns ahead of it, one bit each.
+    /// Cells that touch in each column of the strip and in L columns ahead of it, one bit each.
     pub touches: Vec<u8>,
-    /// Which cells of these columns are the open ones of an edge.
+    /// Open cells of an edge in each column of the strip, one bit each.
     pub open: Vec<u8>,
-    /// Which an edge feeds: those with a cell that touches within L columns ahead.
+    /// Cells that an edge feeds in each column of the strip, one bit each: open ones with a cell that touches within L columns ahead.
     pub fed: Vec<u8>,
-    /// v of each of these columns, m; of no meaning where nothing touches.
+    /// v of each column of the strip and of L columns ahead of it, m; of no meaning where nothing touches.
     pub lost: Vec<Chunk>,
     /// v̄ of the edge behind each of the columns of the strip and behind the next, m; of no meaning where nothing touches.
     pub share: Vec<Chunk>,
-    /// Which cells of the columns of the strip were plateaus at the start of the step, one bit each, and all of the next.
+    /// Cells of the columns of the strip that were plateaus at the start of the step, one bit each, and all of the next.
     pub plateau: Vec<u8>,
     /// Columns of the strip with something to do.
     pub listed: Vec<u32>,
 }
 
 impl Edge {
-    /// Words of so many strips on their way to another worker, with debris that is spread over so many columns.
+    /// Number of words of so many strips on their way to another worker, with debris that is spread over so many columns.
     pub fn words(strips: usize, columns: usize) -> usize {
         strips * Reach::words(columns)
     }
 
-    /// Writes it for another worker.
+    /// Writes the edge for another worker.
     pub fn write(&self, words: &mut Vec<u64>) {
         self.strips.iter().for_each(|reach| reach.write(words));
     }
 
-    /// Takes over one that another worker wrote.
+    /// Takes over an edge that another worker wrote.
     pub fn read(&mut self, columns: usize, words: &[u64]) {
         let strips = words.chunks_exact(Reach::words(columns));
         self.reaches(strips.len(), columns).iter_mut().zip(strips).for_each(|(reach, words)| reach.read(words));
     }
 
-    /// What so many strips must know, with debris that is spread over so many columns, to be written anew.
+    /// Returns the reach of each of so many strips, with debris that is spread over so many columns, to be written anew.
     pub(super) fn reaches(&mut self, strips: usize, columns: usize) -> &mut [Reach] {
         self.strips.resize_with(strips, || Reach::none(columns));
         &mut self.strips
@@ -65,7 +65,7 @@ impl Edge {
 }
 
 impl Reach {
-    /// Nothing ahead, with debris that is spread over so many columns.
+    /// Reach with nothing ahead, for debris that is spread over so many columns.
     pub fn none(columns: usize) -> Self {
         let zero = Chunk([0.0; LANES]);
         Self {
@@ -76,12 +76,12 @@ impl Reach {
         }
     }
 
-    /// Words of one on its way to another worker.
+    /// Number of words of a reach on its way to another worker.
     fn words(columns: usize) -> usize {
         (1 + usize::from(columns > 1)) * LANES + columns * (LANES + 1)
     }
 
-    /// Writes it for another worker.
+    /// Writes the reach for another worker.
     fn write(&self, words: &mut Vec<u64>) {
         let Self { height, share, touches, lost } = self;
         let share = (lost.len() > 1).then_some(share);
@@ -91,7 +91,7 @@ impl Reach {
         words.extend(touches.iter().map(|touches| u64::from(*touches)));
     }
 
-    /// Takes over one that another worker wrote.
+    /// Takes over a reach that another worker wrote.
     fn read(&mut self, words: &[u64]) {
         let Self { height, share, touches, lost } = self;
         let (chunks, bytes) = words.split_at(words.len() - touches.len());

@@ -105,7 +105,7 @@ fn wear_rows<L: Lanes, const BUILD_UP: u8, const DISC_WEARS: bool>(
     losses.moved.store::<BUILD_UP, DISC_WEARS>(rules, strip.index, count, moved);
 }
 
-/// Where the set bits of each byte are, in ascending order.
+/// Positions of the set bits of each byte, in ascending order.
 static SET_BITS: [[u32; 8]; 256] = {
     let mut places = [[0; 8]; 256];
     let mut byte = 0;
@@ -260,12 +260,12 @@ fn gathered<L: Lanes>(mut run: u8, touches: &[u8], lost: &[Chunk]) -> L {
     sum
 }
 
-/// What a strip loses while it wears from its last column to its first, and what of it may come upon the cells behind.
+/// Losses of a strip while it wears from its last column to its first, and the part of them that may come upon the cells behind.
 struct Losses<'a, L: Lanes> {
     moved: StripMoved<L>,
     run: Run<L>,
     touches: &'a [u8],
-    /// The same from the second column on.
+    /// Cells that touch from the second column on, one bit each.
     touches_ahead: &'a [u8],
     /// v of each column, m, where L is more than [`NEAR`].
     lost: &'a mut [Chunk],
@@ -297,11 +297,11 @@ impl<L: Lanes> Losses<'_, L> {
     }
 }
 
-/// What the columns from one on lose, m, each as far as it and all before it touch; else 0.
+/// Losses of the columns from one on, m, each as far as it and all before it touch; else 0.
 struct Run<L: Lanes>([L; NEAR]);
 
 impl<L: Lanes> Run<L> {
-    /// What lies ahead of a span.
+    /// Returns the losses ahead of a span.
     #[inline(always)]
     fn of(ahead: &Reach) -> Self {
         let mut lost = [L::splat(0.0); NEAR];
@@ -325,7 +325,7 @@ impl<L: Lanes> Run<L> {
         self.0[0] = lost;
     }
 
-    /// What so many of them lose in all, the nearest first.
+    /// Sum of the losses of so many of the columns, m, the nearest first.
     #[inline(always)]
     fn sum(&self, columns: usize) -> L {
         let mut sum = self.0[0];
@@ -358,7 +358,7 @@ pub(super) fn worn_ahead<L: Lanes, const BUILD_UP: u8, const DISC_WEARS: bool>(
 /// Finds what the first column of a span means to the one behind it, from the state at the start of the step.
 pub type EdgeOf = fn(InstructionSet, &Rules, &Conditions, &mut PinStrips, &mut DiscSector, Span, &mut Moved, &mut Edge);
 
-/// The one that does what a scene needs and nothing else; chosen once per run.
+/// Returns the instance that does what a scene needs and nothing else; chosen once per run.
 pub fn edge_of(needs: Needs) -> EdgeOf {
     with_build_up!(needs, edge_of_span)
 }

@@ -1,4 +1,4 @@
-//! Which instruction set the kernels use.
+//! Instruction sets of the kernels.
 //!
 //! Every kernel is one body, compiled several times for wider vectors. A wider vector holds more cells and rounds none
 //! differently, so the results are the same to the bit.
@@ -7,12 +7,12 @@
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct InstructionSet(Width);
 
-/// How much a kernel may ask of the processor.
+/// Instructions that a kernel may ask of the processor.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Width {
-    /// What the compiler makes of arrays, on any architecture.
+    /// Instructions that the compiler chooses for arrays, on any architecture.
     Portable,
-    /// What every x86-64 processor has.
+    /// SSE2, which every x86-64 processor has.
     #[cfg(target_arch = "x86_64")]
     Sse2,
     /// x86-64 with AVX2.
@@ -58,15 +58,15 @@ impl Width {
 }
 
 impl InstructionSet {
-    /// What any processor has.
+    /// Instruction set that any processor has.
     pub const PORTABLE: Self = Self(Width::Portable);
 
-    /// Those that this processor has, the plainest first.
+    /// Instruction sets that this processor has, the plainest first.
     pub fn available() -> impl DoubleEndedIterator<Item = Self> {
         Width::ALL.iter().copied().filter(|width| width.is_available()).map(Self)
     }
 
-    /// The widest that this processor has.
+    /// Widest instruction set that this processor has.
     pub fn best() -> Self {
         Self::available().next_back().unwrap_or(Self::PORTABLE)
     }
@@ -134,7 +134,7 @@ macro_rules! kernel {
 }
 pub(super) use kernel;
 
-/// The instance of a function that does what a scene in which plateaus form needs and nothing else.
+/// Picks the instance of a function that does what a scene in which plateaus form needs and nothing else.
 macro_rules! with_build_up {
     ($needs:expr, $function:ident $(, $flag:literal)?) => {
         match ($needs.build_up(), $needs.disc_wears) {

@@ -1,4 +1,4 @@
-//! What a pass moved, row by row.
+//! Heights that a pass moved, row by row.
 
 use super::edge::Edges;
 use super::pairs::lanes_of;
@@ -8,25 +8,25 @@ use crate::engine::exact::RowIntegers;
 use crate::engine::lanes::{Chunk, IntegerChunk, Integers, LANES, Lanes};
 use crate::engine::parts::build_up;
 
-/// What a step took off and put on, as far as it does not follow from its load balance alone.
+/// Heights that a step took off and put on, as far as they do not follow from its load balance alone.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Moved {
     /// Heights compacted on the pin, in quanta of the deposits.
     pub deposited_pin: RowIntegers,
     /// Heights compacted on the disc, in quanta of the deposits.
     pub deposited_disc: RowIntegers,
-    /// What plateaus of the pin lost, in coarse quanta of the losses and, of the rest, in fine ones; only where build-up
+    /// Heights that plateaus of the pin lost, in coarse quanta of the losses and, of the rest, in fine ones; only where build-up
     /// has properties of its own.
     pub lost_pin: [RowIntegers; 2],
-    /// The same of the disc.
+    /// Heights that the disc lost, in the same quanta.
     pub lost_disc: [RowIntegers; 2],
-    /// What happened in few cells.
+    /// Events that happen in few cells.
     pub seldom: Vec<SeldomEvent>,
     /// Edges of the strip that is being filled.
     pub(super) edges: Edges,
 }
 
-/// What happened to the build-up of one cell on resin, or behind one of resin.
+/// Event in the build-up of one cell on resin, or behind one of resin.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SeldomEvent {
     /// Row of the cell.
@@ -35,26 +35,26 @@ pub struct SeldomEvent {
     pub returned: f64,
     /// Build-up on resin that was worn through, m: it lost that instead of its raw loss.
     pub worn_through: f64,
-    /// Gap of such a pair, m.
+    /// Gap of the pair whose build-up was worn through, m.
     pub gap: f64,
-    /// What was compacted on pin and disc of what resin ahead lost, m.
+    /// Deposits on pin and disc of what resin ahead lost, m.
     pub deposited: [f64; 2],
 }
 
 impl SeldomEvent {
-    /// What was compacted on pin and disc of what resin ahead lost, m.
+    /// Returns the event of deposits (m) on pin and disc of what resin ahead lost.
     pub fn deposited(row: usize, deposited: [f64; 2]) -> Self {
         Self { deposited, ..Self::in_row(row) }
     }
 
-    /// Nothing yet, in a row.
+    /// Returns an event of a row in which nothing happened yet.
     fn in_row(row: usize) -> Self {
         Self { row: row as u32, returned: 0.0, worn_through: 0.0, gap: 0.0, deposited: [0.0; 2] }
     }
 }
 
 impl Moved {
-    /// Nothing moved; what a scene does not need has no rows.
+    /// Creates sums in which nothing has moved; what a scene does not need has no rows.
     pub fn new(strips: usize, forms: bool, distinct: bool) -> Self {
         let rows = |needed| RowIntegers::new(if needed { strips } else { 0 });
         Self {
@@ -84,7 +84,7 @@ pub(super) struct StripMoved<L: Lanes> {
 }
 
 impl<L: Lanes> StripMoved<L> {
-    /// Nothing yet.
+    /// Returns empty sums.
     #[inline(always)]
     pub fn new() -> Self {
         let zero = L::Integers::splat(0);

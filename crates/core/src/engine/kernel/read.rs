@@ -15,12 +15,12 @@ pub struct Span {
     pub first: usize,
     /// First column of the sector.
     pub over: usize,
-    /// How many columns.
+    /// Number of columns.
     pub columns: usize,
 }
 
 impl Span {
-    /// Some of its pin columns over the disc columns that they lie over in the next step; `joined` tells whether that of the
+    /// Span of some of its pin columns over the disc columns that they lie over in the next step; `joined` tells whether that of the
     /// first is to be read, too.
     pub(super) fn turned(self, some: Range<usize>, joined: bool) -> Self {
         let start = if joined { some.start } else { some.start.max(1) };

@@ -1,4 +1,4 @@
-//! How the pairs of the next step stand to a bracket of displacements: all that the load balance needs of them.
+//! Reading of the pairs of the next step against a bracket of displacements: all that the load balance needs of them.
 
 use super::pairs::{PLAIN_PAIRS, PLATEAU, Pairs, RESIN, lanes_of, pair_of_lane};
 use crate::engine::coefficients::StatusPair;
@@ -10,11 +10,11 @@ use serde::{Deserialize, Serialize};
 /// Displacements between which the next load balance is expected.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Bracket {
-    /// Its lower end, a multiple of the quantum, m.
+    /// Lower end, a multiple of the quantum, m.
     pub low: f64,
-    /// How far it reaches, a multiple of the quantum, m.
+    /// Width, a multiple of the quantum, m.
     pub width: f64,
-    /// Of which overlaps at the lower end are multiples.
+    /// Quantum of the overlaps at the lower end, m.
     pub quantum: Quantum,
 }
 
@@ -33,13 +33,13 @@ impl Bracket {
 /// A pair that touches at some displacements of the bracket and not at others.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct NearPair {
-    /// g, m.
+    /// Gap g, m.
     pub gap: f64,
-    /// Its row.
+    /// Row of the mesh.
     pub row: u32,
-    /// Its column of the pin.
+    /// Column of the pin.
     pub column: u32,
-    /// Its [`StatusPair::index`].
+    /// Statuses, as [`StatusPair::index`].
     pub pair: u8,
 }
 
@@ -56,12 +56,12 @@ pub struct Reading {
     pub near: Vec<NearPair>,
     /// The row of the mesh that is the first here.
     pub first_row: usize,
-    /// The largest anchored overlaps: show any that is out of the quantum's range.
+    /// Largest anchored overlaps, which show any that is out of the quantum's range.
     pub largest: Chunk,
 }
 
 impl Reading {
-    /// Nothing read. Where build-up has the properties of what it lies on, only two pairs are told apart.
+    /// Creates an empty reading. Where build-up has the properties of what it lies on, only two pairs are told apart.
     pub fn new(first_row: usize, strips: usize, distinct: bool) -> Self {
         let rows = |pair| RowIntegers::new(if told_apart(distinct).contains(&pair) { strips } else { 0 });
         Self { overlap: std::array::from_fn(rows), near: Vec::new(), first_row, largest: Chunk([0.0; LANES]) }
@@ -97,7 +97,7 @@ pub(super) struct BracketLanes<L: Lanes> {
     low: L,
     /// Overlap 0, anchored.
     none: L,
-    /// What is left of a gap at the upper end, anchored.
+    /// Overlap −`width` of a gap at the upper end, anchored.
     high: L,
 }
 
@@ -109,19 +109,19 @@ impl<L: Lanes> BracketLanes<L> {
     }
 }
 
-/// How eight pairs stand to a bracket.
+/// Positions of eight pairs against a bracket.
 #[derive(Clone, Copy)]
 struct Stand<L: Lanes> {
-    /// Their overlaps at its lower end, anchored; of no meaning for pairs that do not touch there.
+    /// Overlaps at the lower end, anchored; of no meaning for pairs that do not touch there.
     overlap: L,
-    /// Which touch at the lower end.
+    /// Pairs that touch at the lower end.
     touches: L::Mask,
-    /// Which touch somewhere in the bracket, but not at its lower end.
+    /// Pairs that touch somewhere in the bracket, but not at its lower end.
     near: L::Mask,
 }
 
 impl<L: Lanes> Stand<L> {
-    /// How eight pairs with gaps g = z_p − z_d stand to a bracket.
+    /// Compares eight pairs with gaps g = z_p − z_d, m, with a bracket.
     #[inline(always)]
     fn new(gap: L, bracket: &BracketLanes<L>) -> Self {
         let overlap = bracket.low - gap;
@@ -138,7 +138,7 @@ pub(super) struct StripReading<L: Lanes, const BUILD_UP: u8> {
 }
 
 impl<L: Lanes, const BUILD_UP: u8> StripReading<L, BUILD_UP> {
-    /// Nothing read.
+    /// Returns empty sums.
     #[inline(always)]
     pub fn new() -> Self {
         Self { overlap: [L::Integers::splat(0); StatusPair::COUNT], largest: L::splat(0.0) }

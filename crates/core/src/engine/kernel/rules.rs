@@ -1,4 +1,4 @@
-//! What the kernels must know of a scene and of a step.
+//! Rules of a scene and conditions of a step, as the kernels need them.
 
 use super::edge::{Edge, Reach};
 use super::pairs::{ChunkTable, Entries};
@@ -10,7 +10,7 @@ use crate::engine::parts::Needs;
 use crate::model::material::Status;
 use crate::model::parameters::Parameters;
 
-/// What stays the same in every step.
+/// Rules of a scene, the same in every step until its coefficients change.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Rules {
     /// Raw loss of the pin per overlap, negative: the kernels have −u at hand.
@@ -19,25 +19,25 @@ pub struct Rules {
     pub(super) disc_loss: ChunkTable,
     pub(super) fibre: ChunkTable,
     pub(super) coating: ChunkTable,
-    /// h_m, m.
+    /// Wear height h_m, m.
     pub(super) wear_height: f64,
     /// −σ_b/k on the coating and on the disc's build-up, m: with less clearance build-up on resin breaks away; none where it
     /// never does.
     pub(super) strength: Option<[f64; 2]>,
-    /// z_ref, m: up to which local debris fills the disc.
+    /// Level z_ref up to which local debris fills the disc, m.
     pub(super) reference_height: f64,
-    /// η, of plateaus and of resin.
+    /// Captured fraction η, of plateaus and of resin, 1.
     captured_fraction: f64,
     captured_resin_fraction: f64,
-    /// [`Needs::transport`].
+    /// Columns over which debris is spread: [`Needs::transport`].
     pub transport: Option<usize>,
-    /// L, or 1 without.
+    /// Number of these columns: L, or 1 without a transport length.
     pub(super) reach: usize,
-    /// What lies ahead where nothing is.
+    /// Reach where nothing lies ahead.
     pub(super) nothing_ahead: Reach,
-    /// η/L; 0 without L.
+    /// Factor η/L of v̄, 1; 0 without a transport length.
     pub(super) transport_part: f64,
-    /// Whether cells to which nothing out of the ordinary happens are done with few instructions; the results are the same.
+    /// True if cells to which nothing out of the ordinary happens are done with few instructions; the results are the same.
     pub(super) shortcut: bool,
 }
 
@@ -73,25 +73,25 @@ impl Rules {
     }
 }
 
-/// What changes from step to step.
+/// Conditions of a step, which change from one to the next.
 #[derive(Debug, Clone, Copy)]
 pub struct Conditions<'a> {
-    /// δ, m.
+    /// Displacement δ, m.
     pub displacement: f64,
     /// The column ahead of the last of the span, if there is one.
     pub ahead: Option<&'a Edge>,
-    /// Of which deposits are counted as multiples.
+    /// Quantum of the deposits, m.
     pub deposit_quantum: Quantum,
-    /// Of which losses are counted as multiples, and what the coarse one leaves of them.
+    /// Coarse quantum of the losses, and fine one of what that leaves of them, m.
     pub loss_quanta: [Quantum; 2],
-    /// Where the next load balance is expected.
+    /// Displacements between which the next load balance is expected.
     pub bracket: Bracket,
     /// The strip of the mesh that is the first of the worker.
     pub first_strip: usize,
 }
 
 impl<'a> Conditions<'a> {
-    /// What lies ahead of a strip of the worker.
+    /// Returns the reach ahead of a strip of the worker.
     pub(super) fn ahead_of(&self, strip: usize, rules: &'a Rules) -> &'a Reach {
         self.ahead.map_or(&rules.nothing_ahead, |edge| &edge.strips[strip])
     }
@@ -140,37 +140,37 @@ impl<'a, L: Lanes> StripRules<'a, L> {
         }
     }
 
-    /// h_m, m.
+    /// Wear height h_m, m.
     #[inline(always)]
     pub fn wear_height(&self) -> L {
         L::splat(self.rules.wear_height)
     }
 
-    /// What of losses may be compacted behind, m.
+    /// Part of losses that may be compacted behind, m.
     #[inline(always)]
     pub fn captured(&self, lost: L) -> L {
         lost * L::splat(self.rules.captured_fraction)
     }
 
-    /// What of the wear height of resin may be, m.
+    /// Part of the wear height of resin that may be compacted behind, m.
     #[inline(always)]
     pub fn captured_of_resin(&self) -> L {
         self.wear_height() * L::splat(self.rules.captured_resin_fraction)
     }
 
-    /// A sum of anchored deposits, with another.
+    /// Adds a deposit (m) to a sum of anchored ones.
     #[inline(always)]
     pub fn plus_deposit(&self, sum: L::Integers, height: L) -> L::Integers {
         sum.plus((self.deposit_anchor + height).bits())
     }
 
-    /// What a sum of so many anchored deposits is in quanta.
+    /// Sum of so many anchored deposits in quanta.
     #[inline(always)]
     pub fn deposits(&self, sum: L::Integers, terms: usize) -> L::Integers {
         without(sum, self.conditions.deposit_quantum, terms)
     }
 
-    /// Sums of losses anchored in coarse quanta, and of what those leave in fine ones, with another loss.
+    /// Adds a loss (m) to the sums of losses anchored in coarse quanta, and of what those leave in fine ones.
     #[inline(always)]
     pub fn plus_loss(&self, [coarse, fine]: [L::Integers; 2], height: L) -> [L::Integers; 2] {
         let [coarse_anchor, fine_anchor] = self.loss_anchors;
@@ -179,7 +179,7 @@ impl<'a, L: Lanes> StripRules<'a, L> {
         [coarse.plus(anchored.bits()), fine.plus(rest.bits())]
     }
 
-    /// What sums of so many anchored losses are in quanta.
+    /// Sums of so many anchored losses in quanta.
     #[inline(always)]
     pub fn losses(&self, [coarse, fine]: [L::Integers; 2], terms: usize) -> [L::Integers; 2] {
         let [coarse_quantum, fine_quantum] = self.conditions.loss_quanta;

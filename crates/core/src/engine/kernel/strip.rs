@@ -10,11 +10,11 @@ use std::ops::Range;
 /// A strip of a span.
 #[derive(Debug)]
 pub(super) struct Strip<'a> {
-    /// Its number among those of the worker.
+    /// Number among the strips of the worker.
     pub index: usize,
     /// The first column of the pin.
     pub first: usize,
-    /// Its columns of the pin.
+    /// Columns of the pin.
     pub pin: PinStrip<'a>,
     /// Columns outside of which no cell of the pin is there.
     pub extent: Range<usize>,
@@ -24,7 +24,7 @@ pub(super) struct Strip<'a> {
     pub disc_substrate: &'a mut [Chunk],
     /// z_d of the column behind the first, m; infinitely low where that is not to be read.
     behind_height: Chunk,
-    /// Which of its cells are secondary, one bit each.
+    /// Secondary cells of the column behind the first, one bit each.
     behind_secondary: u8,
     /// The next strip, where it is to be fetched.
     next: Option<NextStrip>,
@@ -91,7 +91,7 @@ impl<'a> Strip<'a> {
         NextStrip::fetch(self.next, column, end, [self.pin.height, self.pin.substrate], [self.disc_height, of_disc])
     }
 
-    /// What lies behind a column.
+    /// Returns the disc cells behind a column.
     #[inline(always)]
     pub fn behind<L: Lanes, const BUILD_UP: u8>(&self, column: usize) -> Behind<L> {
         if column == 0 {

@@ -20,7 +20,7 @@ pub(super) struct Cells<L: Lanes> {
 #[derive(Clone, Copy)]
 pub(super) struct Worn<L: Lanes> {
     pub z_p: L,
-    /// b_p before wear; that after it is no less than z_p.
+    /// b_p before wear, m; that after it is no less than z_p.
     pub b_p: L,
     pub z_d: L,
     pub b_d: L,
@@ -31,7 +31,7 @@ pub(super) struct Worn<L: Lanes> {
     pub worn_through: L::Mask,
     /// Build-up on resin that breaks away, and is not worn through.
     pub broken: L::Mask,
-    /// What plateaus of the pin and what the disc really lost, m.
+    /// Heights that plateaus of the pin and the disc really lost, m.
     pub lost_pin: L,
     pub lost_disc: L,
 }
@@ -49,7 +49,7 @@ impl<L: Lanes> Worn<L> {
         L::select(self.resin, L::splat(f64::INFINITY), self.height())
     }
 
-    /// What plateaus and the disc really lost, m; the disc only under plateaus if that is asked for (v of model 4L).
+    /// Height that plateaus and the disc really lost, m; the disc only under plateaus if that is asked for (v of model 4L).
     #[inline(always)]
     pub fn lost<const DISC_WEARS: bool>(&self, under_plateaus: bool) -> L {
         match (DISC_WEARS, under_plateaus) {

@@ -223,7 +223,7 @@ fn splat_byte_sse2(byte: u8) -> __m128i {
     _mm_set1_epi32(i32::from(byte))
 }
 
-/// Which bytes have one of these bits set.
+/// Tells which bytes have one of these bits set, the first byte lowest.
 #[target_feature(enable = "avx2")]
 #[inline]
 fn some_of_avx2(bytes: &[u8; BYTES], rows: u8) -> u32 {
@@ -232,7 +232,7 @@ fn some_of_avx2(bytes: &[u8; BYTES], rows: u8) -> u32 {
     !_mm256_movemask_epi8(none) as u32
 }
 
-/// Which bytes have one of these bits set.
+/// Tells which bytes have one of these bits set, the first byte lowest.
 #[target_feature(enable = "sse2")]
 #[inline]
 fn some_of_sse2(bytes: &[u8; BYTES], rows: u8) -> u32 {
@@ -247,7 +247,7 @@ fn some_of_sse2(bytes: &[u8; BYTES], rows: u8) -> u32 {
     some
 }
 
-/// SSE2 has no instruction that selects.
+/// Selects by logical operations: SSE2 has no instruction for it.
 #[target_feature(enable = "sse2")]
 #[inline]
 fn select_sse2(no: __m128d, yes: __m128d, mask: __m128d) -> __m128d {
