@@ -36,7 +36,7 @@ pub struct Simulation {
     execution: Execution,
     workers: Workers,
     clock: Clock,
-    /// z_ref, m: the highest initial height of the disc.
+    /// Level z_ref, m: the highest initial height of the disc.
     reference_height: f64,
     /// Speed of the last step, rad/s, where another one is told since.
     last_speed: Option<f64>,
@@ -51,13 +51,13 @@ pub struct Simulation {
 struct LastMoment {
     /// Steps done, the step that the moment belongs to, and whether it is in a pause.
     of: (u64, u64, bool),
-    /// When it is, s.
+    /// Time of the moment, s.
     until: f64,
     accounts: Resting,
 }
 
 impl Simulation {
-    /// The state at t = 0, no build-up and no debris, on one worker.
+    /// Creates a simulation at t = 0, without build-up and debris, on one worker.
     ///
     /// # Errors
     /// [`SimulationError`] when the surfaces do not fit the mesh or hold a height that is not finite.
@@ -65,7 +65,7 @@ impl Simulation {
         Self::with_execution(parameters, surfaces, Execution::default())
     }
 
-    /// The same, carried out in a certain way.
+    /// Creates a simulation at t = 0 that is carried out in a certain way.
     ///
     /// # Errors
     /// [`SimulationError`] as [`Simulation::new`], and when there are no more threads to be had.
@@ -77,7 +77,7 @@ impl Simulation {
         Self::with_disc_turned(parameters, surfaces, execution, 0)
     }
 
-    /// The same with the disc turned by `columns` columns: step n faces the columns that step n + `columns` would face.
+    /// Creates a simulation with the disc turned by `columns` columns: step n faces the columns that step n + `columns` would face.
     ///
     /// # Errors
     /// [`SimulationError`] as [`Simulation::with_execution`].
@@ -99,7 +99,7 @@ impl Simulation {
         Ok(Self::of(parameters, pin_base, execution, workers, reference_height))
     }
 
-    /// The same as [`Simulation::new`] on the ranks of a job, of which this process is one, carried out in a certain way:
+    /// Creates a simulation as [`Simulation::new`] on the ranks of a job, of which this process is one, carried out in a certain way:
     /// `workers` are the ranks.
     ///
     /// All ranks must make the same calls in the same order, and get the same answers. Where there are more ranks than
@@ -146,7 +146,7 @@ impl Simulation {
         }
     }
 
-    /// One step: see the table in [`crate`].
+    /// Takes one step: see the table in [`crate`].
     ///
     /// # Errors
     /// [`SimulationError::Contact`] when no displacement carries the load, [`SimulationError::Worker`] when a worker
@@ -163,7 +163,7 @@ impl Simulation {
         self.take_steps(step, true)
     }
 
-    /// The same where no sample and no map of pressure is taken after the last of the steps: its pressures are not kept.
+    /// Takes steps until `step` of them are done, where no sample and no map of pressure is to follow: the last pressures are not kept.
     ///
     /// # Errors
     /// As [`Simulation::advance`].
@@ -220,7 +220,7 @@ impl Simulation {
         Ok(())
     }
 
-    /// What the simulation was told.
+    /// Returns the parameters, as they hold for the coming steps.
     pub fn parameters(&self) -> &Parameters {
         &self.parameters
     }
@@ -230,27 +230,27 @@ impl Simulation {
         &self.pin_base
     }
 
-    /// How it is carried out.
+    /// Returns the settings by which the simulation is carried out.
     pub fn execution(&self) -> Execution {
         self.execution
     }
 
-    /// What of the mesh each worker has, in words.
+    /// Describes in words which part of the mesh each worker has.
     pub fn decomposition(&self) -> String {
         workers::partition(&self.parameters, self.execution).told()
     }
 
-    /// What the steps so far were like.
+    /// Returns the summary of the steps so far.
     pub fn course(&self) -> Course {
         self.workers.course()
     }
 
-    /// What each worker thread exchanged with the others so far.
+    /// Returns the time and bytes of each worker thread's exchange with the others so far.
     pub fn exchanges(&self) -> Vec<Exchange> {
         self.workers.exchanges()
     }
 
-    /// Steps done.
+    /// Number of steps done.
     pub fn steps_done(&self) -> u64 {
         self.course().steps
     }
@@ -269,7 +269,7 @@ impl Simulation {
         }
     }
 
-    /// t, s.
+    /// Time t, s.
     pub fn time(&self) -> f64 {
         self.course().time
     }
@@ -332,13 +332,13 @@ impl Simulation {
         Ok(())
     }
 
-    /// What is kept, if it is of the last step.
+    /// Returns the contact that is kept, if it is of the last step.
     fn last_contact(&self) -> Option<&LastContact> {
         self.contact.as_ref().filter(|contact| contact.sample.step == self.steps_done())
     }
 
-    /// The same at a moment that the last step belongs to, with series on request. Each of those takes about as long as the
-    /// maps that it is measured of.
+    /// Returns the reported quantities at a moment that the last step belongs to, with series on request. Each of those takes about as
+    /// long as the maps that it is measured of.
     ///
     /// In a pause (model 9) without load nothing touches and there is no displacement; a pin that stands touches as in the
     /// step.
@@ -420,7 +420,7 @@ impl Simulation {
         self.snapshot_at(&Moment { step: steps, time, ..Moment::default() }, maps)
     }
 
-    /// The same at a moment that the last step belongs to: in a pause without load all pressures are 0.
+    /// Returns the maps asked for at a moment that the last step belongs to: in a pause without load all pressures are 0.
     ///
     /// # Errors
     /// As [`Simulation::snapshot`].
@@ -450,7 +450,7 @@ impl Simulation {
         values
     }
 
-    /// p of every pin cell at a moment, Pa; 0 beyond the pin's outline.
+    /// Pressure p of every pin cell at a moment, Pa; 0 beyond the pin's outline.
     fn pressures_at(&mut self, moment: &Moment) -> Result<Vec<f64>, SimulationError> {
         if moment.pause == Some(Kind::Lifted) {
             return Ok(vec![0.0; self.parameters.mesh.pin_cells()]);
@@ -461,7 +461,7 @@ impl Simulation {
         }
     }
 
-    /// T of every pin cell at a moment, K; no numbers where the pin is lifted, or no heat is reckoned.
+    /// Temperature T of every pin cell at a moment, K; no numbers where the pin is lifted, or no heat is reckoned.
     fn temperatures_at(&mut self, moment: &Moment) -> Result<Vec<f64>, SimulationError> {
         let pressure = self.pressures_at(moment)?;
         let AccountsReport { friction, heat, .. } = self.accounts_at(moment)?;
@@ -504,7 +504,7 @@ impl Simulation {
         Ok(Disc { height, substrate })
     }
 
-    /// z_d of every disc cell as it is now, m, column by column.
+    /// Surface height z_d of every disc cell as it is now, m, column by column.
     ///
     /// # Errors
     /// [`SimulationError::Worker`] when a worker failed.

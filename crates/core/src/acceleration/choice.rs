@@ -65,7 +65,7 @@ pub struct Choice {
     window: f64,
     /// Time of a revolution with m = 1, s.
     revolution: f64,
-    /// m that was wanted, before it was rounded to whole revolutions in a window.
+    /// Acceleration m that was wanted, before it was rounded to whole revolutions in a window.
     wanted: f64,
     acceleration: f64,
     /// Relative difference of the scout's contact area from the run's since the scout began, 1.
@@ -92,7 +92,7 @@ pub struct Chosen {
     pub smallest: f64,
     /// Largest m.
     pub largest: f64,
-    /// The last m.
+    /// Last m.
     pub last: f64,
     /// Estimate of the relative error of the contact area's history: root mean square of [`Choice::error`] over the time.
     pub estimated_error: f64,
@@ -141,7 +141,7 @@ impl Choice {
         }
     }
 
-    /// m of the coming steps.
+    /// Acceleration m of the coming steps.
     pub fn acceleration(&self) -> f64 {
         self.acceleration
     }

@@ -113,7 +113,7 @@ impl Scout {
         self.idle
     }
 
-    /// m of the run and the estimate of its error.
+    /// Choice of m of the run, with the estimate of its error.
     pub fn choice(&self) -> &Choice {
         &self.choice
     }

@@ -27,7 +27,7 @@ impl StatusPair {
     }
 }
 
-/// One coefficient by [`StatusPair::index`] and row.
+/// Table of one coefficient by [`StatusPair::index`] and row.
 pub type Table = [Vec<f64>; StatusPair::COUNT];
 
 /// The coefficients of every pair in every row.

@@ -80,7 +80,7 @@ impl Quantum {
         self.value
     }
 
-    /// Some 1.5 · 2^52 quanta: a number whose last bit is worth one quantum, so that the bits of `anchor` + x, less those
+    /// Anchor of some 1.5 · 2^52 quanta: its last bit is worth one quantum, so that the bits of `anchor` + x, less those
     /// of `anchor`, are x in quanta.
     pub fn anchor(self) -> f64 {
         self.anchor
@@ -260,7 +260,7 @@ impl Weights {
         self.rows[row] as f64 * self.unit
     }
 
-    /// Σ weight · count over some rows, in units.
+    /// Sum Σ weight · count over some rows, in units.
     pub fn sum(&self, rows: Range<usize>, counts: &[i64]) -> i128 {
         let weights = self.rows(rows);
         let counts = &counts[..weights.len()];

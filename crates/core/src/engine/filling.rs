@@ -42,7 +42,7 @@ impl RingSums {
 /// Filling and coverage of a worker's disc columns, kept up to date for the columns that passed under the pin.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Filling {
-    /// z_ref, m: highest initial height of the whole disc.
+    /// Level z_ref, m: highest initial height of the whole disc.
     reference: f64,
     /// Highest initial height of the pin, m.
     pin_reference: f64,
@@ -172,13 +172,13 @@ impl Filling {
         }
     }
 
-    /// Σ A (z_p − the pin's highest initial height) over a strip of a column of the pin, of the rows that are there.
+    /// Volume Σ A (z_p − the pin's highest initial height) over a strip of a column of the pin, of the rows that are there.
     pub fn pin_volume(&self, heights: &[f64], area: &[f64], is_there: impl Fn(usize) -> bool) -> ExactSum {
         let cells = heights.iter().zip(area).enumerate().filter(|(row, _)| is_there(*row));
         self.volume_unit.exact(cells.map(|(_, (height, area))| (height - self.pin_reference) * area).sum())
     }
 
-    /// z_ref, m: highest initial height of the whole disc.
+    /// Level z_ref, m: highest initial height of the whole disc.
     pub fn reference_height(&self) -> f64 {
         self.reference
     }

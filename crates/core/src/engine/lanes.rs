@@ -83,9 +83,9 @@ pub(crate) trait Integers: Copy {
     fn load(chunk: &IntegerChunk) -> Self;
     /// Stores the integers in memory.
     fn store(self, chunk: &mut IntegerChunk);
-    /// Sums.
+    /// Adds, and wraps.
     fn plus(self, other: Self) -> Self;
-    /// Differences.
+    /// Subtracts, and wraps.
     fn minus(self, other: Self) -> Self;
     /// Adds where the mask says so, and leaves the others as they are.
     fn plus_where(self, mask: Self::Mask, other: Self) -> Self;
@@ -109,9 +109,9 @@ pub(crate) trait Lanes: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Out
     fn load(chunk: &Chunk) -> Self;
     /// Stores the numbers in memory.
     fn store(self, chunk: &mut Chunk);
-    /// self < other.
+    /// Tells where self < other.
     fn below(self, other: Self) -> Self::Mask;
-    /// self ≥ other.
+    /// Tells where self ≥ other.
     fn at_least(self, other: Self) -> Self::Mask;
     /// Lesser of each; `other` where they are equal.
     fn lesser(self, other: Self) -> Self;

@@ -43,7 +43,7 @@ pub struct Strips {
 }
 
 impl Strips {
-    /// The same height everywhere.
+    /// Field of the same height (m) everywhere.
     pub fn new(rows: usize, columns: usize, height: f64) -> Self {
         Self { rows, columns, chunks: vec![Chunk([height; LANES]); strips(rows) * columns] }
     }
@@ -57,7 +57,7 @@ impl Strips {
         field
     }
 
-    /// A chunk.
+    /// Chunk of a strip and a column.
     pub fn chunk(&self, strip: usize, column: usize) -> &Chunk {
         &self.chunks[strip * self.columns + column]
     }
@@ -116,7 +116,7 @@ fn kept(field: &mut Option<Strips>, start: usize, columns: usize) -> &mut [Chunk
 /// The strip that is passed over next: a deposit looks at few places of it, too far apart for a processor to foresee.
 #[derive(Debug, Clone, Copy)]
 pub struct NextStrip {
-    /// Chunks to it from the same column of the strip that is passed over, of the pin and of the disc.
+    /// Distance in chunks to it from the same column of the strip that is passed over, of the pin and of the disc.
     to_pin: isize,
     to_disc: isize,
 }
@@ -125,7 +125,7 @@ impl NextStrip {
     /// Columns that are fetched at a time.
     const COLUMNS: usize = 16;
 
-    /// That of a strip; none where all strips of the pin stay near the processor from step to step.
+    /// Returns the strip after this one; none where all strips of the pin stay near the processor from step to step.
     #[inline]
     pub fn of(strip: usize, pin: &PinStrips, disc: &DiscSector) -> Option<Self> {
         (!pin.stays).then(|| Self { to_pin: pin.height.to_next(strip), to_disc: disc.height.to_next(strip) })
@@ -148,13 +148,13 @@ impl NextStrip {
 /// A sector of the disc: the columns from `first` on.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DiscSector {
-    /// Its first column on the ring.
+    /// First column on the ring.
     pub first: usize,
-    /// Its columns.
+    /// Number of columns.
     pub columns: usize,
-    /// z_d, m.
+    /// Surface height z_d, m.
     pub height: Strips,
-    /// b_d, m; where neither build-up nor wear ever parts them, b_d = z_d is not kept.
+    /// Substrate height b_d, m; where neither build-up nor wear ever parts them, b_d = z_d is not kept.
     pub substrate: Option<Strips>,
 }
 
@@ -182,48 +182,48 @@ impl DiscSector {
         (&mut self.height.strip_mut(strip)[first..][..columns], kept(&mut self.substrate, start, columns))
     }
 
-    /// b_d, m, kept or not.
+    /// Substrate height b_d, m, kept or not.
     pub fn substrate(&self) -> &Strips {
         self.substrate.as_ref().unwrap_or(&self.height)
     }
 }
 
-/// The pin.
+/// Pin as a worker stores it.
 ///
 /// A worker's pin is as wide as the whole pin, but only the columns over its own sectors are up to date.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PinStrips {
-    /// z_p, m.
+    /// Surface height z_p, m.
     pub height: Strips,
-    /// b_p, m; without formation a pin has no build-up, and b_p = z_p is not kept.
+    /// Substrate height b_p, m; without formation a pin has no build-up, and b_p = z_p is not kept.
     pub substrate: Option<Strips>,
-    /// Which rows of a strip are resin, one bit each.
+    /// Rows of a strip that are resin, column by column, one bit each.
     resin: Vec<u8>,
-    /// Which are plateaus at the start of the coming step: fibre or built up; follows from the heights.
+    /// Rows that are plateaus at the start of the coming step, one bit each: fibre or built up; follows from the heights.
     plateau: Vec<u8>,
-    /// Which touch in the coming step; from the last reading.
+    /// Rows that touch in the coming step, one bit each; from the last reading.
     touches: Vec<u8>,
-    /// Which cells are there; none where all are. The others are resin out of reach.
+    /// Cells that are there; none where all are. The others are resin out of reach.
     presence: Option<Presence>,
     columns: usize,
-    /// Whether z_p, b_p and z_d below them stay in a core's cache from step to step.
+    /// True if z_p, b_p and z_d below them stay in a core's cache from step to step.
     stays: bool,
 }
 
 /// Some columns of a strip of the pin, to change.
 #[derive(Debug)]
 pub struct PinStrip<'a> {
-    /// z_p, m.
+    /// Surface height z_p, m.
     pub height: &'a mut [Chunk],
-    /// b_p, m; empty where it is not kept.
+    /// Substrate height b_p, m; empty where it is not kept.
     pub substrate: &'a mut [Chunk],
-    /// Which rows are resin, one bit each.
+    /// Rows that are resin, one bit each.
     pub resin: &'a [u8],
-    /// Which rows are plateaus at the start of the coming step, one bit each.
+    /// Rows that are plateaus at the start of the coming step, one bit each.
     pub plateau: &'a mut [u8],
-    /// Which rows touch in the coming step, one bit each.
+    /// Rows that touch in the coming step, one bit each.
     pub touches: &'a mut [u8],
-    /// Which rows are there, one bit each; empty where all are.
+    /// Rows that are there, one bit each; empty where all are.
     pub present: &'a [u8],
 }
 
@@ -252,7 +252,7 @@ impl PinStrips {
         Self { height, substrate, resin, plateau, touches, presence, columns, stays }
     }
 
-    /// Those of some columns of a strip, counted from their first, outside of which no cell is there.
+    /// Range of some columns of a strip, counted from their first, outside of which no cell is there.
     #[inline]
     pub fn extent(&self, strip: usize, columns: Range<usize>) -> Range<usize> {
         match &self.presence {
@@ -261,12 +261,12 @@ impl PinStrips {
         }
     }
 
-    /// Whether a cell is there.
+    /// Tells whether a cell is there.
     pub fn is_present(&self, row: usize, column: usize) -> bool {
         self.presence.as_ref().is_none_or(|presence| presence.has(row, column))
     }
 
-    /// Which rows of a strip are resin, column by column.
+    /// Rows of a strip that are resin, column by column, one bit each.
     #[inline]
     pub fn resin(&self, strip: usize) -> &[u8] {
         &self.resin[strip * self.columns..][..self.columns]
@@ -277,7 +277,7 @@ impl PinStrips {
         self.touches[row / LANES * self.columns + column] |= 1 << (row % LANES);
     }
 
-    /// So many columns of a strip, from one on.
+    /// Returns so many columns of a strip, from one on.
     #[inline(always)]
     pub fn strip_mut(&mut self, strip: usize, first: usize, columns: usize) -> PinStrip<'_> {
         let start = strip * self.columns + first;
@@ -295,17 +295,17 @@ impl PinStrips {
         }
     }
 
-    /// Whether a cell's base is resin.
+    /// Tells whether a cell's base is resin.
     pub fn is_resin(&self, row: usize, column: usize) -> bool {
         self.resin(row / LANES)[column] >> (row % LANES) & 1 == 1
     }
 
-    /// b_p, m, kept or not; lower than z_p where a cell wears and no debris has come upon it since.
+    /// Substrate height b_p, m, kept or not; lower than z_p where a cell wears and no debris has come upon it since.
     pub fn substrate(&self) -> &Strips {
         self.substrate.as_ref().unwrap_or(&self.height)
     }
 
-    /// b_p of a column, m.
+    /// Substrate height b_p of a column, m.
     pub fn substrate_column(&self, column: usize) -> impl Iterator<Item = f64> + '_ {
         let cells = self.height.column(column).zip(self.substrate().column(column));
         cells.map(|(height, substrate)| if substrate > height { substrate } else { height })
@@ -372,15 +372,15 @@ fn put_out_of_reach(presence: &Presence, field: &mut Strips, column: usize) {
 /// The cells of the pin that are there.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Presence {
-    /// Which rows of a strip are there, one bit each; rows that only fill up the last strip count as there.
+    /// Rows of a strip that are there, column by column, one bit each; rows that only fill up the last strip count as there.
     cells: Vec<u8>,
-    /// Of each strip the columns outside of which no cell is there.
+    /// Columns of each strip outside of which no cell is there.
     extents: Vec<Range<usize>>,
     columns: usize,
 }
 
 impl Presence {
-    /// Some rows of the pin, from the beginning of a strip on; none where all cells are there.
+    /// Presence of some rows of the pin, from the beginning of a strip on; none where all cells are there.
     pub fn of(mesh: &Mesh, own: Range<usize>) -> Option<Self> {
         if mesh.is_rectangle() {
             return None;
@@ -404,13 +404,13 @@ impl Presence {
         Some(Self { cells, extents, columns })
     }
 
-    /// Which rows of a strip are there, in some of its columns.
+    /// Rows of a strip that are there in some of its columns, one bit each.
     #[inline]
     pub fn cells(&self, strip: usize, columns: &Range<usize>) -> &[u8] {
         &self.cells[strip * self.columns..][..self.columns][columns.clone()]
     }
 
-    /// Those of some columns of a strip, counted from their first, outside of which no cell is there.
+    /// Range of some columns of a strip, counted from their first, outside of which no cell is there.
     #[inline]
     pub fn extent(&self, strip: usize, columns: &Range<usize>) -> Range<usize> {
         let count = |column: usize| column.clamp(columns.start, columns.end) - columns.start;
@@ -418,7 +418,7 @@ impl Presence {
         count(*start)..count(*end)
     }
 
-    /// Whether a cell is there.
+    /// Tells whether a cell is there.
     pub fn has(&self, row: usize, column: usize) -> bool {
         self.cells[row / LANES * self.columns + column] >> (row % LANES) & 1 == 1
     }

@@ -1,4 +1,4 @@
-//! What the load balance and the debris need to know of all cells: exact sums.
+//! Exact sums over all cells that the load balance and the debris need.
 //!
 //! What a pair carries and loses is proportional to its overlap, with a weight of its statuses and row. So a few
 //! weighted sums of the counts of a pass stand for all its cells; and as they are integers, those of many workers add
@@ -17,25 +17,25 @@ use serde::{Deserialize, Serialize};
 /// The weights of every row, for what is summed.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RowWeights {
-    /// k A by pair, N/m.
+    /// Stiffness k A by pair, N/m.
     pub stiffness: [Weights; StatusPair::COUNT],
-    /// A, m².
+    /// Area A, m².
     pub area: Weights,
     /// Raw volume that plateaus of the pin lose per overlap, by pair, m².
     pub pin_loss: [Weights; StatusPair::COUNT],
-    /// The same of the disc.
+    /// Raw volume that the disc loses per overlap, by pair, m².
     pub disc_loss: [Weights; StatusPair::COUNT],
-    /// The largest k A by pair, N/m.
+    /// Largest stiffness k A by pair, N/m.
     pub largest_stiffness: [f64; StatusPair::COUNT],
     /// Pairs that are told apart.
     pub pairs: &'static [usize],
-    /// Of which the volumes that few cells of a step move are multiples.
+    /// Unit of the volumes that few cells of a step move, m³.
     pub volume: Unit,
-    /// Of which raw losses of pairs are multiples that begin to touch within a bracket.
+    /// Unit of the raw losses of pairs that begin to touch within a bracket, m³.
     pub raw: Unit,
-    /// What no load of a step may be above, N.
+    /// Largest load that a step may have, N.
     pub largest_load: f64,
-    /// How far the initial heights of pin and disc are apart from the lowest to the highest of each, m.
+    /// Relief of the initial surfaces, m: from the lowest to the highest height of the disc, plus the same of the pin.
     pub relief: f64,
     pub needs: Needs,
     /// Rows of the worker.
@@ -70,12 +70,12 @@ impl RowWeights {
         }
     }
 
-    /// k A of a pair, N/m.
+    /// Stiffness k A of a pair, N/m.
     pub fn stiffness_of(&self, near: &NearPair) -> f64 {
         self.stiffness[usize::from(near.pair)].value(near.row as usize)
     }
 
-    /// Raw volume that a plateau of the pin loses that begins to touch within a bracket, where all have the same properties.
+    /// Raw volume that a plateau of the pin that begins to touch within a bracket loses, where all have the same properties.
     pub fn near_loss(&self, row: usize, overlap: f64) -> ExactSum {
         self.raw.exact(self.pin_loss[PLATEAU].value(row) * overlap)
     }
@@ -94,19 +94,19 @@ fn times_area(rows: &[f64], mesh: &Mesh) -> Vec<f64> {
 /// Sums over the pairs of one kind that touch at the lower end of a bracket, in units and quanta.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct PairSums {
-    /// Σ k A (low − g).
+    /// Load Σ k A (low − g).
     pub load: i128,
-    /// Σ k A.
+    /// Slope Σ k A.
     pub stiffness: i128,
-    /// Σ A.
+    /// Area Σ A.
     pub area: i128,
-    /// Σ raw loss of the pin's volume at the lower end.
+    /// Sum of raw losses of the pin's volume at the lower end.
     pub pin_loss: i128,
-    /// … and per displacement beyond it.
+    /// Sum of raw losses of the pin's volume per displacement beyond the lower end.
     pub pin_loss_rate: i128,
-    /// Σ raw loss of the disc's volume at the lower end.
+    /// Sum of raw losses of the disc's volume at the lower end.
     pub disc_loss: i128,
-    /// … and per displacement beyond it.
+    /// Sum of raw losses of the disc's volume per displacement beyond the lower end.
     pub disc_loss_rate: i128,
 }
 
@@ -117,33 +117,33 @@ pub struct Sums {
     pub pairs: [PairSums; StatusPair::COUNT],
     /// Volume compacted on the pin, in units and quanta of the deposits.
     pub deposited_pin: i128,
-    /// The same on the disc.
+    /// Volume compacted on the disc, in units and quanta of the deposits.
     pub deposited_disc: i128,
     /// Volume that plateaus of the pin lost, in units and coarse and fine quanta of the losses; only where build-up has
     /// properties of its own.
     pub lost_pin: [i128; 2],
-    /// The same of the disc.
+    /// Volume that the disc lost, in the same units and quanta.
     pub lost_disc: [i128; 2],
     /// Volume of build-up that broke away.
     pub returned: ExactSum,
     /// Volume compacted on the pin of what resin ahead lost.
     pub deposited_pin_of_resin: ExactSum,
-    /// The same on the disc.
+    /// Volume compacted on the disc of what resin ahead lost.
     pub deposited_disc_of_resin: ExactSum,
     /// Volume of build-up on resin that was worn through, where it has the properties of fibre.
     pub worn_through: ExactSum,
-    /// Raw volume that it would have lost.
+    /// Raw volume that this build-up would have lost.
     pub raw_through: RawLoss,
 }
 
 /// Raw volume that plateaus of the pin lose, of parts that add up and come off exactly.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub struct RawLoss {
-    /// Of the pairs that touch at the lower end of the bracket, there, in units and quanta.
+    /// Loss at the lower end of the bracket, of the pairs that touch there, in units and quanta.
     pub low: i128,
-    /// … and per displacement beyond it, in units.
+    /// Loss of these pairs per displacement beyond the lower end, in units.
     pub rate: i128,
-    /// Of the pairs that begin to touch within the bracket.
+    /// Loss of the pairs that begin to touch within the bracket.
     pub near: ExactSum,
 }
 
@@ -256,13 +256,13 @@ impl RowWeights {
 }
 
 impl Sums {
-    /// What happens in few cells.
+    /// Returns the sums of what happens in few cells.
     fn seldom(&mut self) -> [&mut ExactSum; 5] {
         let Self { returned, deposited_pin_of_resin, deposited_disc_of_resin, worn_through, raw_through, .. } = self;
         [returned, deposited_pin_of_resin, deposited_disc_of_resin, worn_through, &mut raw_through.near]
     }
 
-    /// What is counted in quanta.
+    /// Returns the sums that are counted in quanta.
     fn counted(&mut self) -> [&mut i128; 8] {
         let Self { deposited_pin, deposited_disc, lost_pin, lost_disc, raw_through, .. } = self;
         let [[pin, pin_rest], [disc, disc_rest]] = [lost_pin, lost_disc];

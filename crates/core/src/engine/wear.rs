@@ -9,7 +9,7 @@ use crate::engine::lanes::Lanes;
 pub(crate) struct Worn<L> {
     /// New surface height, m.
     pub height: L,
-    /// What was really lost, m.
+    /// Height that was really lost, m.
     pub lost: L,
 }
 
@@ -36,7 +36,7 @@ pub(crate) fn disc<L: Lanes>(height: L, substrate: L, raw: L, below: L) -> Worn<
     Worn { height: upside_down(worn.height), lost: worn.lost }
 }
 
-/// Off 0 and not negated, so that the height 0 stays 0 and does not become −0, which is equal but has other bits.
+/// Subtracts heights from 0, and does not negate them, so that the height 0 stays 0 and does not become −0, which has other bits.
 #[inline(always)]
 fn upside_down<L: Lanes + Sub>(heights: L) -> L {
     L::splat(0.0) - heights

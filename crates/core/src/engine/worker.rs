@@ -34,7 +34,7 @@ use crate::model::parameters::Parameters;
 use crate::model::state::InitialSurfaces;
 pub(crate) use columns::{halo_words, waiting_columns};
 
-/// What the engine keeps from step to step.
+/// State that the engine keeps from step to step.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(crate) struct EngineMemory {
     pub contact: Contact,
@@ -56,8 +56,8 @@ pub(crate) struct Worker {
     edge_of: EdgeOf,
     rules: Rules,
     coefficients: Coefficients,
-    /// Of which the overlaps of the coming steps are counted as multiples, by the largest of the last step; of the first,
-    /// by the largest that the load allows.
+    /// Quantum of the overlaps of the coming steps, m, by the largest of the last step; of the first, by the largest that the load
+    /// allows.
     overlap_quantum: Quantum,
     pin: PinStrips,
     /// The worker's own sectors, by their number.
@@ -67,27 +67,27 @@ pub(crate) struct Worker {
     debris: Debris,
     history: History,
     filling: Filling,
-    /// Where the displacement of the coming step is expected; none before the first step.
+    /// Displacements between which the next load balance is expected; none before the first step.
     bracket: Option<Bracket>,
-    /// The pairs of the coming step against it.
+    /// Reading of the pairs of the coming step against the bracket.
     reading: Reading,
-    /// What the last pass moved.
+    /// Heights that the last pass moved.
     moved: Moved,
     weights: RowWeights,
-    /// What all workers read and moved.
+    /// Sums of what all workers read and moved.
     sums: Sums,
-    /// What the first pin column over each sector loses; empty where nothing forms.
+    /// Heights and losses of the first pin columns over each sector; empty where nothing forms.
     edges: Vec<Edge>,
     message: Vec<u64>,
     halo: Vec<u64>,
     /// The own pairs that touched in the last step that was watched: of a step pressures are seldom asked for.
     touching: Vec<NearPair>,
-    /// Whether that was the last step.
+    /// True if the last step was watched.
     is_watched: bool,
     course: Course,
     /// Friction, heat and emission, where the scene asks for any.
     accounts: Option<Box<Accounts>>,
-    /// f_κ with which the coefficients were made.
+    /// Factor f_κ with which the coefficients were made, 1.
     wear_rate_factor: f64,
     clock: Clock,
     /// Load and time of the step that is being taken, or was taken last.
@@ -192,7 +192,7 @@ impl Worker {
         if steps > 0 && !self.is_watched { Err(SimulationError::NotWatched { step: steps }) } else { Ok(()) }
     }
 
-    /// One step:
+    /// Takes one step:
     ///
     /// | model | what happens | where |
     /// |---|---|---|
@@ -245,7 +245,7 @@ impl Worker {
         self.parameters.mesh.disc_column(0, self.turned + self.course.steps.saturating_sub(1))
     }
 
-    /// What the steps so far were like.
+    /// Returns the summary of the steps so far.
     pub fn course(&self) -> Course {
         Course { contact_area_integral: self.history.integral(), ..self.course }
     }
@@ -302,7 +302,7 @@ impl Worker {
         self.debris.set_coefficients(&self.coefficients);
     }
 
-    /// What all workers know alike.
+    /// Returns the state that all workers know alike.
     pub fn memory(&self) -> (Memory, EngineMemory) {
         let memory = Memory {
             course: self.course,
@@ -360,7 +360,7 @@ impl Worker {
         Ok(())
     }
 
-    /// The sums over all workers after a pass that read the next step against a bracket.
+    /// Gathers the sums over all workers after a pass that read the next step against a bracket.
     fn gather_pass(&mut self, bracket: &Bracket) -> Result<(), SimulationError> {
         self.sums.take_reading(&self.weights, &self.reading, bracket);
         if let Some(taken) = &self.bracket {
@@ -369,7 +369,7 @@ impl Worker {
         self.exchange(true)
     }
 
-    /// The sums over all workers after the coming step was read once more.
+    /// Gathers the sums over all workers after the coming step was read once more.
     fn gather_reading(&mut self, bracket: &Bracket) -> Result<(), SimulationError> {
         self.sums.take_reading(&self.weights, &self.reading, bracket);
         self.exchange(false)

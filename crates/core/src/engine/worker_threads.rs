@@ -15,7 +15,7 @@ use crate::model::error::SimulationError;
 use crate::model::memory::{Course, Heights, Memory};
 use crate::observe::{Map, Sample, Snapshot};
 
-/// What all workers are to do together.
+/// Order to all workers, which they follow together.
 #[derive(Debug, Clone)]
 enum Order {
     /// Take steps until so many are done, and watch the last or not.
@@ -34,7 +34,7 @@ enum Order {
     Snapshot(Vec<Map>),
 }
 
-/// What the first worker answers, for all.
+/// Answer of the first worker, for all.
 #[derive(Debug)]
 enum Answer {
     Course(Course),
@@ -51,7 +51,7 @@ pub(crate) struct WorkerThreads {
     threads: Vec<JoinHandle<()>>,
     alarms: Vec<Alarm>,
     course: Course,
-    /// Why there are no more answers.
+    /// Reason that there are no more answers.
     failure: Option<SimulationError>,
 }
 
@@ -130,7 +130,7 @@ impl WorkerThreads {
         self.go(&Order::Restore(Arc::new((heights.clone(), memory.clone(), engine.clone()))))
     }
 
-    /// What all workers know alike.
+    /// Returns the state that all workers know alike.
     pub fn memory(&mut self) -> Result<(Memory, EngineMemory), SimulationError> {
         match self.ask(&Order::Memory)? {
             Answer::Memory(memory) => Ok(*memory),
@@ -154,12 +154,12 @@ impl WorkerThreads {
         }
     }
 
-    /// What the steps so far were like.
+    /// Returns the summary of the steps so far.
     pub fn course(&self) -> Course {
         self.course
     }
 
-    /// What each worker exchanged so far.
+    /// Returns the time and bytes of each worker's exchange so far.
     pub fn exchanges(&self) -> Vec<Exchange> {
         self.alarms.iter().map(Alarm::exchange).collect()
     }
@@ -176,7 +176,7 @@ impl Drop for WorkerThreads {
     }
 }
 
-/// A thread's life: follows orders until there are no more, or one cannot be followed.
+/// Follows orders until there are no more, or one cannot be followed.
 fn work(
     rank: usize,
     mut worker: Worker,

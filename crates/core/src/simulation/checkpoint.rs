@@ -19,27 +19,27 @@ use crate::observe::Sample;
 pub struct Checkpoint {
     /// Heights of both surfaces.
     pub heights: Heights,
-    /// What only some simulations have.
+    /// Parts that only some simulations have.
     pub(crate) kept: Kept,
-    /// What is kept beside the heights.
+    /// State that is kept beside the heights.
     pub(crate) memory: Memory,
-    /// What the engine keeps beside it; the plain model needs nothing more.
+    /// State that the engine keeps beside it; the plain model needs nothing more.
     pub(crate) engine: Option<EngineMemory>,
 }
 
-/// What a state has of simulations in a pause, and of those whose load and speed were set.
+/// Parts of a state that only simulations in a pause have, and those whose load and speed were set.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(crate) enum Kept {
-    /// Neither.
+    /// Nothing: load and speed are those of the scene, and no contact is kept.
     Nothing,
-    /// What the last step showed, where it may be reported once more: in a pause.
+    /// Contact of the last step, where it may be reported once more: in a pause.
     Contact(LastContact),
-    /// Load and speed of the coming steps, speed of the last one (rad/s) if it had another, and the same where it may be.
+    /// Load and speed of the coming steps, speed of the last one (rad/s) if it had another, and the contact of the last step if kept.
     Control(Operation, Option<f64>, Option<LastContact>),
 }
 
 impl Kept {
-    /// What there is.
+    /// Picks the parts that a simulation has.
     pub fn new(operation: Operation, last_speed: Option<f64>, contact: Option<LastContact>) -> Self {
         match (operation.control, contact) {
             (Some(_), contact) => Self::Control(operation, last_speed, contact),
@@ -48,12 +48,12 @@ impl Kept {
         }
     }
 
-    /// Load and speed, and speed of the last step if it had another.
+    /// Load and speed, and speed of the last step (rad/s) if it had another.
     pub fn control(&self) -> Option<(Operation, Option<f64>)> {
         if let Self::Control(operation, last_speed, _) = self { Some((*operation, *last_speed)) } else { None }
     }
 
-    /// What the last step showed.
+    /// Returns the contact of the last step, if it is kept.
     pub fn contact(&self) -> Option<&LastContact> {
         match self {
             Self::Nothing => None,
@@ -63,36 +63,36 @@ impl Kept {
     }
 }
 
-/// What the last step showed, kept while the pin rests.
+/// Sample and pressures of the last step, kept while the pin rests.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(crate) struct LastContact {
     pub sample: Sample,
-    /// p of every pin cell, Pa, column by column.
+    /// Pressure p of every pin cell, Pa, column by column.
     pub pressure: Vec<f64>,
 }
 
 impl Checkpoint {
-    /// Steps done.
+    /// Number of steps done.
     pub fn steps(&self) -> u64 {
         self.memory.course.steps
     }
 
-    /// What took its steps.
+    /// Returns the engine that took the steps.
     pub fn engine(&self) -> Engine {
         if self.engine.is_some() { Engine::Fast } else { Engine::Plain }
     }
 
-    /// When its steps end.
+    /// Returns the clock, which tells when steps end.
     pub fn clock(&self) -> Clock {
         self.memory.clock
     }
 
-    /// t, s.
+    /// Time t, s.
     pub fn time(&self) -> f64 {
         self.memory.course.time
     }
 
-    /// Whether it is of so many cells.
+    /// Checks that the state is of as many cells as a mesh has.
     ///
     /// # Errors
     /// [`WrongMesh`].
@@ -108,7 +108,7 @@ impl Checkpoint {
         wrong.map_or(Ok(()), |(body, field, expected)| Err(WrongMesh { body, found: field.len(), expected }))
     }
 
-    /// What of it is not as a simulation of the same run has it, in words; none where all of it is.
+    /// Names the first part that is not as a simulation of the same run has it, in words; none where all of it is.
     pub(crate) fn misfit(&self, own: &Memory, own_engine: Option<&EngineMemory>) -> Option<&'static str> {
         let both = self.engine.as_ref().zip(own_engine);
         let differs =

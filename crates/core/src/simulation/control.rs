@@ -1,4 +1,4 @@
-//! What is changed from outside between two steps: load and speed, and heights.
+//! Changes from outside between two steps: of load and speed, and of heights.
 
 use std::sync::Arc;
 
@@ -13,7 +13,7 @@ use crate::model::parameters::Parameters;
 const ROUNDING: f64 = 1e-15;
 
 impl Operation {
-    /// Whether a simulation with so many steps done can be told it.
+    /// Tells whether a simulation with so many steps done can be given this operation.
     pub(super) fn is_possible(&self, steps: u64) -> bool {
         let Some(Control { steps: since, angle, largest_load }) = self.control else { return false };
         let numbers = [self.load, self.angular_velocity, largest_load];
@@ -68,19 +68,19 @@ impl Simulation {
         Ok(())
     }
 
-    /// What the coming steps are told.
+    /// Returns load and speed of the coming steps.
     pub(super) fn operation(&self) -> Operation {
         let Parameters { normal_force, angular_velocity, control, .. } = *self.parameters;
         Operation { load: normal_force, angular_velocity, control }
     }
 
-    /// Takes over other heights; statuses follow from them. Volumes that are reported count what steps moved, so that
-    /// `balance_residual` shows what was changed here. Pressures of the last step are kept only after
-    /// [`Simulation::keep_contact`].
+    /// Takes over other heights; statuses follow from them. Volumes that are reported count what steps moved, so that `balance_residual`
+    /// shows what was changed here. Pressures of the last step are kept only after [`Simulation::keep_contact`].
     ///
     /// # Errors
     /// [`SimulationError::Checkpoint`] where the sizes are not those of the mesh, [`SimulationError::Cell`] for a height that is no
-    /// finite number, on the wrong side of its substrate, or above the disc's highest initial height where debris fills the disc, [`SimulationError::Worker`] when a worker failed.
+    /// finite number, on the wrong side of its substrate, or above the disc's highest initial height where debris fills the disc,
+    /// [`SimulationError::Worker`] when a worker failed.
     pub fn set_heights(&mut self, mut heights: Heights) -> Result<(), SimulationError> {
         for cell in self.parameters.mesh.absent_cells() {
             for field in [&mut heights.pin_height, &mut heights.pin_substrate] {

@@ -25,7 +25,7 @@ pub(crate) struct Plain {
     history: History,
     course: Course,
     clock: Clock,
-    /// V(0), m³.
+    /// Open volume V(0), m³.
     initial_volume: f64,
     /// Initial heights of disc and pin, m.
     initial_heights: [Vec<f64>; 2],
@@ -35,7 +35,7 @@ pub(crate) struct Plain {
 }
 
 impl Plain {
-    /// t = 0, over a disc turned by `turned` columns.
+    /// Creates a simulation at t = 0, over a disc turned by `turned` columns.
     pub fn new(parameters: Arc<Parameters>, surfaces: InitialSurfaces, turned: u64) -> Self {
         let mut state = State::new(&parameters, surfaces);
         state.turned = turned;
@@ -120,12 +120,12 @@ impl Plain {
         self.course.largest_stiffness_number = self.course.largest_stiffness_number.max(stiffness_number);
     }
 
-    /// What the steps so far were like.
+    /// Returns the summary of the steps so far.
     pub fn course(&self) -> Course {
         Course { contact_area_integral: self.history.integral(), ..self.course }
     }
 
-    /// What is kept beside the surfaces.
+    /// Returns the state that is kept beside the surfaces.
     pub fn memory(&self) -> Memory {
         let pool = |volume: &f64| {
             let mut pool = RunningSum::default();
@@ -242,7 +242,7 @@ impl Plain {
         })
     }
 
-    /// |Σ p A − F_N| / F_N of a step.
+    /// Residual |Σ p A − F_N| / F_N of a step, 1.
     fn load_residual(&self, step: &Step) -> f64 {
         let areas = self.parameters.mesh.area().iter().cycle();
         let load: f64 = step.pressure.iter().zip(areas).map(|(pressure, area)| pressure * area).sum();
@@ -261,7 +261,7 @@ impl Plain {
         lost.value()
     }
 
-    /// V = Σ A (z_ref − z_d)₊, m³.
+    /// Open volume V = Σ A (z_ref − z_d)₊, m³.
     fn open_volume(&self) -> f64 {
         let State { disc, reference_height, .. } = &self.state;
         let cells = disc.height.iter().zip(self.parameters.mesh.area().iter().cycle());

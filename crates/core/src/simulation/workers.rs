@@ -1,4 +1,4 @@
-//! Who takes the steps of a simulation.
+//! Workers that take the steps of a simulation.
 
 use std::sync::Arc;
 
@@ -19,7 +19,7 @@ use crate::model::parameters::Parameters;
 use crate::model::state::InitialSurfaces;
 use crate::observe::{Map, Sample, Snapshot};
 
-/// Who takes the steps.
+/// Workers that take the steps.
 #[derive(Debug)]
 pub(super) enum Workers {
     /// This thread, alone or, each for itself, with the other processes of a job.
@@ -48,7 +48,7 @@ pub(super) fn partition(parameters: &Parameters, execution: Execution) -> Arc<Pa
 }
 
 impl Workers {
-    /// Those of a simulation at t = 0, over a disc turned by `turned` columns.
+    /// Starts the workers of a simulation at t = 0, over a disc turned by `turned` columns.
     pub fn start(
         parameters: &Arc<Parameters>,
         surfaces: InitialSurfaces,
@@ -102,7 +102,7 @@ impl Workers {
         call!(self, worker => worker.operate(operation))
     }
 
-    /// What is kept beside the surfaces.
+    /// Returns the state that is kept beside the surfaces.
     pub fn memory(&mut self) -> Result<(Memory, Option<EngineMemory>), SimulationError> {
         let (memory, engine) = match self {
             Self::One(worker) => worker.memory(),
@@ -145,12 +145,12 @@ impl Workers {
         call!(self, worker => worker.snapshot(maps))
     }
 
-    /// What the steps so far were like.
+    /// Returns the summary of the steps so far.
     pub fn course(&self) -> Course {
         call!(self, worker => worker.course())
     }
 
-    /// What each thread exchanged with the others so far; one alone, nothing.
+    /// Returns the time and bytes of each thread's exchange with the others so far; zeros for one alone and for a rank of a job.
     pub fn exchanges(&self) -> Vec<Exchange> {
         match self {
             Self::Threads(threads) => threads.exchanges(),

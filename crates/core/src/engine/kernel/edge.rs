@@ -11,13 +11,13 @@ pub struct Edge {
 /// Heights and losses of the cells ahead of eight cells in their rows, from the state at the start of a step.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Reach {
-    /// z_p of the next column after wear and before any deposit, m; out of reach where it was no plateau.
+    /// Height z_p of the next column after wear and before any deposit, m; out of reach where it was no plateau.
     pub height: Chunk,
-    /// v̄ of the edge that the next column is fed from, m; of no meaning where debris is spread over one column.
+    /// Share v̄ of the edge that the next column is fed from, m; of no meaning where debris is spread over one column.
     pub share: Chunk,
     /// Cells that touch in each of the next L columns, one bit each.
     pub touches: Vec<u8>,
-    /// v of each of these columns, m; without a transport length what the next column loses and may be compacted behind, m.
+    /// Loss v of each of these columns, m; without a transport length what the next column loses and may be compacted behind, m.
     pub lost: Vec<Chunk>,
 }
 
@@ -30,9 +30,9 @@ pub(super) struct Edges {
     pub open: Vec<u8>,
     /// Cells that an edge feeds in each column of the strip, one bit each: open ones with a cell that touches within L columns ahead.
     pub fed: Vec<u8>,
-    /// v of each column of the strip and of L columns ahead of it, m; of no meaning where nothing touches.
+    /// Loss v of each column of the strip and of L columns ahead of it, m; of no meaning where nothing touches.
     pub lost: Vec<Chunk>,
-    /// v̄ of the edge behind each of the columns of the strip and behind the next, m; of no meaning where nothing touches.
+    /// Share v̄ of the edge behind each of the columns of the strip and behind the next, m; of no meaning where nothing touches.
     pub share: Vec<Chunk>,
     /// Cells of the columns of the strip that were plateaus at the start of the step, one bit each, and all of the next.
     pub plateau: Vec<u8>,

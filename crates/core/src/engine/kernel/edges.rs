@@ -243,8 +243,8 @@ fn keep_present(fed: &mut [u8], strip: &Strip) {
     }
 }
 
-/// Σ v of the first of L columns and the others as far as cells touch, m, of some cells; of the columns is given what touches and
-/// what it loses.
+/// Sum of v of the first of L columns and the others as far as cells touch, m, of some cells; of the columns is given what touches
+/// and what it loses.
 #[inline(always)]
 fn gathered<L: Lanes>(mut run: u8, touches: &[u8], lost: &[Chunk]) -> L {
     let lost = &lost[..touches.len()];
@@ -267,9 +267,9 @@ struct Losses<'a, L: Lanes> {
     touches: &'a [u8],
     /// Cells that touch from the second column on, one bit each.
     touches_ahead: &'a [u8],
-    /// v of each column, m, where L is more than [`NEAR`].
+    /// Loss v of each column, m, where L is more than [`NEAR`].
     lost: &'a mut [Chunk],
-    /// η/L.
+    /// Factor η/L, 1.
     part: L,
     share: &'a mut [Chunk],
 }

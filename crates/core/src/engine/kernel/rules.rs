@@ -21,7 +21,7 @@ pub struct Rules {
     pub(super) coating: ChunkTable,
     /// Wear height h_m, m.
     pub(super) wear_height: f64,
-    /// −σ_b/k on the coating and on the disc's build-up, m: with less clearance build-up on resin breaks away; none where it
+    /// Clearance −σ_b/k on the coating and on the disc's build-up, m: with less, build-up on resin breaks away; none where it
     /// never does.
     pub(super) strength: Option<[f64; 2]>,
     /// Level z_ref up to which local debris fills the disc, m.
@@ -114,9 +114,9 @@ pub(super) struct StripRules<'a, L: Lanes> {
     pub pin_loss: Entries<L>,
     /// Raw loss of the disc per overlap, negative.
     pub disc_loss: Entries<L>,
-    /// Δh_sub/Δh of the fibre below a build-up.
+    /// Ratio Δh_sub/Δh of the fibre below a build-up, 1.
     pub fibre: Entries<L>,
-    /// Δh_sub/Δh of the coating below a build-up.
+    /// Ratio Δh_sub/Δh of the coating below a build-up, 1.
     pub coating: Entries<L>,
 }
 

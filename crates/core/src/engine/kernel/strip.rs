@@ -18,11 +18,11 @@ pub(super) struct Strip<'a> {
     pub pin: PinStrip<'a>,
     /// Columns outside of which no cell of the pin is there.
     pub extent: Range<usize>,
-    /// z_d, m.
+    /// Surface height z_d, m.
     pub disc_height: &'a mut [Chunk],
-    /// b_d, m; empty where it is not kept.
+    /// Substrate height b_d, m; empty where it is not kept.
     pub disc_substrate: &'a mut [Chunk],
-    /// z_d of the column behind the first, m; infinitely low where that is not to be read.
+    /// Surface height z_d of the column behind the first, m; infinitely low where that is not to be read.
     behind_height: Chunk,
     /// Secondary cells of the column behind the first, one bit each.
     behind_secondary: u8,

@@ -20,7 +20,7 @@ pub(super) struct Cells<L: Lanes> {
 #[derive(Clone, Copy)]
 pub(super) struct Worn<L: Lanes> {
     pub z_p: L,
-    /// b_p before wear, m; that after it is no less than z_p.
+    /// Substrate height b_p before wear, m; that after it is no less than z_p.
     pub b_p: L,
     pub z_d: L,
     pub b_d: L,
@@ -37,13 +37,13 @@ pub(super) struct Worn<L: Lanes> {
 }
 
 impl<L: Lanes> Worn<L> {
-    /// z_p without the build-up that is worn through or breaks away, m.
+    /// Surface height z_p without the build-up that is worn through or breaks away, m.
     #[inline(always)]
     pub fn height(&self) -> L {
         L::select(self.worn_through | self.broken, self.b_p, self.z_p)
     }
 
-    /// z_p without such build-up, m, out of reach where there was no plateau before wear.
+    /// Surface height z_p without such build-up, m, out of reach where there was no plateau before wear.
     #[inline(always)]
     pub fn height_of_plateaus(&self) -> L {
         L::select(self.resin, L::splat(f64::INFINITY), self.height())

@@ -195,14 +195,14 @@ macro_rules! split {
     };
 }
 
-/// a < b; AVX has one instruction for every comparison.
+/// Tells where a < b; AVX has one instruction for every comparison.
 #[target_feature(enable = "avx2")]
 #[inline]
 fn below_avx2(a: __m256d, b: __m256d) -> __m256d {
     _mm256_cmp_pd::<_CMP_LT_OQ>(a, b)
 }
 
-/// a ≥ b.
+/// Tells where a ≥ b.
 #[target_feature(enable = "avx2")]
 #[inline]
 fn at_least_avx2(a: __m256d, b: __m256d) -> __m256d {

@@ -1,4 +1,4 @@
-//! Finding the displacement of a step (model 4.1).
+//! Load balance of a step: the displacement that carries the load (model 4.1).
 
 use super::Worker;
 use crate::engine::coefficients::StatusPair;
@@ -11,13 +11,13 @@ use crate::engine::strips::OUT_OF_REACH;
 use crate::model::error::{ContactError, SimulationError};
 use crate::model::state::pin_status;
 
-/// Readings of one step; Newton's method needs few, this bound only keeps rounding from going round in circles.
+/// Largest number of readings of one step; Newton's method needs few, this bound only keeps rounding from going round in circles.
 const MOST_READINGS: u32 = 200;
 /// Share of the load that the rounding of overlaps may hide; where it may hide more, the balance is refined.
 const LEAST_DOUBT: f64 = 1e-10;
-/// Newton's method from so near needs one or two.
+/// Largest number of refinements of one step: Newton's method from so near needs one or two.
 const MOST_REFINEMENTS: u32 = 8;
-/// By how much a quantum must be finer for another reading.
+/// Factor by which a quantum must be finer for another reading.
 const FINER: f64 = 16.0;
 /// Bits of the load below which what cells carry is cut off where it is added up.
 const LOAD_BITS: i32 = 64;
@@ -108,7 +108,7 @@ impl Worker {
         Ok(())
     }
 
-    /// Σ k A (δ − g)₊ of the own pairs at a displacement, by pair.
+    /// Load Σ k A (δ − g)₊ of the own pairs at a displacement, by pair.
     fn carried(&self, displacement: f64) -> [ExactSum; StatusPair::COUNT] {
         let unit = self.load_unit();
         let mut loads = [ExactSum::default(); StatusPair::COUNT];
@@ -118,12 +118,12 @@ impl Worker {
         loads
     }
 
-    /// Of which loads of cells are multiples where they are added up.
+    /// Unit of the loads of cells where they are added up, N.
     fn load_unit(&self) -> Unit {
         Unit::new(libm::ilogb(self.operation.load).saturating_sub(LOAD_BITS), 0.0)
     }
 
-    /// |Σ k A u − F_N| / F_N of the last step, by what all of its cells carried.
+    /// Residual |Σ k A u − F_N| / F_N of the last step, 1, by what all of its cells carried.
     pub(super) fn load_residual(&self, carried: ExactSum) -> f64 {
         (self.load_unit().value(carried) / self.operation.load - 1.0).abs()
     }
@@ -205,8 +205,8 @@ impl Worker {
         (self.touching, self.is_watched) = (touching, true);
     }
 
-    /// What the own pairs that touched in the last step carry, if it was watched: Σ k A u, and p = k u (Pa) of every own pin cell,
-    /// column by column.
+    /// Returns the load Σ k A u of the own pairs that touched in the last step, if it was watched, and p = k u (Pa) of every pin cell,
+    /// column by column, 0 where no own pair touched.
     pub(super) fn pressures(&self) -> (ExactSum, Vec<f64>) {
         let (mesh, unit) = (&self.parameters.mesh, self.load_unit());
         let (mut load, mut pressure) = (ExactSum::default(), vec![0.0; mesh.pin_cells()]);

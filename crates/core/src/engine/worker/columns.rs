@@ -1,4 +1,4 @@
-//! Passing over the worker's columns, and handing on those that cross a boundary between sectors.
+//! Pass over the worker's columns (model 4.2 and 4L), and exchange of those that cross a boundary between sectors.
 
 use super::Worker;
 use crate::engine::contact::Contact;
@@ -75,8 +75,8 @@ impl Worker {
         Ok(())
     }
 
-    /// What the first columns of a segment mean to the cells behind them, from the state at the start of the step; none where
-    /// nothing forms.
+    /// Finds the heights and losses of the first columns of a segment that the cells behind them need, from the state at the start of
+    /// the step; none where nothing forms.
     fn edge_of(&mut self, segment: &Segment, bracket: Bracket) -> Option<Edge> {
         let sector = self.sectors[segment.sector].as_mut().filter(|_| self.needs.forms)?;
         let mut edge = std::mem::take(&mut self.edges[segment.sector]);
@@ -132,7 +132,7 @@ impl Worker {
         Ok(())
     }
 
-    /// What lies ahead of a segment: a sector, of this worker or of another, which has told it; none where nothing forms.
+    /// Returns the edge of the sector ahead of a segment, found by this worker or told by its owner; none where nothing forms.
     fn edge_ahead(&mut self, sector: usize) -> Result<Option<Edge>, SimulationError> {
         if !self.needs.forms {
             return Ok(None);
@@ -177,13 +177,13 @@ impl Worker {
 
 /// A boundary between workers, by the messages that cross it.
 struct Boundary {
-    /// What lies ahead of it.
+    /// Number of the boundary for messages about what lies ahead of it.
     edge: usize,
-    /// The column that turns across it.
+    /// Number of the boundary for the column that turns across it.
     column: usize,
 }
 
-/// What a pass must know of a step; `ahead` is the column ahead of the last.
+/// Returns the conditions of a step for a pass; `ahead` is the column ahead of the last.
 fn conditions<'a>(
     contact: &Contact,
     debris: &Debris,

@@ -65,7 +65,7 @@ impl Worker {
         })
     }
 
-    /// What a sample needs of the worker's own cells.
+    /// Returns the part of a sample that the worker's own cells give.
     fn own_part(&self) -> OwnPart {
         let rows = self.parameters.mesh.rows();
         let (load, pressure) = self.pressures();
@@ -178,12 +178,12 @@ fn disc_words(sector: &DiscSector, column: usize, map: Map) -> Vec<u64> {
     }
 }
 
-/// What a sample needs of the cells of one worker, or of all.
+/// Part of a sample that the cells of one worker, or of all, give.
 #[derive(Debug, Clone, Default)]
 struct OwnPart {
-    /// Pa.
+    /// Largest pressure, Pa.
     largest_pressure: f64,
-    /// Σ k A u of the last step.
+    /// Load Σ k A u of the last step.
     load: ExactSum,
     /// Volumes and areas of disc and pin.
     ring: RingSums,
