@@ -194,8 +194,8 @@ impl Simulation {
     /// surfaces: the coming steps are bit for bit those that it would have taken.
     ///
     /// # Errors
-    /// [`SimulationError::Checkpoint`] and [`SimulationError::OtherState`] when it is of another mesh or scene,
-    /// [`SimulationError::Worker`] when a worker failed.
+    /// [`SimulationError::Checkpoint`], [`SimulationError::OtherState`] and [`SimulationError::OtherEngine`] when it is of another mesh,
+    /// scene or engine, [`SimulationError::Worker`] when a worker failed.
     pub fn restore(&mut self, checkpoint: &Checkpoint) -> Result<(), SimulationError> {
         checkpoint.check(&self.parameters.mesh)?;
         let (found, expected) = (checkpoint.engine().name(), self.execution.engine.name());

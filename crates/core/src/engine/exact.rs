@@ -45,7 +45,7 @@ impl TryFrom<Stored> for Quantum {
 impl Quantum {
     /// The quantum of up to `terms` terms up to `bound`: their sum fits an integer.
     ///
-    /// A term is less than 2^50 quanta, so its rounding is at most 2^−51 of the bound; beyond 2^13 terms it is less of
+    /// A term is less than 2^50 quanta, so its rounding is at most 2^−50 of the bound; beyond 2^13 terms it is less of
     /// them and more rounding.
     pub fn of(bound: f64, terms: usize) -> Self {
         let exponent = if bound > 0.0 { libm::ilogb(bound) } else { 0 };

@@ -77,7 +77,7 @@ pub(crate) trait Mask: Copy + BitAnd<Output = Self> + BitOr<Output = Self> + Not
 pub(crate) trait Integers: Copy {
     /// Mask for these integers.
     type Mask;
-    /// The same number eight times.
+    /// Repeats a number eight times.
     fn splat(value: i64) -> Self;
     /// Loads the integers from memory.
     fn load(chunk: &IntegerChunk) -> Self;
@@ -103,7 +103,7 @@ pub(crate) trait Lanes: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Out
     type Mask: Mask;
     /// Integers for the bits of these numbers.
     type Integers: Integers<Mask = Self::Mask>;
-    /// The same number eight times.
+    /// Repeats a number eight times.
     fn splat(value: f64) -> Self;
     /// Loads the numbers from memory.
     fn load(chunk: &Chunk) -> Self;

@@ -178,7 +178,7 @@ impl DiscSector {
     #[inline(always)]
     pub fn strip_mut(&mut self, strip: usize, first: usize, columns: usize) -> (&mut [Chunk], &mut [Chunk]) {
         let start = strip * self.columns + first;
-        // That the strip has these columns is seen of one field.
+        // One field is enough to see that the strip has these columns.
         (&mut self.height.strip_mut(strip)[first..][..columns], kept(&mut self.substrate, start, columns))
     }
 
@@ -282,7 +282,7 @@ impl PinStrips {
     pub fn strip_mut(&mut self, strip: usize, first: usize, columns: usize) -> PinStrip<'_> {
         let start = strip * self.columns + first;
         PinStrip {
-            // That the strip has these columns is seen of one field.
+            // One field is enough to see that the strip has these columns.
             height: &mut self.height.strip_mut(strip)[first..][..columns],
             substrate: kept(&mut self.substrate, start, columns),
             resin: &self.resin[start..][..columns],

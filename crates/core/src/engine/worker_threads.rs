@@ -59,7 +59,7 @@ impl WorkerThreads {
     /// Starts a thread for each worker; with `pin` each stays on a core of its own as far as there are enough.
     ///
     /// # Errors
-    /// What the system says when it gives no more threads.
+    /// Error of the system when it gives no more threads.
     pub fn start(workers: Vec<(Worker, Alarm)>, pin: bool) -> std::io::Result<Self> {
         let cores = if pin { core_affinity::get_core_ids().unwrap_or_default() } else { Vec::new() };
         let (answer, answers) = unbounded();

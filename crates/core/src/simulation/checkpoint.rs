@@ -27,12 +27,12 @@ pub struct Checkpoint {
     pub(crate) engine: Option<EngineMemory>,
 }
 
-/// Parts of a state that only simulations in a pause have, and those whose load and speed were set.
+/// Parts of a state that only some simulations have: a contact that is kept, load and speed that were set.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(crate) enum Kept {
     /// Nothing: load and speed are those of the scene, and no contact is kept.
     Nothing,
-    /// Contact of the last step, where it may be reported once more: in a pause.
+    /// Contact of the last step, where it may be reported once more, as in a pause.
     Contact(LastContact),
     /// Load and speed of the coming steps, speed of the last one (rad/s) if it had another, and the contact of the last step if kept.
     Control(Operation, Option<f64>, Option<LastContact>),
@@ -63,7 +63,7 @@ impl Kept {
     }
 }
 
-/// Sample and pressures of the last step, kept while the pin rests.
+/// Sample and pressures of the last step, kept to be reported once more, as in a pause.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(crate) struct LastContact {
     pub sample: Sample,

@@ -84,7 +84,7 @@ impl Simulation {
     pub fn set_heights(&mut self, mut heights: Heights) -> Result<(), SimulationError> {
         for cell in self.parameters.mesh.absent_cells() {
             for field in [&mut heights.pin_height, &mut heights.pin_substrate] {
-                // Of no meaning, and not to be refused.
+                // These heights mean nothing, and are not to be refused.
                 field.get_mut(cell).into_iter().for_each(|height| *height = 0.0);
             }
         }

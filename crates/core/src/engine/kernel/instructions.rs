@@ -15,10 +15,10 @@ pub(super) enum Width {
     /// SSE2, which every x86-64 processor has.
     #[cfg(target_arch = "x86_64")]
     Sse2,
-    /// x86-64 with AVX2.
+    /// x86-64 with AVX2, BMI1 and POPCNT.
     #[cfg(target_arch = "x86_64")]
     Avx2,
-    /// x86-64 with AVX-512 F, VL, DQ and BW.
+    /// x86-64 with these and AVX-512 F, VL, DQ and BW.
     #[cfg(target_arch = "x86_64")]
     Avx512,
 }
@@ -120,13 +120,13 @@ macro_rules! kernel {
                 }
                 #[cfg(target_arch = "x86_64")]
                 #[allow(unsafe_code, reason = "a call of code for another instruction set")]
-                // SAFETY: there is an instruction set of this width only where the processor has AVX2, and the function
-                // asks for nothing else.
+                // SAFETY: there is an instruction set of this width only where the processor has AVX2, BMI1 and
+                // POPCNT, and the function asks for nothing else.
                 $crate::engine::kernel::instructions::Width::Avx2 => unsafe { avx2::<$($flag),*>($($argument),*) },
                 #[cfg(target_arch = "x86_64")]
                 #[allow(unsafe_code, reason = "a call of code for another instruction set")]
                 // SAFETY: there is an instruction set of this width only where the processor has these parts of
-                // AVX-512, and the function asks for nothing else.
+                // AVX-512, BMI1 and POPCNT, and the function asks for nothing else.
                 $crate::engine::kernel::instructions::Width::Avx512 => unsafe { avx512::<$($flag),*>($($argument),*) },
             }
         }

@@ -60,7 +60,7 @@ impl<'a> Strip<'a> {
         let mut pin = pin.strip_mut(index, first, columns);
         let (disc_height, mut disc_substrate) = disc.strip_mut(index, over, columns);
         if BUILD_UP != build_up::NONE {
-            // Of fields that may not be kept it is seen once that they have all columns.
+            // Fields that may not be kept are checked once for all columns.
             pin.substrate = &mut std::mem::take(&mut pin.substrate)[..columns];
             disc_substrate = &mut disc_substrate[..columns];
         }

@@ -48,7 +48,7 @@ impl Worker {
 
     /// Passes over the worker's segments, whose neighbours may belong to others.
     ///
-    /// What the first columns of a segment mean to the cells behind them (model 4L) is found and told first, from the state at the
+    /// Heights and losses of the first columns of a segment (model 4L) are found and told first, from the state at the
     /// start of the step. So each segment is passed over in one go. The pin column over the first disc column of a sector lies over
     /// the sector before in the next step, and is handed on after that.
     fn pass_over_segments(
