@@ -1,4 +1,4 @@
-//! What is simulated: a scene, on meshes of several sizes.
+//! Scenes that are timed, on meshes of several sizes.
 
 use std::error::Error;
 use std::path::{Path, PathBuf};
@@ -18,7 +18,7 @@ pub fn of_file(path: &Path) -> impl FnOnce(std::io::Error) -> String {
     move |error| format!("{}: {error}", path.display())
 }
 
-/// Scenes are measured as the paper's model has it; `--set` may ask for something else.
+/// Setting of the paper's model, with which scenes are measured; `--set` may ask for something else.
 const MODEL: &str = "numerics.time_acceleration=1";
 
 /// The time acceleration with which a pin wears in before a benchmark.
@@ -101,7 +101,7 @@ impl Source {
         self.path.file_name().unwrap_or_default().to_string_lossy().into_owned()
     }
 
-    /// The same with more changes.
+    /// The same scene with more changes.
     pub fn with(&self, sets: impl IntoIterator<Item = String>) -> Self {
         Self { sets: self.sets.iter().cloned().chain(sets).collect(), ..self.clone() }
     }

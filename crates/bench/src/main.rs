@@ -2,9 +2,8 @@
 //!
 //! ```text
 //! case            scene -> parameters and surfaces, on meshes of several sizes
-//! steps, peers    what is timed: a step and its parts; the same step in Python (python: that process)
+//! steps, peers    what is timed: a step and its parts; the same step in Python (peers/step.py, a process of its own)
 //! race            times several things in turn
-//! machine         what it ran on, and what it was built from, with and how
 //! table           the table, with machine, build and settings below it
 //! ```
 

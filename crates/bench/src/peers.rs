@@ -60,9 +60,9 @@ pub fn peers(session: &Session) -> Outcome<Found> {
 struct Reference {
     case: Case,
     steps: u64,
-    /// What it was like after every step, and the heights of disc and pin after the last, each with its name.
+    /// Displacement (m), contact area (m²) and deposited volume (m³) after every step, and heights (m) after the last, each with its name.
     found: Value,
-    /// It, after the last step.
+    /// Simulation after the last step.
     simulation: Simulation,
 }
 
@@ -106,7 +106,7 @@ impl Reference {
     }
 }
 
-/// The process.
+/// Process of the peer.
 struct Peer {
     child: Child,
     requests: Option<ChildStdin>,
@@ -114,7 +114,7 @@ struct Peer {
     load_evaluations_per_step: Option<f64>,
 }
 
-/// How far the peer's steps are from ours.
+/// Differences of the peer's steps from ours.
 #[derive(Deserialize)]
 struct Agreement {
     /// Versions of Python and its packages.

@@ -9,15 +9,15 @@ use crate::case::{MeshSize, Outcome, Source};
 
 /// Something that makes steps.
 pub trait Runner {
-    /// Makes so many steps; the time that they took.
+    /// Makes so many steps and returns the time that they took.
     fn advance(&mut self, steps: u64) -> Outcome<Duration>;
 
-    /// Mean over all steps so far, where it is known.
+    /// Load evaluations per step, mean over all steps so far; none where they are not known.
     fn load_evaluations_per_step(&self) -> Option<f64> {
         None
     }
 
-    /// What each worker exchanged with the others so far, where it is known.
+    /// Exchanges of each worker with the others so far; empty where they are not known.
     fn exchanges(&self) -> Vec<Exchange> {
         Vec::new()
     }
@@ -29,15 +29,15 @@ pub struct Entry {
     pub name: String,
     /// Place of the entry that it is compared with, which may be its own.
     pub against: usize,
-    /// Its mesh.
+    /// Counts of cells of its mesh.
     pub mesh: MeshSize,
     /// Threads that share the ring.
     pub workers: usize,
-    /// It.
+    /// Simulation or peer that makes its steps.
     pub runner: Box<dyn Runner>,
 }
 
-/// How much is measured.
+/// Number and time of the blocks of steps, and steps before them.
 #[derive(Debug, Clone, Copy, Serialize)]
 pub struct Pace {
     /// Blocks of steps of each entry.
@@ -52,13 +52,13 @@ pub struct Pace {
 pub struct Session {
     /// The scene, on the mesh from which the benchmark starts.
     pub source: Source,
-    /// That mesh.
+    /// Counts of cells of that mesh.
     pub mesh: MeshSize,
-    /// How much is measured.
+    /// Number and time of the blocks of steps, and steps before them.
     pub pace: Pace,
     /// Numbers of workers to measure, increasing.
     pub workers: Vec<usize>,
-    /// Only a look at whether it runs.
+    /// True if the benchmark is only tried, on a small mesh: its times mean nothing.
     pub quick: bool,
 }
 
@@ -69,21 +69,21 @@ pub struct Measurement {
     pub name: String,
     /// Place of the entry that it is compared with.
     pub against: usize,
-    /// Its mesh.
+    /// Counts of cells of its mesh.
     pub mesh: MeshSize,
     /// Threads that share the ring.
     pub workers: usize,
     /// Steps of a block.
     pub steps_per_block: u64,
-    /// Mean over all steps, where it is known.
+    /// Load evaluations per step, mean over all steps; none where they are not known.
     pub load_evaluations_per_step: Option<f64>,
-    /// Time of a step in every block, in the order of measurement.
+    /// Time of a step in every block, µs, in the order of measurement.
     pub microseconds_per_step: Vec<f64>,
-    /// How its workers shared the work of all blocks, if they are several.
+    /// Sharing of the work of all blocks among its workers; none of one alone.
     pub sharing: Option<Sharing>,
 }
 
-/// How several workers shared the work.
+/// Sharing of the work among several workers.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Sharing {
     /// Bytes of columns that crossed boundaries between sectors in a step.
@@ -95,7 +95,7 @@ pub struct Sharing {
 }
 
 impl Sharing {
-    /// Of what the workers exchanged before and after so many steps in such a time; none of one alone.
+    /// Computes the sharing from exchanges before and after so many steps, which took such a time; none for one worker alone.
     pub fn of(before: &[Exchange], after: &[Exchange], steps: u64, time: Duration) -> Option<Self> {
         let bytes: u64 = after.iter().zip(before).map(|(after, before)| after.halo_bytes - before.halo_bytes).sum();
         let waited = after.iter().zip(before).map(|(after, before)| (after.waited - before.waited).as_secs_f64());
@@ -131,7 +131,7 @@ pub struct Spread {
 }
 
 impl Spread {
-    /// Of these values; not a number if there are none.
+    /// Computes the spread of these values; NaN if there are none.
     pub fn of(values: &[f64]) -> Self {
         let mut sorted = values.to_vec();
         sorted.sort_by(f64::total_cmp);

@@ -72,7 +72,7 @@ fn entry(name: &str, against: usize, mesh: MeshSize, workers: usize, simulation:
     Entry { name: name.to_owned(), against, mesh, workers, runner: Box::new(simulation) }
 }
 
-/// So many workers with the widest instruction set.
+/// Execution by so many workers with the widest instruction set.
 fn execution(workers: usize) -> Execution {
     Execution { workers, instructions: InstructionSet::best(), ..Execution::default() }
 }
@@ -86,7 +86,7 @@ fn simulation(case: &Case, execution: Execution) -> Outcome<Simulation> {
     Ok(simulation)
 }
 
-/// The same with one worker.
+/// The case at its start, with one worker.
 pub fn alone(case: &Case) -> Outcome<Simulation> {
     simulation(case, execution(1))
 }
@@ -109,7 +109,7 @@ impl Runner for Simulation {
     }
 }
 
-/// What the others are compared with.
+/// Name of the scene without changes, with which the others are compared.
 const THE_SCENE: &str = "the scene";
 
 /// Changes of the scene that switch one part on or off, with their names.
@@ -133,7 +133,7 @@ const VARIANTS: [(&str, &[&str]); 13] = [
 
 /// The friction law of `cermet-hot.toml`.
 const FRICTION: &str = "friction={ pressure_coefficient = 0.33, shear_strength = \"0.75 MPa\", maximum = 0.6 }";
-/// Its bodies, without the coating.
+/// Bodies of `cermet-hot.toml`, without the coating.
 const HEAT: &str = "thermal={ ambient = \"23 degC\", \
     disc = { conductivity = \"50 W/(m K)\", density = \"7200 kg/m^3\", specific_heat = \"500 J/(kg K)\", area = \"31 cm^2\", \
     thickness = \"6 mm\", cooling = \"0.4 W/K\", cooling_per_speed = \"1 mJ/(K rad)\" }, \

@@ -20,7 +20,7 @@ pub struct Results {
     /// Physical time for which the pin had worn in, s.
     worn_in: f64,
     pace: Pace,
-    /// Only a look at whether it runs: the numbers mean nothing.
+    /// True if the benchmark was only tried, on a small mesh: the numbers mean nothing.
     quick: bool,
     /// Times, in the order of the race.
     pub measurements: Vec<Measurement>,
@@ -64,7 +64,7 @@ impl Results {
         text
     }
 
-    /// Where, with what and how something was measured.
+    /// Scene, machine, build and settings of the measurement, in words.
     fn circumstances(&self) -> String {
         let Self { machine, build, pace, .. } = self;
         let sets: String = self.sets.iter().map(|set| format!(" `{set}`")).collect();
@@ -107,12 +107,12 @@ fn row(one: &Measurement, against: &Measurement, is_shared: bool) -> String {
     format!("| {} |\n", cells.join(" | "))
 }
 
-/// Least and largest.
+/// Least and largest value, in words.
 fn range(spread: Spread) -> String {
     format!("{} – {}", number(spread.minimum), number(spread.maximum))
 }
 
-/// At least three digits.
+/// Number with at least three digits.
 fn number(value: f64) -> String {
     let digits = match value {
         100.0.. => 0,
@@ -140,7 +140,7 @@ pub fn cores() -> usize {
 }
 
 impl Machine {
-    /// This machine, now.
+    /// Describes this machine as it is now.
     pub fn this() -> Self {
         let first = |path, prefix: &str| {
             let text = fs::read_to_string(path).ok()?;
@@ -183,7 +183,7 @@ pub struct Build {
 }
 
 impl Build {
-    /// This build.
+    /// Describes this build.
     pub fn this() -> Self {
         Self {
             version: env!("CARGO_PKG_VERSION"),

@@ -60,19 +60,19 @@ const STOPPED: u8 = 128;
 #[derive(Debug)]
 pub struct Failure {
     status: u8,
-    /// None where a signal stopped a process that wrote nothing.
+    /// Message; none where a signal stopped a process that wrote nothing.
     message: Option<String>,
 }
 
 impl Failure {
-    /// A wrong input; or a failed run, where the error says, or comes from one that says, that the system lacks what it takes to look at the
-    /// input.
+    /// A wrong input; or a failed run, where the error says, or comes from one that says, that the system lacks what it takes to look at
+    /// the input.
     pub fn input(error: impl Into<Box<dyn Error>>) -> Self {
         let error = error.into();
         Self::because(&*error, &error)
     }
 
-    /// As [`input`](Self::input), with a message of its own.
+    /// Failure as of [`input`](Self::input), with a message of its own.
     pub fn because(error: &(dyn Error + 'static), message: impl fmt::Display) -> Self {
         let status = if lacks_resources(error) { RUN } else { INPUT };
         Self { status, message: Some(message.to_string()) }

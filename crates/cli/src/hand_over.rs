@@ -50,7 +50,7 @@ fn command(word: &str) -> Result<Command, Failure> {
     Ok(command)
 }
 
-/// What the program that answers a word has to say, asked with these arguments; it has no terminal.
+/// Runs the program that answers a word with these arguments, without a terminal, and returns what it says.
 pub fn asked(word: &str, arguments: impl IntoIterator<Item = impl AsRef<OsStr>>) -> Result<Output, Failure> {
     let mut command = command(word)?;
     command.args(arguments).stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped());
@@ -66,7 +66,7 @@ pub fn answering(word: &str) -> Option<PathBuf> {
     folders.map(|folder| folder.join(&name)).find(|file| is_program(file))
 }
 
-/// A word that names a program and no path.
+/// Tells whether a word names a program and no path.
 pub fn is_word(word: &OsStr) -> bool {
     word.to_str()
         .is_some_and(|word| !word.is_empty() && word.bytes().all(|byte| byte.is_ascii_lowercase() || byte == b'-'))
@@ -77,7 +77,7 @@ fn is_program(file: &Path) -> bool {
     file.metadata().is_ok_and(|found| found.is_file() && found.permissions().mode() & 0o111 != 0)
 }
 
-/// What the package tells of the surfaces of a folder, as a table or as JSON; their parameters are then in the folder's document.
+/// Description that the package gives of the surfaces of a folder, a table or JSON; their parameters are then in the folder's document.
 pub fn described(folder: &Path, as_json: bool) -> Result<String, Failure> {
     let options =
         [OsStr::new("describe"), folder.as_os_str()].into_iter().chain(as_json.then_some(OsStr::new("--json")));
@@ -85,7 +85,7 @@ pub fn described(folder: &Path, as_json: bool) -> Result<String, Failure> {
         .map(|done| String::from_utf8_lossy(&done.stdout).into_owned())
 }
 
-/// What was answered; where that failed, why, or these words.
+/// Answer of a program that succeeded; else a failure with its reason, or with these words.
 pub fn succeeded(answer: Output, otherwise: &str) -> Result<Output, Failure> {
     match answer.status.code() {
         Some(0) => Ok(answer),
@@ -94,7 +94,7 @@ pub fn succeeded(answer: Output, otherwise: &str) -> Result<Output, Failure> {
     }
 }
 
-/// Why it failed: its last line on standard error, or these words where it says nothing.
+/// Reason of a failure: the last line on standard error, or these words where nothing is there.
 fn reason(answer: &Output, otherwise: &str) -> String {
     let said = String::from_utf8_lossy(&answer.stderr);
     said.lines().last().map_or(otherwise, |line| line.trim_start_matches("plateau: ")).to_owned()

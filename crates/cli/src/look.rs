@@ -25,9 +25,9 @@ pub struct Look {
     pub duration: Option<f64>,
     /// Contact area of every sample, m².
     pub contact_area: Vec<f64>,
-    /// Its mean over the last revolution, m².
+    /// Contact area of every sample, mean over the last revolution, m².
     pub contact_area_mean: Vec<f64>,
-    /// Filled fraction of the last sample.
+    /// Filled fraction of the last sample, 1.
     pub filled_fraction: Option<f64>,
     /// Wall time from the start of the run to its end, or to what was written last.
     pub elapsed: Option<Duration>,
@@ -93,7 +93,7 @@ const WINDOW: Duration = Duration::from_secs(30);
 const SHORTEST: Duration = Duration::from_secs(2);
 /// Wall time without a sample after which a run may have been killed, at least.
 const PATIENCE: Duration = Duration::from_secs(60);
-/// As many usual intervals between samples must pass without one.
+/// Number of usual intervals between samples that must pass without one.
 const INTERVALS: u32 = 10;
 
 /// Pace of a run, and the time without anything new, from one look to the next.
@@ -103,12 +103,12 @@ pub struct Pace {
     seen: VecDeque<(Instant, f64)>,
     samples: usize,
     news: Instant,
-    /// Samples have come while it was watched.
+    /// True if samples have come while it was watched.
     alive: bool,
 }
 
 impl Pace {
-    /// Before the first look.
+    /// Pace before the first look.
     pub fn new(now: Instant) -> Self {
         Self { seen: VecDeque::new(), samples: 0, news: now, alive: false }
     }
@@ -139,7 +139,7 @@ impl Pace {
         lately().or_else(over_all).filter(|speed| *speed > 0.0 && speed.is_finite())
     }
 
-    /// Time for which there has been no new sample while it was watched.
+    /// Time for which no new sample came while it was watched.
     pub fn idle(&self, now: Instant) -> Duration {
         now - self.news
     }

@@ -1,4 +1,4 @@
-//! What a command leaves: text on standard output, tables in it, tables as comma-separated values; and files beside its run file, whole, or
+//! Output of a command: text on standard output, tables in it, tables as comma-separated values; and files beside its run file, whole, or
 //! not at all.
 
 use std::fmt::Write as _;
@@ -55,8 +55,8 @@ pub fn write(path: &Path, content: &[u8], force: bool) -> Result<(), Failure> {
     write_at(path, &target, content, force)
 }
 
-/// As [`write()`], a file in a folder that was named: a link of its name is not followed but replaced, for it was somebody else who
-/// made it lead elsewhere.
+/// Writes as [`write()`] does, in a folder that was named: a link of the file's name is not followed but replaced, for it was somebody else
+/// who made it lead elsewhere.
 pub fn write_in_folder(path: &Path, content: &[u8], force: bool) -> Result<(), Failure> {
     write_at(path, path, content, force)
 }
@@ -78,7 +78,7 @@ pub fn make_directory(path: &Path) -> Result<(), Failure> {
     })
 }
 
-/// No file can be made where one was asked for.
+/// Failure because no file can be made where one was asked for.
 fn unwritable(path: &Path, error: &io::Error) -> Failure {
     let directory = directory(path).display();
     let path = path.display();

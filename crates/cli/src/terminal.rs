@@ -38,7 +38,7 @@ struct Progress {
 }
 
 impl Progress {
-    /// That of so much simulated time (s) with the name of what is simulated, if it has one; to be seen or not.
+    /// Progress over so much simulated time (s), with the name of what is simulated, if it has one; to be seen or not.
     fn new(duration: f64, name: &str, visible: bool) -> Self {
         let visible = visible && !message::is_quiet();
         let bar = if visible { ProgressBar::new(PARTS) } else { ProgressBar::hidden() };
@@ -120,7 +120,7 @@ impl SweepObserver for Messages {
 #[derive(Debug)]
 pub struct Terminal {
     interrupt: Interrupt,
-    /// Nothing is written yet.
+    /// Guard that is there until something is written.
     preparation: Option<Preparation>,
     /// Tells whether there is a progress bar.
     visible: bool,
@@ -128,19 +128,19 @@ pub struct Terminal {
 }
 
 impl Terminal {
-    /// From now on signals are noted; another process of the job shows the progress unless this one does.
+    /// Notes signals from now on; another process of the job shows the progress unless this one does.
     pub fn listen(visible: bool) -> io::Result<Self> {
         Ok(Self { interrupt: Interrupt::listen()?, preparation: None, visible, progress: None })
     }
 
-    /// The same, and SIGUSR1 asks for a checkpoint.
+    /// Listens as [`listen`](Self::listen) does, and notes SIGUSR1 as a wish for a checkpoint.
     pub fn listen_for_save(visible: bool) -> io::Result<Self> {
         let terminal = Self::listen(visible)?;
         terminal.interrupt.listen_for_save()?;
         Ok(terminal)
     }
 
-    /// Until the run is prepared, a signal ends the program at once.
+    /// Lets a signal end the program at once until the run is prepared.
     pub fn end_while_preparing(&mut self) {
         self.preparation = Some(self.interrupt.end_at_once(self.visible));
     }
@@ -194,14 +194,14 @@ pub struct Interrupt {
     save: Arc<AtomicBool>,
 }
 
-/// While this is there, a signal ends the program at once: nothing is written yet that could be kept.
+/// Guard, during whose life a signal ends the program at once: nothing is written yet that could be kept.
 #[derive(Debug)]
 pub struct Preparation {
     goes_on: Arc<Mutex<bool>>,
 }
 
 impl Interrupt {
-    /// From now on SIGINT, SIGTERM, SIGHUP (the terminal is gone) and SIGXCPU (the time limit of the system is reached) are noted
+    /// Notes SIGINT, SIGTERM, SIGHUP (the terminal is gone) and SIGXCPU (the time limit of the system is reached) from now on,
     /// instead of ending the program. What the caller ignores stays ignored, as SIGHUP behind `nohup`.
     pub fn listen() -> io::Result<Self> {
         let signal = Arc::new(AtomicUsize::new(0));
@@ -214,7 +214,7 @@ impl Interrupt {
         Ok(Self { signal, save: Arc::default() })
     }
 
-    /// Until what this gives is dropped, a noted signal ends the program, wherever it is: surfaces may take long to read and make.
+    /// Lets a noted signal end the program, wherever it is, until the guard is dropped: surfaces may take long to read and make.
     /// It says so if it `speaks`: of several processes one does. Where the system gives no thread to look, signals are noted only.
     pub fn end_at_once(&self, speaks: bool) -> Preparation {
         let goes_on = Arc::new(Mutex::new(true));
@@ -240,13 +240,13 @@ impl Interrupt {
         Preparation { goes_on }
     }
 
-    /// From now on SIGUSR1 ends no command: what keeps no state has none to save, and what does has none yet. Where the system takes no
+    /// Keeps SIGUSR1 from ending a command: what keeps no state has none to save, and what does has none yet. Where the system takes no
     /// handler, all is as before.
     pub fn pass_over_saves() {
         let _ = signal_hook::flag::register(SIGUSR1, Arc::default());
     }
 
-    /// From now on SIGUSR1, with which batch systems announce the end, asks for a checkpoint.
+    /// Notes SIGUSR1, with which batch systems announce the end, as a wish for a checkpoint from now on.
     pub fn listen_for_save(&self) -> io::Result<()> {
         signal_hook::flag::register(SIGUSR1, Arc::clone(&self.save)).map(drop)
     }

@@ -62,9 +62,9 @@ struct Owner {
     /// [`VERSION`].
     plateau_lock: u32,
     writer: Process,
-    /// ISO 8601.
+    /// Time at which the claim was made, ISO 8601.
     since: String,
-    /// Only this lock has it.
+    /// Word that only this lock has.
     number: String,
 }
 
@@ -105,7 +105,7 @@ impl Claim {
         Self::with(path, None)
     }
 
-    /// As [`of`](Self::of), and takes over the lock of a process of another machine if it still is as it was [`seen`](Self::seen).
+    /// Claims as [`of`](Self::of) does, and takes over the lock of a process of another machine if it still is as [`seen`](Self::seen).
     pub fn of_silent(path: &Path, seen: &Seen) -> Result<Self, ClaimError> {
         Self::with(path, Some(seen))
     }
@@ -245,7 +245,7 @@ pub fn lock_of(path: &Path) -> PathBuf {
     path.with_file_name(name)
 }
 
-/// Gives a complete file the name of a lock; whether that was free.
+/// Gives a complete file the name of a lock; tells whether that was free.
 fn make(complete: &Path, lock: &Path, text: &str) -> io::Result<bool> {
     let Err(error) = fs::hard_link(complete, lock) else { return Ok(true) };
     let identity = |path: &Path| fs::symlink_metadata(path).ok().map(|file| (file.dev(), file.ino()));

@@ -91,7 +91,7 @@ pub(crate) fn workbook<'a>(names: impl Iterator<Item = &'a [u8]>) -> Option<&'st
     })
 }
 
-/// What stands between the whole number and its fraction.
+/// Mark between a whole number and its fraction.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Decimal {
     /// 0.5
@@ -258,7 +258,7 @@ pub(crate) fn starts<'a>(
 /// A table.
 pub(crate) struct Named<'a> {
     separator: char,
-    /// A separator ends every line.
+    /// True if a separator ends every line.
     terminated: bool,
     /// The names of the columns.
     pub(crate) head: Line<'a>,
@@ -267,7 +267,7 @@ pub(crate) struct Named<'a> {
 
 /// A line of a table.
 pub(crate) struct Line<'a> {
-    /// Its number in the file, from 1.
+    /// Number of the line in the file, from 1.
     pub(crate) number: usize,
     text: &'a str,
     pub(crate) cells: Vec<Cell<'a>>,
@@ -275,7 +275,7 @@ pub(crate) struct Line<'a> {
 
 /// A cell of a line.
 pub(crate) struct Cell<'a> {
-    /// Its text, without quotation marks; numbers with a decimal point.
+    /// Text of the cell, without quotation marks; numbers with a decimal point.
     pub(crate) text: Cow<'a, str>,
     /// The byte of the line at which it begins.
     at: usize,

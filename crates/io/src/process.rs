@@ -17,7 +17,7 @@ use sha2::{Digest, Sha256};
 /// Machine, and one start of it. What the system does not tell is empty.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Machine {
-    /// Its name.
+    /// Name of the machine.
     pub host: String,
     /// Identifier of that start of it.
     pub(crate) boot: String,
@@ -28,21 +28,21 @@ pub struct Machine {
 /// Relation of one machine to another.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Relation {
-    /// The same, not started anew since.
+    /// Same machine, not started anew since.
     SameStart,
-    /// The same, which was started anew since.
+    /// Same machine, started anew since.
     EarlierStart,
-    /// Another one, or one that cannot be known again.
+    /// Another machine, or one that cannot be known again.
     Unknown,
 }
 
-/// More network devices say nothing more.
+/// Most network devices that are noted: more say nothing more.
 const DEVICES: usize = 8;
 /// The address that virtual machines of QEMU have unless they are given another one.
 const SHARED: &str = "52:54:00:12:34:56";
 
 impl Machine {
-    /// This machine, as it was when it was first asked for: each checkpoint says where it was written.
+    /// Returns this machine, as it was when it was first asked for: each checkpoint says where it was written.
     pub fn this() -> Self {
         static THIS: LazyLock<Machine> = LazyLock::new(|| Machine {
             host: host(),
@@ -109,7 +109,7 @@ fn first_line(path: &Path) -> String {
 pub struct Process {
     /// The machine that it runs on.
     pub machine: Machine,
-    /// Its number.
+    /// Number of the process.
     #[serde(rename = "process")]
     pub number: u32,
     /// Time at which it was started, in ticks of the system's clock since the machine was.
@@ -123,16 +123,16 @@ pub struct Process {
 /// State of a process.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Life {
-    /// It lives.
+    /// Process that lives.
     Lives,
-    /// It has ended.
+    /// Process that has ended.
     Ended,
-    /// This machine cannot tell, for it runs, or ran, elsewhere.
+    /// Process that runs, or ran, elsewhere, so that this machine cannot tell.
     Unknown,
 }
 
 impl Process {
-    /// This process.
+    /// Returns this process.
     pub fn this() -> Self {
         let number = std::process::id();
         Self {
@@ -144,7 +144,7 @@ impl Process {
         }
     }
 
-    /// Tells whether it lives.
+    /// Tells whether the process lives.
     pub fn life(&self) -> Life {
         let this = Self::this();
         // Where numbers hold elsewhere there may be the same one twice, even on one machine.
@@ -217,7 +217,7 @@ const WRITING: u32 = 3;
 pub enum Writer {
     /// No process of this machine that could be found.
     Nobody,
-    /// This living process of this machine, which is not this one.
+    /// Living process of this machine, which is not this one.
     Process(u32),
     /// Maybe a process of the user to whom the file belongs: this process may not look at those.
     Hidden,

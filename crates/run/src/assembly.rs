@@ -49,7 +49,7 @@ impl Assembly {
         Self::made_by(Simulation::with_execution, scene, surfaces, execution)
     }
 
-    /// The same with simulations that `make` makes.
+    /// Assembles the scene from simulations that `make` makes.
     pub(crate) fn made_by(
         make: impl Fn(Parameters, InitialSurfaces, Execution) -> Result<Simulation, SimulationError>,
         scene: &Scene,
@@ -127,13 +127,13 @@ const LOOK_EVERY: Duration = Duration::from_millis(100);
 
 /// Takes what a simulation reports.
 pub trait Sink {
-    /// Reason why it cannot.
+    /// Reason why it cannot take them.
     type Error: From<SimulationError>;
 
-    /// A sample of the step just done.
+    /// Takes a sample of the step just done.
     fn sample(&mut self, sample: Sample) -> Result<(), Self::Error>;
 
-    /// The maps after the step just done. Not called where the scene asks for none.
+    /// Takes the maps after the step just done. Not called where the scene asks for none.
     fn snapshot(&mut self, _snapshot: Snapshot) -> Result<(), Self::Error> {
         Ok(())
     }
@@ -213,7 +213,7 @@ impl Assembly {
         self.sample(&Moment { step: steps, time, ..Moment::default() })
     }
 
-    /// What is reported of the step just done, or of a pause before or after its end.
+    /// Sample of the step just done, or of a pause before or after its end.
     fn sample(&mut self, moment: &Moment) -> Result<Sample, SimulationError> {
         let mut sample = self.simulation.sample_at(moment, &self.output.extras)?;
         let parameters = self.simulation.parameters();

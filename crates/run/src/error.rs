@@ -24,7 +24,7 @@ pub enum RunError {
     /// The run failed, or what it needs of the system.
     #[error(transparent)]
     Failed(#[from] RunFailure),
-    /// It was asked to stop.
+    /// Run that was asked to stop.
     #[error(transparent)]
     Stopped(#[from] Stopped),
 }
@@ -53,11 +53,11 @@ pub enum InputError {
     /// The file that is there cannot be kept.
     #[error(transparent)]
     Keep(#[from] KeepError),
-    /// What an earlier run left cannot be moved out of the way.
+    /// Files of an earlier run that cannot be moved out of the way.
     #[error("{0}")]
     Aside(String, #[source] io::Error),
-    /// What is there is an input, of another run, written by another program, damaged or not to be replaced; or the processes of a job
-    /// were not given the same, or what they cannot have.
+    /// File in the place that is an input, of another run, of another program, damaged or not to be replaced; or processes of a job that
+    /// were not given the same, or were given what they cannot have.
     #[error("{0}")]
     Refused(String),
 }
@@ -65,7 +65,7 @@ pub enum InputError {
 /// Failure of a run.
 #[derive(Debug, Error)]
 pub enum RunFailure {
-    /// A step, or what was to be reported of one.
+    /// Step that failed, or what was to be reported of one.
     #[error("{0}")]
     Simulation(#[from] SimulationError),
     /// The run file could not be made or written.
@@ -74,7 +74,7 @@ pub enum RunFailure {
     /// The run file, though complete, could not be read again.
     #[error("{0}")]
     Read(#[from] ReadError),
-    /// There is no space for the lock of the run file.
+    /// Claim for which there is no space: the lock of the run file cannot be written.
     #[error(transparent)]
     Claim(Box<ClaimError>),
     /// The processes of a job could not talk to each other.
@@ -106,20 +106,20 @@ pub fn signal_in_words(signal: u8) -> String {
 /// Progress of a run when it was stopped.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Progress {
-    /// Before the first step.
+    /// Stop before the first step.
     NotStarted,
     /// The run file has what was done, and a checkpoint is beside it.
     Saved {
         /// Physical time that was reached, and at which the run ends, s.
         times: [f64; 2],
-        /// Steps.
+        /// Number of steps.
         steps: u64,
         /// The run file.
         file: PathBuf,
-        /// Samples in it.
+        /// Number of samples in it.
         samples: usize,
     },
-    /// Another process of the job knows.
+    /// Progress that another process of the job knows.
     Elsewhere,
 }
 
@@ -140,7 +140,7 @@ impl std::fmt::Display for Progress {
 }
 
 impl InputError {
-    /// Of a run file that is not one to go on with, for its problem.
+    /// Refuses a run file that is not one to go on with, for its problem.
     pub(crate) fn not_resumable(path: &Path, what: &str) -> Self {
         Self::Refused(format!("{} {what}; without --resume, --force begins again", path.display()))
     }
@@ -171,7 +171,7 @@ impl From<rayon::ThreadPoolBuildError> for RunError {
 }
 
 impl From<ClaimError> for RunError {
-    /// A full disk is nothing that another name would mend.
+    /// Makes a full disk a failure of the run, for another name would not mend it; all else is a wrong input.
     fn from(error: ClaimError) -> Self {
         let error = Box::new(error);
         if error.lacks_space() { RunFailure::Claim(error).into() } else { InputError::Claim(error).into() }
@@ -179,7 +179,7 @@ impl From<ClaimError> for RunError {
 }
 
 impl From<RunFileError> for RunError {
-    /// Of a file that is being made, new or anew.
+    /// Takes the error of a file that is being made, new or anew.
     fn from(error: RunFileError) -> Self {
         match error {
             RunFileError::Failed(_) | RunFileError::Write(..) => RunFailure::RunFile(error).into(),
@@ -192,7 +192,7 @@ impl From<RunFileError> for RunError {
 /// process.
 const LACKS: [i32; 4] = [11, 12, 23, 24];
 
-/// True of an error that is, or comes from, a lack of the system: no thread, no memory, no file handle. Then the input is not wrong.
+/// Tells whether an error is, or comes from, a lack of the system: no thread, no memory, no file handle. Then the input is not wrong.
 pub fn lacks_resources(error: &(dyn StdError + 'static)) -> bool {
     let number = |error: &(dyn StdError + 'static)| match error.downcast_ref::<ReadError>() {
         Some(ReadError::System(_, _, number)) => *number,
@@ -241,7 +241,7 @@ impl SweepError {
         Self::because(&error, message)
     }
 
-    /// As [`input`](Self::input), with a message of its own.
+    /// Error as of [`input`](Self::input), with a message of its own.
     pub(crate) fn because(error: &(dyn StdError + 'static), message: impl fmt::Display) -> Self {
         let message = message.to_string();
         if lacks_resources(error) { Self::Failed(message) } else { Self::Input(message) }

@@ -19,20 +19,20 @@ pub struct Agreement {
     pub signal: Option<u8>,
     /// Tells whether the state is to be kept.
     pub save: bool,
-    /// Steps before the next agreement.
+    /// Number of steps before the next agreement.
     pub steps: u64,
 }
 
 /// End of a piece of shared work.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum PieceEnd {
-    /// It is done.
+    /// Piece that is done.
     Done,
-    /// It failed; the others go on.
+    /// Piece that failed; the others go on.
     Failed,
-    /// No more is to be begun.
+    /// Stop: no other piece is to be begun.
     Stopped,
-    /// Another process is at it: it is to be looked at again after the others.
+    /// Piece that another process is at: it is to be looked at again after the others.
     Later,
 }
 
@@ -46,7 +46,7 @@ pub struct WorkQueue {
 }
 
 impl WorkQueue {
-    /// These pieces, until so many have failed.
+    /// Queues these pieces, until so many have failed.
     pub fn new(pieces: &[usize], most_failures: Option<usize>) -> Self {
         let most_failures = most_failures.unwrap_or(usize::MAX);
         let pieces = Mutex::new(pieces.iter().copied().collect());
@@ -96,12 +96,12 @@ impl WorkQueue {
     }
 }
 
-/// This process on its own, where the program is built without MPI.
+/// Process on its own, where the program is built without MPI.
 #[cfg(not(feature = "mpi"))]
 mod alone {
     use plateau_core::engine::comm::{CommError, Single};
 
-    /// This process, from the start of a job to its end.
+    /// Process on its own, from the start of a job to its end.
     #[derive(Debug)]
     pub struct Session(());
 
@@ -111,7 +111,7 @@ mod alone {
             Ok(Self(()))
         }
 
-        /// A way to talk to nobody else.
+        /// Communicator of one process alone.
         pub fn communicator(&self) -> Single {
             Single
         }

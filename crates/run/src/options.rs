@@ -14,23 +14,23 @@ pub struct RunOptions {
     pub output: Option<PathBuf>,
     /// Tells whether a file that is there may be replaced.
     pub replace: bool,
-    /// Tells whether the run begins or goes on.
+    /// Start of the run: it begins or goes on.
     pub mode: StartMode,
-    /// Its execution.
+    /// Execution of the run.
     pub execution: ExecutionOptions,
-    /// Who makes it.
+    /// Program that makes the run.
     pub program: Program,
 }
 
-/// Tells whether a run begins or goes on.
+/// Start of a run: it begins or goes on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum StartMode {
-    /// It begins.
+    /// Run that begins.
     #[default]
     New,
-    /// It goes on from the last checkpoint of a run of the same scene, which was stopped or killed.
+    /// Run that goes on from the last checkpoint of a run of the same scene, which was stopped or killed.
     Resume,
-    /// The same, and the scene may be longer than the run was.
+    /// Run that goes on likewise, but whose scene may be longer than the run was.
     Extend,
 }
 
@@ -41,7 +41,7 @@ impl StartMode {
     }
 }
 
-/// How a run is carried out. Nothing of it shows in the results, but that the two engines round differently.
+/// Execution of a run. Nothing of it shows in the results, but that the two engines round differently.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct ExecutionOptions {
     /// Engine that takes the steps.
@@ -69,7 +69,7 @@ impl Program {
 }
 
 impl Default for Program {
-    /// This library, of which no revision is known.
+    /// Returns this library, of which no revision is known.
     fn default() -> Self {
         Self { name: format!("plateau {}", env!("CARGO_PKG_VERSION")), revision: "unknown".into() }
     }
@@ -112,7 +112,7 @@ impl Default for SweepOptions {
 /// One of several equal parts of the runs of a study: of `count` tasks the one with this number, from 1.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Part {
-    /// Its number, from 1.
+    /// Number of the part, from 1.
     pub number: usize,
     /// Number of parts.
     pub count: usize,
@@ -132,20 +132,20 @@ pub trait Observer {
     /// Told how a surface was made ready, one step a line; for those who want to see it.
     fn detail(&mut self, _message: &dyn Display) {}
 
-    /// All is read and made that the run needs, and nothing is written yet: until now whoever wants to stop it may end the process.
+    /// Called when all that the run needs is read and made, and nothing is written: until now whoever wants to stop it may end the process.
     fn prepared(&mut self) {}
 
-    /// Steps begin, to be taken until this physical time (s); `name` tells a run from others of the same scene, else it is
+    /// Called when steps begin, to be taken until this physical time (s); `name` tells a run from others of the same scene, else it is
     /// empty.
     fn starts(&mut self, _name: &str, _duration: f64) {}
 
     /// Called about ten times a second between two steps.
     fn progress(&mut self, _simulation: &Simulation) {}
 
-    /// A sample was taken; it is on its way to the run file.
+    /// Called when a sample was taken; it is on its way to the run file.
     fn sample(&mut self, _sample: &Sample) {}
 
-    /// The last step was taken, or the run ends before.
+    /// Called when the last step was taken, or the run ends before.
     fn ends(&mut self) {}
 
     /// The number of the signal that asks the run to stop, if one does. Looked at as often as [`progress`](Self::progress) is

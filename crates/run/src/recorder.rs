@@ -61,9 +61,9 @@ pub fn input_files(scene: &Scene, surface_files: &[(PathBuf, String)]) -> Vec<In
 /// Reason why a run that had started did not end.
 #[derive(Debug)]
 pub enum Interruption {
-    /// It failed.
+    /// Run that failed.
     Failed(RunFailure),
-    /// This signal asked it to stop.
+    /// Signal that asked the run to stop.
     Stopped(u8),
 }
 
@@ -75,13 +75,13 @@ impl<Error: Into<RunFailure>> From<Error> for Interruption {
 
 /// Hands what a simulation reports to the writer and to the observer, and does what that asks for.
 pub struct Recorder<'a> {
-    /// None in a process that does not lead.
+    /// Writer of the run file; none in a process that does not lead.
     pub writer: Option<RunWriter>,
-    /// Told of every sample, and asked whether to go on.
+    /// Observer, which is told of every sample and asked whether to go on.
     pub observer: &'a mut dyn Observer,
     /// The processes that take the steps together.
     pub job: &'a mut Job,
-    /// Writes the state now and then.
+    /// Writer of the state, which does so now and then.
     pub checkpointer: Checkpointer,
     /// Last agreement of all processes.
     pub agreement: Agreement,
@@ -141,13 +141,13 @@ pub fn is_stiff(parameters: &Parameters, stiffness_number: f64) -> bool {
     parameters.integrator == Integrator::Explicit && stiffness_number > LARGE_STIFFNESS_NUMBER
 }
 
-/// Says where that is so at the temperature with which a run begins.
+/// Warns where that is so at the temperature with which a run begins.
 pub fn stiffness_warning(parameters: &Parameters) -> Option<String> {
     let stiffness_number = parameters.first_stiffness_number();
     is_stiff(parameters, stiffness_number).then(|| in_words("the stiffness number is", stiffness_number))
 }
 
-/// Says that it has become so.
+/// Warns that it has become so after so much physical time (s).
 pub fn grown_stiffness_warning(stiffness_number: f64, time: f64) -> String {
     let time = number::rounded(time, 4);
     in_words(
@@ -191,17 +191,17 @@ pub struct Checkpointer {
     /// Time at which the last one was begun.
     last: Instant,
     start: Instant,
-    /// Wall time of the run before this process.
+    /// Wall time of the run before this process, s.
     earlier: f64,
     /// The last sample of the run, in this process or before.
     pub last_sample: Option<Sample>,
-    /// Samples and maps that were sent to the run file.
+    /// Numbers of samples and maps that were sent to the run file.
     sent: [usize; 2],
     writing: Option<JoinHandle<io::Result<()>>>,
 }
 
 impl Checkpointer {
-    /// For a run that begins, or that goes on from a state.
+    /// Makes one for a run that begins, or that goes on from a state; `every` is the wall time between two checkpoints, s.
     pub fn new(run_file: &Path, identity: RunIdentity, every: f64, earlier: Option<&RunState>) -> Self {
         let now = Instant::now();
         Self {
@@ -217,13 +217,13 @@ impl Checkpointer {
         }
     }
 
-    /// A sample was sent to the run file.
+    /// Notes that a sample was sent to the run file.
     pub fn sampled(&mut self, sample: Sample) {
         self.sent[0] += 1;
         self.last_sample = Some(sample);
     }
 
-    /// Maps were sent to the run file.
+    /// Notes that maps were sent to the run file.
     pub fn mapped(&mut self) {
         self.sent[1] += 1;
     }
@@ -282,7 +282,7 @@ impl Checkpointer {
 }
 
 impl Drop for Checkpointer {
-    /// Nothing is written when the claim on the run file ends.
+    /// Waits, so that nothing is being written when the claim on the run file ends.
     fn drop(&mut self) {
         // Who has not waited has a worse error to tell.
         let _ = self.writing.take().map(JoinHandle::join);

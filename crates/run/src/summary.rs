@@ -20,11 +20,11 @@ use serde::Serialize;
 pub struct RunSummary {
     /// Title of the scene.
     pub title: String,
-    /// Content read, made and done for the surfaces.
+    /// Steps of reading, making and preparing the surfaces, one a line.
     pub surfaces: Vec<String>,
     /// The run file.
     pub file: PathBuf,
-    /// Its size, bytes.
+    /// Size of the run file, bytes.
     pub file_size: u64,
     /// Steps of the run.
     pub steps: u64,
@@ -32,7 +32,7 @@ pub struct RunSummary {
     pub time: f64,
     /// Wall time in this process, s.
     pub wall_time: f64,
-    /// Steps of the run in that time, 1/s.
+    /// Steps of the whole run over that time, 1/s.
     pub steps_per_second: f64,
     /// Number of times that the load was looked for in a step, mean.
     pub load_evaluations_per_step: f64,
@@ -42,11 +42,11 @@ pub struct RunSummary {
     pub peak_memory: Option<u64>,
     /// Contact area, m².
     pub contact_area: f64,
-    /// Its mean over the last simulated revolution, m².
+    /// Contact area, mean over the last simulated revolution, m².
     pub contact_area_mean: f64,
-    /// Its mean over the last tenth of the run, where there are enough samples.
+    /// Contact area, mean over the last tenth of the run, m², where there are enough samples.
     pub contact_area_last_tenth: Option<WindowMean>,
-    /// Change of its mean in the second half of the run, where that can be told.
+    /// Change of the mean contact area in the second half of the run, where that can be told.
     pub contact_area_drift: Option<Drift>,
     /// Time at which the contact area has come to 90 % of its value at the end of the run, s, where that is defined.
     pub running_in_time: Option<f64>,
@@ -56,13 +56,13 @@ pub struct RunSummary {
     /// Time acceleration, where the run chose it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub time_acceleration: Option<Chosen>,
-    /// Contact area as a part of the pin's.
+    /// Contact area as a part of the pin's, 1.
     pub contact_ratio: f64,
     /// Mean pressure in contact, Pa.
     pub mean_pressure: f64,
     /// Largest pressure, Pa.
     pub max_pressure: f64,
-    /// Filled fraction of the disc.
+    /// Filled fraction of the disc, 1.
     pub filled_fraction: f64,
     /// Area fraction of the disc with any build-up.
     pub disc_secondary: f64,
@@ -90,7 +90,7 @@ pub struct RunSummary {
     pub brake: BTreeMap<&'static str, f64>,
     /// Largest load residual of any step, relative.
     pub load_residual: f64,
-    /// Bound of the scene.
+    /// Load residual that the scene allows, relative.
     pub load_tolerance: f64,
     /// Residual of the debris balance, relative.
     pub balance_residual: f64,
@@ -128,7 +128,7 @@ pub struct PartsSummary {
     /// PM2.5, kg.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub pm25_mass: Option<f64>,
-    /// Airborne particles.
+    /// Number of airborne particles.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub particle_number: Option<f64>,
 }
@@ -151,7 +151,7 @@ impl PartsSummary {
     }
 }
 
-/// What a sample has of the series of a brake that a run has.
+/// Values of a sample for those series of a brake that a run has.
 fn of_brake(extras: &[&Extra], last: &Sample) -> BTreeMap<&'static str, f64> {
     let extras = extras.iter().copied().filter(|extra| OF_BRAKES.contains(extra));
     extras.flat_map(|extra| extra.quantities).map(|quantity| (quantity.name, quantity.value(last))).collect()

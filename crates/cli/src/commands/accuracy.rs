@@ -47,7 +47,7 @@ pub fn accuracy(arguments: &AccuracyArguments) -> Result<(), Failure> {
     result
 }
 
-/// The same, with a folder to write to.
+/// Measures the errors of a scene's runs and writes them to the folder that is there.
 fn measure_into(
     arguments: &AccuracyArguments,
     scene: Scene,
@@ -135,7 +135,7 @@ fn places(
     Ok(places)
 }
 
-/// Whose fault it is that errors cannot be measured.
+/// Failure with the exit status that tells whose fault it is that errors cannot be measured.
 fn failure(error: AccuracyError) -> Failure {
     match error {
         AccuracyError::Input(PlanError::Scene(error)) => Failure::of_scene(error),
@@ -207,7 +207,7 @@ fn errors(report: &Report) -> String {
     columns(heading, &names, &report.rows.iter().map(line).collect::<Vec<_>>())
 }
 
-/// What the table cannot say.
+/// Notes of the report, runs that failed, and stiffness numbers at which the explicit rule is not to be trusted.
 fn notes(report: &Report) -> Vec<String> {
     let mut notes = report.notes.clone();
     for row in &report.rows {
@@ -300,7 +300,7 @@ fn csv(report: &Report) -> String {
     csv_table(names.into_iter().take(1).chain(lines))
 }
 
-/// As short as reads back as the same number.
+/// Shortest text that reads back as the same number; empty for NaN.
 fn number(value: f64) -> String {
     if value.is_nan() { String::new() } else { format!("{value:?}") }
 }

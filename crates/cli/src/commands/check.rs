@@ -72,7 +72,7 @@ pub fn check(arguments: &CheckArguments) -> Result<(), Failure> {
 #[derive(Debug, Serialize)]
 struct File {
     access: &'static str,
-    /// As the run uses it.
+    /// Path as the run uses it.
     path: String,
     /// The path without links and `..`.
     resolved: String,
@@ -139,7 +139,7 @@ struct CheckReport {
     pin_columns: usize,
     cell_height: f64,
     cell_width: f64,
-    /// Of a pin that is no rectangle.
+    /// Outline of a pin that is no rectangle.
     #[serde(skip_serializing_if = "Option::is_none")]
     outline: Option<OutlineReport>,
     nominal_pressure: f64,
@@ -148,11 +148,11 @@ struct CheckReport {
     by_torque: bool,
     steps: u64,
     step_time: f64,
-    /// Of a scene with a cycle.
+    /// Cycle of the scene, if it has one.
     #[serde(skip_serializing_if = "Option::is_none")]
     cycle: Option<CycleReport>,
     revolutions: f64,
-    /// Of a scene whose contact area pulses.
+    /// Pulse of the contact area, if it pulses.
     #[serde(skip_serializing_if = "Option::is_none")]
     pulse: Option<PulseReport>,
     samples: u64,
@@ -163,14 +163,14 @@ struct CheckReport {
     workers: usize,
     decomposition: String,
     instruction_set: &'static str,
-    /// Of the steps and the surfaces, s.
+    /// Time that surfaces and steps will take, s.
     estimated_time: f64,
     /// Time that making the surfaces has taken, s.
     preparing_time: f64,
-    /// Of a run that chooses it.
+    /// Largest time acceleration of a run that chooses it.
     largest_acceleration: Option<f64>,
     stiffness_number: f64,
-    /// The same where `thermal.wear_rate_factor` is largest.
+    /// Stiffness number where `thermal.wear_rate_factor` is largest.
     #[serde(skip_serializing_if = "Option::is_none")]
     hot_stiffness_number: Option<f64>,
     warns_of_stiffness: bool,
@@ -188,7 +188,7 @@ struct Reasoned {
 }
 
 impl CheckReport {
-    /// Of a scene, whose surfaces took the first of these times to make, s, and of which a step takes the second.
+    /// Makes the report on a scene whose surfaces took the first of these times (s) to make, and of which a step takes the second.
     fn new(
         scene: &Scene,
         files: Vec<File>,
@@ -286,7 +286,7 @@ impl CheckReport {
         format!("{all}: {surfaces} for the surfaces (as now), {trial}")
     }
 
-    /// What matters first, as text, or all of it; with the number of warnings that were given.
+    /// Main rows of the report, or all of them, as text; with the number of warnings that were given.
     fn to_text(&self, all: bool, warnings: usize) -> String {
         let micrometres = |length: f64| format!("{} um", number::short(length * 1e6));
         let mesh = format!(
@@ -387,7 +387,7 @@ struct CycleReport {
 }
 
 impl CycleReport {
-    /// Of a scene that has a cycle.
+    /// Sums up the cycle of a scene, if it has one.
     fn of(scene: &Scene) -> Option<Self> {
         let cycle: &Cycle = &scene.cycle.as_ref()?.cycle;
         let (parameters, until) = (&scene.parameters, scene.duration);
@@ -407,7 +407,7 @@ impl CycleReport {
         })
     }
 
-    /// For the table of the run.
+    /// Rows for the table of the run.
     fn rows(&self) -> Vec<(&'static str, String)> {
         let [fewest, most] = self.steps_per_event.map(number::grouped);
         let largest = self.largest_acceleration_without_warning;
@@ -439,16 +439,16 @@ impl CycleReport {
 #[derive(Debug, Serialize)]
 struct OutlineReport {
     shape: &'static str,
-    /// m.
+    /// Diameter, m.
     diameter: f64,
     /// Cells of the pin that are there.
     cells: usize,
-    /// Their area, m².
+    /// Area of these cells, m².
     area: f64,
 }
 
 impl OutlineReport {
-    /// That of a mesh; none for a rectangle.
+    /// Measures the outline of a mesh; none for a rectangle.
     fn of(mesh: &Mesh) -> Option<Self> {
         match mesh.outline() {
             Outline::Rectangle => None,
@@ -458,7 +458,7 @@ impl OutlineReport {
         }
     }
 
-    /// In words.
+    /// Description in words.
     fn text(&self) -> String {
         format!(
             "a circle of {} mm in diameter: {} cells, {} mm²",
@@ -486,7 +486,7 @@ struct PulseReport {
 }
 
 impl PulseReport {
-    /// That of a run of so many steps; none where nothing pulses, or load and speed change with time.
+    /// Compares a run of so many steps with its pulse; none where nothing pulses, or load and speed change with time.
     fn of(parameters: &Parameters, base: &[Base], steps: u64) -> Option<Self> {
         let run = steps as f64;
         Some(Self {
@@ -496,7 +496,7 @@ impl PulseReport {
         })
     }
 
-    /// In words.
+    /// Description in words.
     fn text(&self) -> String {
         let Self { pulse_time, last_tenth, revolutions } = *self;
         let enough = |found: f64, wanted: f64| found >= wanted * (1.0 - ROUNDING);

@@ -295,7 +295,7 @@ fn read_or_convert(
     }
 }
 
-/// What was read; a profile whose lay is not said is asked for it.
+/// Returns what was read; for a profile without a lay, an error that asks for it.
 fn measured(found: Result<Measured, FileError>) -> Result<Measured, String> {
     let found = match found {
         Ok(Measured { profile_lay: None, columns, rows, .. }) if columns == 1 || rows == 1 => {
@@ -346,7 +346,7 @@ fn lay(measured: &Measured, form: Level) -> Option<ClearLay> {
 }
 
 impl ClearLay {
-    /// Which way it runs, in words.
+    /// Direction of the lay, in words.
     fn runs(&self) -> String {
         let Self { aspect_ratio, form, direction } = self;
         let way = match direction.abs() {
@@ -368,12 +368,12 @@ impl ClearLay {
         format!("{} deg", number::plain(degrees))
     }
 
-    /// Where that turns it.
+    /// Direction to which [`rotate`](Self::rotate) turns the lay, in words.
     fn to(&self) -> &'static str {
         if self.direction.abs() <= ALONG { "across sliding" } else { "along sliding" }
     }
 
-    /// What stands beside the key in the scene.
+    /// Remark beside the key in the scene.
     fn remark(&self) -> String {
         format!("<- the lay runs {}: this turns it {}", self.runs(), self.to())
     }

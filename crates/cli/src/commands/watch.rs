@@ -18,7 +18,7 @@ use crate::terminal::Interrupt;
 
 /// Time between two looks, at least.
 const INTERVAL: Duration = Duration::from_secs(1);
-/// A look takes at most this part of the time.
+/// Least pause after a look, as a multiple of the time that the look took.
 const PART: u32 = 5;
 /// Time between two questions whether a signal has come.
 const NAP: Duration = Duration::from_millis(50);
@@ -86,7 +86,7 @@ struct Watcher<'a> {
     last: Option<Look>,
     /// Size and time of the file that was looked at last, and how often it was.
     stamp: (Option<(u64, SystemTime)>, u32),
-    /// Since when the file cannot be read.
+    /// Moment since which the file cannot be read.
     unreadable: Option<Instant>,
 }
 
@@ -140,7 +140,7 @@ impl<'a> Watcher<'a> {
         Err(Failure::because(&error, format_args!("{error}{waited}")))
     }
 
-    /// That the run may have been killed, if so it seems.
+    /// Warns that the run may have been killed, if so it seems.
     fn warning(&self, look: &Look) -> Option<String> {
         let silence = self.pace.silence(look, Instant::now()).filter(|_| look.state == State::Running)?;
         let silence = number::duration(silence.as_secs_f64().floor());
@@ -160,7 +160,7 @@ impl<'a> Watcher<'a> {
 /// Standard output.
 #[derive(Debug)]
 struct Screen {
-    /// None where standard output is no terminal.
+    /// Terminal; none where standard output is something else.
     terminal: Option<Term>,
     unicode: bool,
     /// Lines of the page that is shown.

@@ -41,14 +41,14 @@ pub(super) const DIGEST: &str = "sha256";
 /// Digests of the datasets that grow, taken of the values that are handed to the library.
 #[derive(Debug, Default)]
 pub(super) struct Digests {
-    /// Of the datasets with one dimension, up to now.
+    /// Digests of the datasets with one dimension, up to now.
     columns: BTreeMap<String, Sha256>,
-    /// Of the maps, one for each moment.
+    /// Digests of the maps, one for each moment.
     maps: BTreeMap<&'static str, Vec<String>>,
 }
 
 impl Digests {
-    /// Values that were appended to a dataset with one dimension.
+    /// Takes values that were appended to a dataset with one dimension.
     pub(super) fn append(&mut self, path: &str, values: &[f64]) {
         update(self.columns.entry(path.to_owned()).or_default(), values);
     }
@@ -250,11 +250,11 @@ fn path_of(file: &File, reference: &ObjectReference1) -> hdf5::Result<String> {
 pub struct Verification {
     /// State of its run.
     pub state: State,
-    /// Samples.
+    /// Number of samples.
     pub samples: usize,
-    /// Moments of which there are maps.
+    /// Number of moments of which there are maps.
     pub moments: usize,
-    /// Digests that hold.
+    /// Number of digests that hold.
     pub intact: usize,
     /// Tells whether it has digests: not before it is closed.
     pub digested: bool,
@@ -268,9 +268,9 @@ pub struct Verification {
 /// A part of a run file that is damaged.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct Damage {
-    /// Its place, such as `/disc/height at 500 s`.
+    /// Place of the damage, such as `/disc/height at 500 s`.
     pub place: String,
-    /// The sign of it.
+    /// Sign of the damage, in words.
     pub problem: String,
 }
 
@@ -316,14 +316,14 @@ struct Check<'a> {
 }
 
 impl Check<'_> {
-    /// A dataset with one dimension.
+    /// Checks a dataset with one dimension.
     fn column(&mut self, path: &str) {
         let values = self.guarded(path, |dataset| dataset.read_1d::<f64>());
         let values = values.map(|values| values.to_vec()).map_err(|error| reason(&error));
         self.compare(path, values.map(|values| of_floats(&values)));
     }
 
-    /// As many values as there are times; where the program was killed there may be more.
+    /// Checks as many values of a series as there are times; where the program was killed there may be more.
     fn series(&mut self, name: &str) {
         let path = series_path(name);
         let values = self.run.values(name).map(Option::unwrap_or_default).map_err(in_short);
@@ -337,7 +337,7 @@ impl Check<'_> {
         self.compare(PIN_BASE, base.map(|base| sha256_of(&base)));
     }
 
-    /// Every moment has its own digest.
+    /// Checks a map at every moment: each has its own digest.
     fn map(&mut self, map: Map) {
         let path = map_path(map);
         if let Err(problem) = self.no_more_than(path, self.run.map_time().len()) {
@@ -378,7 +378,7 @@ impl Check<'_> {
         self.judge(place.to_owned(), found, written);
     }
 
-    /// That a dataset of a closed file goes no further than its times; before, what comes last may have none yet.
+    /// Refuses a dataset of a closed file that is longer than its times; before it is closed, what comes last may have none yet.
     fn no_more_than(&self, path: &str, times: usize) -> Result<(), String> {
         let rows = self.guarded(path, |dataset| Ok(dataset.shape().first().copied().unwrap_or(0)));
         let rows = rows.map_err(|error| reason(&error))?;
@@ -388,7 +388,7 @@ impl Check<'_> {
         Ok(())
     }
 
-    /// A dataset that has one digest.
+    /// Compares a dataset that has one digest with it.
     fn compare(&mut self, path: &str, found: Result<String, String>) {
         let written = self.written(path).map(|digests| digests.and_then(|digests| digests.first().cloned()));
         self.judge(format!("/{path}"), found, written);

@@ -15,7 +15,7 @@ use crate::text::shown_problem;
 /// input is wrong and that nothing was touched; these mean that the run failed.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum RunFileError {
-    /// There is something at the output path and it was not asked to be replaced.
+    /// File at the output path that was not asked to be replaced.
     #[error("the output file {} exists; give --force to replace it, or write elsewhere with -o FILE", .0.display())]
     Exists(PathBuf),
     /// The path cannot be written, what is to be written does not fit the mesh, or the file was moved while the run went on.
@@ -90,12 +90,12 @@ pub(super) fn not_anew(path: &Path) -> impl Fn(hdf5::Error) -> RunFileError {
 }
 
 impl ReadError {
-    /// Of a file of which the library says this: damaged.
+    /// Error of a damaged file, with what the library says.
     pub(super) fn of_library(path: &Path, reason: impl Into<String>) -> Self {
         Self::Damaged(path.to_owned(), shown_problem(&reason.into()).into_owned())
     }
 
-    /// Of a file that the system does not give.
+    /// Error of a file that the system does not give.
     pub(super) fn of_system(path: &Path, error: &io::Error) -> Self {
         let path = path.to_owned();
         match error.raw_os_error() {
@@ -119,18 +119,18 @@ pub enum ReadError {
     /// The system does not give the file: its message and the number of its error.
     #[error("cannot read {}: {}", .0.display(), .1)]
     System(PathBuf, String, Option<i32>),
-    /// It is no HDF5 file; with what is expected in its place, and which command makes that.
+    /// File that is not HDF5; with what is expected in its place, and which command makes that.
     #[error("{} is not an HDF5 file, {}", .0.display(), .1)]
     NotHdf5(PathBuf, String),
-    /// It is an HDF5 file that no run wrote; with the part that it lacks.
+    /// HDF5 file that no run wrote; with the part that it lacks.
     #[error("{} is not a run file of plateau: it has no {}", .0.display(), .1)]
     Foreign(PathBuf, String),
-    /// It was written by a later program, in this version.
+    /// File of a later program, with its version of the format.
     #[error(
         "{} has format_version {}, expected at most {}; read it with the program that wrote it", .0.display(), .1, FORMAT_VERSION
     )]
     Newer(PathBuf, i64),
-    /// Some of it is in other files: the parts, and their files.
+    /// File of which some is in other files: the parts, and their files.
     #[error("{} is not a run file of plateau: {}; such a file is read only when all of it is in it", .0.display(), .1)]
     Elsewhere(PathBuf, String),
     /// The system gives no more file handles, as it says.
@@ -139,7 +139,7 @@ pub enum ReadError {
         .0.display(), .1
     )]
     Handles(PathBuf, String),
-    /// A part of it is missing, cut off or changed; with the problem.
+    /// File of which a part is missing, cut off or changed; with the problem.
     #[error("{} is damaged: {}; if it is being written or copied try again, else run its scene again", .0.display(), .1)]
     Damaged(PathBuf, String),
 }

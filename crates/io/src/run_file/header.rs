@@ -27,7 +27,7 @@ pub enum State {
 }
 
 impl State {
-    /// Its name in run files.
+    /// Name of the state in run files.
     pub fn name(self) -> &'static str {
         match self {
             Self::Running => "running",
@@ -37,7 +37,7 @@ impl State {
         }
     }
 
-    /// All of them.
+    /// All states.
     pub(super) const ALL: [Self; 4] = [Self::Running, Self::Finished, Self::Interrupted, Self::Failed];
 
     pub(super) fn of(name: &str) -> Option<Self> {
@@ -58,7 +58,7 @@ pub struct Header {
     pub maps: Vec<Map>,
     /// Series besides those that every run has.
     pub extras: Vec<&'static Extra>,
-    /// About how many samples will be sent; any number will do, a good one makes the file small and quick to write.
+    /// Number of samples that will be sent, about; any number will do, a good one makes the file small and quick to write.
     pub expected_samples: u64,
     /// The whole resolved scene, TOML.
     pub scene: String,
@@ -70,7 +70,7 @@ pub struct Header {
     pub host: String,
     /// Threads that share the ring.
     pub workers: usize,
-    /// What of the mesh each of them has, in words.
+    /// Part of the mesh that each worker has, in words.
     pub decomposition: String,
     /// The instruction set that the kernel uses.
     pub instruction_set: String,
@@ -109,9 +109,9 @@ impl InputFile {
 /// Content of the run file of a run that is continued.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Earlier {
-    /// Samples.
+    /// Number of samples.
     pub samples: usize,
-    /// Moments of which there are maps.
+    /// Number of moments of which there are maps.
     pub snapshots: usize,
     /// Wall time of the run so far.
     pub wall_time: Duration,

@@ -37,7 +37,7 @@ pub struct Series {
     pub name: String,
     /// SI unit.
     pub unit: String,
-    /// Its meaning, in words.
+    /// Meaning of the series, in words.
     pub long_name: String,
 }
 
@@ -166,7 +166,7 @@ impl Opening<'_> {
         }
     }
 
-    /// Of a file that lacks what every run file has.
+    /// Error of a file that lacks what every run file has.
     pub(super) fn foreign(&self, missing: &str) -> ReadError {
         // What `sweep collect` writes.
         let is_study = self.file.attr("base_scene").is_ok();
@@ -178,7 +178,7 @@ impl Opening<'_> {
         ReadError::Foreign(self.path.into(), format!("{missing}{advice}"))
     }
 
-    /// Of a run file that is not as it was written.
+    /// Error of a run file that is not as it was written.
     pub(super) fn damaged(&self, reason: impl Into<String>) -> ReadError {
         ReadError::of_library(self.path, reason)
     }
@@ -259,7 +259,7 @@ impl RunFile {
         Self { path: path.into(), ..self }
     }
 
-    /// Its path.
+    /// Path of the file.
     pub fn path(&self) -> &Path {
         &self.path
     }
@@ -399,7 +399,7 @@ impl RunFile {
     }
 }
 
-/// Content that is expected in place of a file that is not HDF5, and which command makes it: of a scene or a study that was named in its place.
+/// Message on what is expected in place of a file that is not HDF5, and on the command that makes it of a scene, if one was named.
 fn expected_of(path: &Path) -> String {
     let shown = path.display();
     let expected = "expected a run file of plateau, which";
@@ -472,7 +472,7 @@ pub struct ContactArea {
     pub last_tenth: Option<WindowMean>,
     /// Change of the mean in the second half of the run, or why that is not told.
     pub drift: Result<Drift, NoDrift>,
-    /// Time at which it has come to 90 % of its value at the end, s, or why that is not defined. Of a run with a cycle over the time in contact.
+    /// Time at which it has come to 90 % of its value at the end, s, or why that is not defined. Of a run with a cycle time in contact.
     pub running_in: Result<f64, NotDefined>,
 }
 
@@ -482,7 +482,7 @@ pub enum NoDrift {
     /// The contact area follows load and speed.
     #[error("cannot be told: with a cycle the contact area follows load and speed")]
     Cycle,
-    /// There is nothing to compare.
+    /// Samples or simulated revolutions that are too few to compare.
     #[error(
         "cannot be told: too few samples or simulated revolutions; {LEAST_PARTS} in each quarter of the second half are needed"
     )]

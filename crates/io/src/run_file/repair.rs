@@ -23,15 +23,15 @@ use crate::{hdf5_file, temporary};
 /// Outcome of a repair.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Repair {
-    /// It was closed in good order; nothing was done.
+    /// File that was closed in good order; nothing was done.
     Healthy,
-    /// It is closed now, with all samples and maps that were complete.
+    /// File that is closed now, with all samples and maps that were complete.
     Repaired {
         /// Copy of the file of before.
         copy: PathBuf,
-        /// Samples.
+        /// Number of samples.
         samples: usize,
-        /// Moments of which there are maps.
+        /// Number of moments of which there are maps.
         moments: usize,
         /// Parts that it does not hold, or may hold and should not.
         left_out: LeftOut,
@@ -54,7 +54,7 @@ pub enum LeftOut {
 /// Reason why a file is not repaired; it is as it was.
 #[derive(Debug, Error)]
 pub enum RepairError {
-    /// It cannot be read.
+    /// File that cannot be read.
     #[error("{0}")]
     Read(#[from] ReadError),
     /// Another process writes it.

@@ -33,7 +33,7 @@ pub struct WriterReport {
     pub samples: usize,
     /// Moments of which there are maps in the file.
     pub snapshots: usize,
-    /// Size of the file.
+    /// Size of the file, bytes.
     pub bytes: u64,
 }
 
@@ -41,7 +41,7 @@ pub struct WriterReport {
 pub(super) struct Datasets {
     time: Dataset,
     series: Vec<(&'static Quantity, Dataset)>,
-    /// Present where there are maps.
+    /// Times of the maps; none where there are no maps.
     map_time: Option<Dataset>,
     maps: Vec<(Map, Dataset)>,
     rows: usize,
@@ -80,7 +80,7 @@ impl Datasets {
         self.digests
     }
 
-    /// All of them.
+    /// All datasets.
     pub(super) fn all(&self) -> impl Iterator<Item = &Dataset> {
         let series = self.series.iter().map(|(_, dataset)| dataset);
         let maps = self.maps.iter().map(|(_, dataset)| dataset);
@@ -115,7 +115,7 @@ impl Datasets {
         Ok(())
     }
 
-    /// One column for each series; the times after the flush tell readers that they are there.
+    /// Appends one column for each series; the times after the flush tell readers that they are there.
     fn append(&mut self, file: &File, columns: Vec<Vec<f64>>, time: Vec<f64>) -> hdf5::Result<()> {
         let (old, new) = (self.samples, self.samples + time.len());
         let append = |dataset: &Dataset, values: &[f64]| {
@@ -181,7 +181,7 @@ fn write_level<T: H5Type>(dataset: &Dataset, level: usize, values: &[T], rows: u
 /// A run file that is read, or a copy of it as it was at a checkpoint.
 pub(super) struct Restored {
     pub(super) run: RunFile,
-    /// It goes with its copy.
+    /// Copy that `run` reads, if it reads one; the copy is removed with it.
     _copy: Option<Temporary>,
 }
 

@@ -37,12 +37,12 @@ pub fn load(path: &Path, sets: &[String]) -> Result<Scene, SceneError> {
     of_layers(path, None, &[sets])
 }
 
-/// As [`load`], of the text of a scene that is in no file: what it names is looked for as if it were at `path`.
+/// Reads a scene as [`load`] does, from a text that is in no file: what it names is looked for as if it were at `path`.
 pub fn of_text(path: &Path, text: &str) -> Result<Scene, SceneError> {
     of_layers(path, Some(text), &[])
 }
 
-/// As [`load`], or of a text as [`of_text`], with lists of changes that are laid over each other, as scenes are that extend others: a
+/// Reads a scene as [`load`] or [`of_text`] does, with lists of changes that are laid over each other, as scenes are that extend others: a
 /// later one may choose another alternative.
 pub fn of_layers(path: &Path, text: Option<&str>, sets: &[&[String]]) -> Result<Scene, SceneError> {
     let Layered { entries, files, mut problems, replaced } = layers::read(path, text, sets)?;
@@ -119,7 +119,7 @@ fn build(mut settings: Settings, mut files: Vec<(PathBuf, String)>, path: &Path)
     })
 }
 
-/// A count that is too large for this machine's addresses is too large in any case, and refused as such later.
+/// Count as an address; one that is too large for this machine's addresses is too large in any case, and refused as such later.
 fn address(count: u64) -> usize {
     usize::try_from(count).unwrap_or(usize::MAX)
 }
@@ -353,7 +353,7 @@ fn map_times(settings: &mut Settings, end: f64, warnings: &mut Vec<Warning>) -> 
     kept
 }
 
-/// More steps than this cannot be counted one by one in a double (2^53), and the time of a step would be wrong.
+/// Most steps that a double counts one by one (2^53); with more the time of a step would be wrong.
 const MOST_STEPS: u64 = 1 << f64::MANTISSA_DIGITS;
 
 /// Steps and duration.

@@ -27,11 +27,11 @@ pub struct Scene {
     pub title: String,
     /// The scene file.
     pub path: PathBuf,
-    /// Everything core is told; where the run chooses its acceleration, with m = 1.
+    /// Parameters of the model; where the run chooses its acceleration, with m = 1.
     pub parameters: Parameters,
     /// Steps to simulate; where the run chooses its acceleration, with m = 1.
     pub steps: u64,
-    /// |Σ k A u − F_N| / F_N above which the run says that the load balance is inexact. It changes no step.
+    /// Residual |Σ k A u − F_N| / F_N above which the run says that the load balance is inexact. It changes no step.
     pub load_tolerance: f64,
     /// Load and speed over time, if they are given as a cycle.
     pub cycle: Option<OperationCycle>,
@@ -45,11 +45,11 @@ pub struct Scene {
     pub disc_surface: HeightSettings,
     /// Pin heights.
     pub pin_surface: HeightSettings,
-    /// Added to the pin's height on cells without fibre, m.
+    /// Height that is added to the pin's on cells without fibre, m.
     pub resin_recess: f64,
     /// Fibre map of the pin.
     pub pin_base: BaseSource,
-    /// The fibre map is a view of the pin's face: x is mirrored, whatever the map comes from.
+    /// True if the fibre map is a view of the pin's face: x is mirrored, whatever the map comes from.
     pub pin_base_mirror: bool,
     /// Threads.
     pub workers: Workers,
@@ -134,7 +134,7 @@ pub struct OperationCycle {
 pub struct HeightSettings {
     /// Source of the heights.
     pub source: HeightSource,
-    /// View from the front: x is mirrored.
+    /// True for a view from the front: x is mirrored.
     pub mirror: bool,
     /// The preparation chain.
     pub preparation: Preparation,
@@ -218,7 +218,7 @@ pub enum BaseSource {
 pub enum Workers {
     /// The number that is fastest on this machine.
     Auto,
-    /// This many, at least 1.
+    /// Number that is given, at least 1.
     Count(usize),
 }
 
@@ -279,7 +279,7 @@ fn field(columns: usize, rows: usize, closed: bool) -> u64 {
     columns.saturating_mul(padded(rows)).saturating_mul(5 * FLOAT as u64)
 }
 
-/// As [`memory_estimate`], for a mesh of `rows`, `disc_columns` and `pin_columns` that need not exist; saturates.
+/// Estimates memory, bytes, as [`memory_estimate`] does, for a mesh of these rows and columns that need not exist; saturates.
 pub(super) fn estimate(
     [rows, disc_columns, pin_columns]: [u64; 3],
     maps: &[Map],

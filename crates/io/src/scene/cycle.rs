@@ -1,4 +1,4 @@
-//! From the rows of a cycle, in the scene or in a file, to the cycle itself (docs/drive.md).
+//! Cycle of a scene, made from its rows in the scene or in a file (docs/drive.md).
 
 use std::path::Path;
 use std::sync::Arc;
@@ -20,9 +20,9 @@ use crate::number;
 /// A load that does not change.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct ConstantLoad {
-    /// F, N, or T, N m.
+    /// Normal force F, N, or braking torque T, N m.
     pub value: Option<f64>,
-    /// Whether it is a braking torque.
+    /// True if it is a braking torque.
     pub by_torque: bool,
 }
 
@@ -139,7 +139,7 @@ pub(super) fn operation(
     }))
 }
 
-/// A file that cannot be read is the fault of the key that names it.
+/// Problem with the key that names a file, where that cannot be read.
 fn named(settings: &Settings, problem: Problem) -> Problem {
     match problem.origin {
         Origin::File(file) => {
@@ -150,7 +150,7 @@ fn named(settings: &Settings, problem: Problem) -> Problem {
     }
 }
 
-/// The error that a choice would estimate is that of a history; a cycle has another one in every event.
+/// Refuses a cycle where the run chooses its acceleration: a choice would estimate the error of one history, and every event has another.
 pub(super) fn refuse_choice(settings: &Settings, cycle: &Cycle, until: f64) -> Result<(), Problem> {
     let tolerance = join(ACCELERATION, "tolerance");
     if settings.get(&tolerance).is_none() {

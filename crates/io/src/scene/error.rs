@@ -74,7 +74,7 @@ impl<'a> Locator<'a> {
 /// One thing that is wrong: where, which key, what was found, what was expected, what to do.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Problem {
-    /// Where.
+    /// Place of what is wrong.
     pub origin: Origin,
     /// Full path of the key, if there is one.
     pub key: Option<String>,

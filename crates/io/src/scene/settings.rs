@@ -51,7 +51,7 @@ impl Settings {
         self.values.get(path).map(|(setting, _)| setting)
     }
 
-    /// Where a key was given, or an empty table.
+    /// Origin of a key, or of an empty table; the default where neither is given.
     pub(super) fn origin(&self, path: &str) -> Origin {
         let table = || self.tables.get(path).cloned().unwrap_or(Origin::Default);
         self.values.get(path).map_or_else(table, |(_, origin)| origin.clone())
@@ -86,7 +86,7 @@ impl Settings {
         }
     }
 
-    /// Meaning of the word of a choice that a checked scene has stands for.
+    /// Meaning of the word of a choice that a checked scene has.
     pub(super) fn choice<T: Copy, const COUNT: usize>(
         &self,
         path: &str,
@@ -97,7 +97,7 @@ impl Settings {
         known.ok_or_else(|| self.unlike(path, "a word of its choice", self.get(path)))
     }
 
-    /// The same of a choice that may be absent.
+    /// Meaning of the word of a choice that may be absent.
     pub(super) fn optional_choice<T: Copy, const COUNT: usize>(
         &self,
         path: &str,
@@ -229,7 +229,7 @@ fn applies(key: &Key, entries: &Entries) -> bool {
     key.inline_table().is_none_or(|table| is_there(&table)) && schema::optional_table(key.section).is_none_or(is_there)
 }
 
-/// `dataset` means nothing without `file`, and so on.
+/// Refuses keys that mean nothing without another one: `dataset` without `file`, and so on.
 pub(super) fn refuse_lone_companions(entries: &Entries, problems: &mut Vec<Problem>) {
     for group in schema::GROUPS {
         for (member, companions) in group.members {
@@ -246,7 +246,7 @@ pub(super) fn refuse_lone_companions(entries: &Entries, problems: &mut Vec<Probl
     }
 }
 
-/// `pad_share` means nothing with `debris = "local"`.
+/// Refuses keys that mean nothing beside a value of another one, as `pad_share` with `debris = "local"`.
 pub(super) fn refuse_meaningless(entries: &Entries, problems: &mut Vec<Problem>) {
     for each in schema::MEANINGLESS.iter().filter(|each| layers::chooses(entries, each.beside)) {
         if let Some(entry) = entries.get(each.key) {

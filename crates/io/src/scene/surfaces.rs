@@ -1,4 +1,4 @@
-//! From checked keys to the settings of the initial surfaces.
+//! Settings of the initial surfaces, made from checked keys.
 
 use std::path::PathBuf;
 
@@ -68,7 +68,7 @@ fn range(settings: &Settings, path: &str) -> Result<Option<[f64; 2]>, Problem> {
     Ok(pair)
 }
 
-/// Whether what is smaller than the body is tiled; a scene that extends it has no such key.
+/// Tells whether what is smaller than the body is tiled; a scene that extends it has no such key.
 fn repeats(settings: &Settings, key: &str) -> bool {
     settings.get(key).is_some_and(|repeat| *repeat == Setting::Bool(true))
 }

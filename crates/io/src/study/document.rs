@@ -51,7 +51,7 @@ pub(super) struct Replicates {
 #[serde(deny_unknown_fields)]
 pub(super) struct Factor {
     pub name: Option<Spanned<String>>,
-    /// Absent of a factor that is set elsewhere, as on a rig.
+    /// Keys that are set; absent of a factor that is set elsewhere, as on a rig.
     pub key: Option<Spanned<Keys>>,
     pub levels: Option<Spanned<Vec<Spanned<Value>>>>,
     pub range: Option<Spanned<[Spanned<Value>; 2]>>,
@@ -97,12 +97,12 @@ pub(super) struct Response {
     pub correlation_time: Option<IgnoredAny>,
 }
 
-/// Over what a mean is taken.
+/// Time over which a mean is taken.
 #[derive(Debug)]
 pub(super) enum Mean {
     /// `"last tenth"`.
     LastTenth,
-    /// From one time to another.
+    /// Time from one to another.
     Between([Spanned<String>; 2]),
 }
 
@@ -208,7 +208,7 @@ impl Locator<'_> {
         Err(self.problem(found, key, message))
     }
 
-    /// As [`check_name`](Self::check_name), of what is told by its name alone, so that it may not be empty.
+    /// Checks a name as [`check_name`](Self::check_name) does, of what is told by its name alone, so that it may not be empty.
     pub(super) fn check_label(&self, name: &str, at: impl FnOnce() -> Origin, key: &str, problems: &mut Vec<Problem>) {
         if name.trim().is_empty() {
             problems.push(Problem::new(&at(), key, "the name is empty, expected a word: tables and figures show it"));

@@ -11,11 +11,11 @@ use crate::units::{self, Dimension};
 /// A value of a factor.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Level {
-    /// As it stands in a scene, in TOML.
+    /// Value as it stands in a scene, in TOML.
     pub text: String,
-    /// For people.
+    /// Name of the level for people.
     pub label: String,
-    /// In SI units; none for words.
+    /// Number in SI units; none for words.
     pub number: Option<f64>,
 }
 
@@ -147,13 +147,13 @@ fn si_number(key: &str, value: &toml::Value) -> Option<f64> {
 /// Keys of a scene that a study varies together.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Factor {
-    /// Its name.
+    /// Name of the factor.
     pub name: String,
     /// The keys that are set, all to the same value; none of a factor that is set elsewhere, as on a rig.
     pub keys: Vec<String>,
     /// The unit in which values of a factor without a key are stated; empty for plain numbers and words.
     pub stated_unit: String,
-    /// Their values.
+    /// Values of the factor.
     pub values: Values,
 }
 
@@ -164,9 +164,9 @@ pub enum Values {
     Levels(Vec<Level>),
     /// Anything between two ends.
     Range {
-        /// At the coded value −1.
+        /// Level at the coded value −1.
         low: Level,
-        /// At the coded value 1.
+        /// Level at the coded value 1.
         high: Level,
         /// Tells whether equal steps are equal ratios.
         logarithmic: bool,
@@ -214,7 +214,7 @@ impl Factor {
         }
     }
 
-    /// In the unit of both ends, so that a study of "20 N" to "60 N" has "40 N" between them.
+    /// Level between two, in the unit of both, so that a study of "20 N" to "60 N" has "40 N" between them.
     fn between(&self, low: &Level, high: &Level, coded: f64, logarithmic: bool) -> Option<Level> {
         let (from, to, unit) = one_unit(low, high)?;
         let share = (coded + 1.0) / 2.0;
@@ -238,7 +238,7 @@ impl Factor {
         self.keys.first().map_or("", String::as_str)
     }
 
-    /// Its keys in words.
+    /// Keys of the factor, in words.
     pub fn keys_in_words(&self) -> String {
         if self.keys.is_empty() { "set elsewhere".to_owned() } else { self.keys.join(", ") }
     }
@@ -285,7 +285,7 @@ impl Factor {
         kind.is_some_and(|kind| matches!(kind, Kind::Integer(_) | Kind::CountOr(_)))
     }
 
-    /// Its names: its own name, and its keys.
+    /// Names of the factor: its own name, and its keys.
     pub fn names(&self) -> impl Iterator<Item = &str> {
         std::iter::once(&self.name).chain(&self.keys).map(String::as_str)
     }
@@ -307,7 +307,7 @@ impl Factor {
     }
 }
 
-/// Its values, for people: `20 N, 47 N` or `20 N … 60 N`.
+/// Writes its values for people: `20 N, 47 N` or `20 N … 60 N`.
 impl fmt::Display for Factor {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match &self.values {

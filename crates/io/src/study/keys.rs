@@ -278,7 +278,7 @@ fn question(table: &Table, series: &str, locator: &Locator<'_>) -> Result<Questi
     }
 }
 
-/// That a whole series is compared, at the times of a table that `plateau fit` reads.
+/// Question of a whole series, which is compared at the times of a table that `plateau fit` reads.
 fn of_file(table: &Table, file: &Spanned<String>, locator: &Locator<'_>) -> Result<Question, Problem> {
     if table.at.is_some() || table.mean.is_some() || table.reaches.is_some() || table.event.is_some() {
         let message = "a whole series is compared at its times: take out at, mean, reaches and event";
@@ -309,7 +309,7 @@ fn event_name(found: &Spanned<String>, locator: &Locator<'_>, problems: &mut Vec
     None
 }
 
-/// `/series/pool` or `pool`.
+/// Name of a series that is given as `/series/pool` or `pool`.
 pub(super) fn series_name(
     found: &Spanned<String>,
     key: &str,
@@ -379,7 +379,7 @@ fn imported(table: &Table, locator: &Locator<'_>) -> Result<Question, Problem> {
     }
 }
 
-/// On which scale an analysis fits the values.
+/// Scale on which an analysis fits the values.
 fn transform(table: &Table, response: &Response, locator: &Locator<'_>) -> Result<&'static str, Problem> {
     let Some(found) = &table.transform else { return Ok(TRANSFORMS[0]) };
     let word = found.get_ref().as_str();

@@ -44,7 +44,7 @@ pub struct Study {
     pub factors: Vec<Factor>,
     /// Seeds with which every point is run, if there are several.
     pub replicates: Option<Replicates>,
-    /// In which order runs are made.
+    /// Order in which runs are made.
     pub order: Order,
     /// Responses that are asked of the runs.
     pub responses: Vec<Response>,
@@ -70,12 +70,12 @@ pub struct Replicates {
     pub seeds: Vec<i64>,
 }
 
-/// In which order runs are made.
+/// Order in which runs are made.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Order {
-    /// By lot, so that what drifts meanwhile is not taken for an effect.
+    /// Order by lot, so that what drifts meanwhile is not taken for an effect.
     Random,
-    /// As the design has them.
+    /// Order of the design.
     Standard,
 }
 
@@ -108,7 +108,7 @@ impl Study {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Plan {
     study: Study,
-    /// None where the points are those of a table.
+    /// Design; none where the points are those of a table.
     design: Option<Design>,
     /// Runs in the order in which they are made, counted from 0 in that of the design.
     order: Vec<u32>,
@@ -117,11 +117,11 @@ pub struct Plan {
 /// One run of a study.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Run {
-    /// Its number in the order of the design, from 1.
+    /// Number of the run in the order of the design, from 1.
     pub number: usize,
     /// The point of the design, from 0.
     pub point: usize,
-    /// Which seed, from 0.
+    /// Place of its seed among those of the study, from 0.
     pub replicate: usize,
     /// Settings of the factors.
     pub levels: Vec<Level>,

@@ -56,7 +56,7 @@ pub struct Identity {
 }
 
 impl Identity {
-    /// That of a scene whose surfaces have such `inputs`: files, with the digest of what was read of them. A file that was read twice and
+    /// Identity of a scene whose surfaces have such `inputs`: files, with the digest of what was read. A file that was read twice and
     /// changed in between has both.
     pub fn of(scene: &Scene, inputs: &[(PathBuf, String)]) -> Self {
         let digests = |path: &Path| -> Vec<&str> {
@@ -66,7 +66,7 @@ impl Identity {
         found.unwrap_or_else(|(_, never)| match never {})
     }
 
-    /// That of a scene whose surfaces were not read yet: the files as they are now.
+    /// Identity of a scene whose surfaces were not read yet: with the files as they are now.
     pub fn expected(scene: &Scene, digests: &Digests) -> Result<Self, (PathBuf, io::Error)> {
         Self::with(scene, |path| digests.of(path))
     }
@@ -106,7 +106,7 @@ impl Identity {
     }
 }
 
-/// Of each run the place of the first one with the same identity, which is its own unless it repeats another run.
+/// Place, for each run, of the first one with the same identity: its own unless it repeats another run.
 pub fn firsts(identities: &[String]) -> Vec<usize> {
     let mut known = HashMap::new();
     identities.iter().enumerate().map(|(place, identity)| *known.entry(identity).or_insert(place)).collect()
@@ -160,7 +160,7 @@ pub struct Record {
     pub of: Identity,
     /// Number of the run in the study, from 1; for people.
     pub run: usize,
-    /// Its end.
+    /// End of the run.
     #[serde(flatten)]
     pub outcome: Outcome,
     /// Wall time, s.
@@ -177,7 +177,7 @@ pub struct Record {
 pub enum Outcome {
     /// All steps were taken.
     Finished {
-        /// Their number.
+        /// Number of steps.
         steps: u64,
         /// The time, s, until which it was to go on: the last step ends there, or less than a step before or behind it.
         #[serde(default)]
@@ -191,9 +191,9 @@ pub enum Outcome {
         #[serde(default, skip_serializing_if = "Option::is_none")]
         pulse_time: Option<f64>,
     },
-    /// It could not begin or go on.
+    /// Run that could not begin or go on.
     Failed {
-        /// Why.
+        /// Reason why it failed.
         error: String,
     },
 }

@@ -18,13 +18,13 @@ const INTEGRAL: &str = "contact_area_integral";
 /// A question to the series of a run.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Response {
-    /// Its name.
+    /// Name of the response.
     pub name: String,
     /// The series that is asked, by its name in a run file; for a quantity of events with `event/` before it.
     pub series: String,
     /// The question to it.
     pub question: Question,
-    /// On which scale an analysis fits the answers: one of [`TRANSFORMS`].
+    /// Scale on which an analysis fits the answers: one of [`TRANSFORMS`].
     pub transform: &'static str,
     /// The unit that the study gives an answer from elsewhere, which people fill in; it measures the same as the SI unit.
     pub stated_unit: Option<String>,
@@ -79,7 +79,7 @@ pub enum NoAnswer {
     NoNumber,
     #[error("it has no such event, or the event has no value")]
     NoEvent,
-    /// It has not come there.
+    /// Time to a fraction of the value at the end that is not defined.
     #[error(transparent)]
     NotDefined(#[from] NotDefined),
 }
@@ -115,8 +115,8 @@ impl Response {
         .ok_or(NoAnswer::NoNumber)
     }
 
-    /// Time at which a series has come to a fraction of its last value, s; of the contact area by its integral, and over the time in contact. The time
-    /// in which another series has no value is left out, too.
+    /// Time at which a series has come to a fraction of its last value, s; of the contact area by its integral, over the time in contact.
+    /// Time in which another series has no value is left out, too.
     fn time_to(&self, fraction: f64, run: &Series, values: &[f64]) -> Result<f64, NoAnswer> {
         let time = run.time();
         let samples = |integral| Cumulative { time, integral, revolutions: revolutions(run) };
@@ -168,7 +168,7 @@ impl Response {
         run.values(INTEGRAL).filter(|_| self.is_of_contact_area())
     }
 
-    /// From when to when a mean is taken, s.
+    /// Times between which a mean is taken, s.
     fn window(&self, run: &Series) -> Result<(f64, f64), NoAnswer> {
         match self.question {
             Question::Mean(from, to) => Ok((reached(run, from)?, reached(run, to)?)),
@@ -205,7 +205,7 @@ impl Response {
     }
 }
 
-/// The integral knows every step, the samples only some. Of a run with a cycle it is the mean over the time in contact.
+/// Mean contact area, m², by its integral, which knows every step, the samples only some. With a cycle it is over the time in contact.
 fn mean_of_contact_area(run: &Series, integral: &[f64], from: f64, to: f64) -> Option<WindowMean> {
     let samples = Cumulative { time: run.time(), integral, revolutions: revolutions(run) };
     match run.values(CONTACT_TIME) {
@@ -253,7 +253,7 @@ fn reached(run: &Series, asked: f64) -> Result<f64, NoAnswer> {
     if asked > end * (1.0 + 1e-9) { Err(NoAnswer::Ended { asked, end }) } else { Ok(asked.min(last)) }
 }
 
-/// Linear between samples; before the first one, that one; none after the last.
+/// Value at a time, linear between samples; before the first one, that one; none after the last.
 fn value_at(time: &[f64], values: &[f64], at: f64) -> Option<f64> {
     if at > *time.last()? {
         return None;
@@ -319,7 +319,7 @@ const FRACTIONS: [&str; 7] =
     ["contact_ratio", "pin_primary", "pin_secondary", "pin_none", "disc_secondary", "filled_fraction", "pressure_gini"];
 /// Units of what is not negative, whatever it is: areas and volumes, pressures, masses.
 const NOT_NEGATIVE_UNITS: [&str; 5] = ["m2", "m2 s", "m3", "Pa", "kg"];
-/// The same of tables from elsewhere, where a pressure may be a difference.
+/// Units of what is not negative in tables from elsewhere, where a pressure may be a difference.
 const NOT_NEGATIVE_ELSEWHERE: [&str; 3] = ["m2", "m3", "kg"];
 /// Series of other units that are not negative.
 const NOT_NEGATIVE: [&str; 12] = [
@@ -347,7 +347,7 @@ pub struct Bounds {
 }
 
 impl Bounds {
-    /// Of what may be any number.
+    /// Bounds of what may be any number.
     pub const NONE: Self = Self { least: f64::NEG_INFINITY, most: f64::INFINITY };
     const NOT_NEGATIVE: Self = Self { least: 0.0, ..Self::NONE };
     const FRACTION: Self = Self { least: 0.0, most: 1.0 };

@@ -30,13 +30,13 @@ pub struct CollectedRun {
     /// The first run of the design with the same scene and files, by its place: its own unless it repeats that
     /// one, whose result it has.
     pub first: usize,
-    /// Its end, if it has ended.
+    /// End of the run, if it has ended.
     pub state: State,
     /// Answers to the questions of the study, in their order; NaN where there is none.
     pub responses: Vec<f64>,
     /// Reason why a finished run gives no answer to a question, with its place.
     pub unanswered: Vec<(usize, NoAnswer)>,
-    /// Standard errors of these; NaN where there is none.
+    /// Standard errors of the responses; NaN where there is none.
     pub errors: Vec<f64>,
     /// Wall time, s; NaN if it has not ended.
     pub wall_time: f64,
@@ -52,14 +52,14 @@ pub struct CollectedRun {
 pub enum State {
     /// All steps were taken.
     Finished,
-    /// It failed for this reason.
+    /// Run that failed, for this reason.
     Failed(String),
-    /// It was not made yet, or with other files or numbers of the program.
+    /// Run that was not made yet, or with other files or numbers of the program.
     Missing,
 }
 
 impl State {
-    /// One word.
+    /// Name of the state, one word.
     pub fn name(&self) -> &'static str {
         match self {
             Self::Finished => "finished",
@@ -137,7 +137,7 @@ pub fn error_name(response: &str) -> String {
     format!("{response} standard error")
 }
 
-/// Knowledge of a run whose record is whole and whose series are not.
+/// Message on a run whose record is whole and whose series are not.
 const NO_SERIES: &str = "its record in the journal holds no series; move the journal away, and make the runs again";
 
 /// The series of a record; none of a run that failed, and none where the record does not hold what it says.
@@ -151,8 +151,8 @@ const FIRST: [&str; 4] = ["run", "point", "replicate", "state"];
 /// Head and lines: number, point, replicate and state of each run, its factors and responses, and why it failed.
 ///
 /// Quantities are numbers in the unit that stands behind the name, as in `speed [rpm]`: in that of the study, if it states all
-/// levels of a factor in one, or in SI units; words, and numbers without a unit, stand
-/// as the study has them. A response that a run does not give is an empty cell; one that no run gives by itself has no column. A response that has a standard error is
+/// levels of a factor in one, or in SI units; words, and numbers without a unit, stand as the study has them. A response that a run
+/// does not give is an empty cell; one that no run gives by itself has no column. A response that has a standard error is
 /// followed by it.
 pub fn table(plan: &Plan, collected: &Collected) -> Vec<Vec<String>> {
     let study = plan.study();

@@ -19,10 +19,10 @@ struct ValueTable {
     rows: Vec<Row>,
 }
 
-/// A line of it.
+/// A line of the table.
 #[derive(Debug, Clone, PartialEq, Eq)]
 struct Row {
-    /// Its number in the file, from 1.
+    /// Number of the line in the file, from 1.
     line: usize,
     cells: Vec<String>,
 }
@@ -33,7 +33,7 @@ impl ValueTable {
         Self::read_rows(path, limits::ROWS)
     }
 
-    /// As [`ValueTable::read`], at most so many lines, and at most [`limits::CELLS`] values.
+    /// Reads as [`ValueTable::read`] does, at most so many lines, and at most [`limits::CELLS`] values.
     fn read_rows(path: &Path, most: usize) -> Result<Self, String> {
         let shown = path.display();
         let text = delimited::read(path, limits::TABLE).map_err(|error| format!("cannot read {shown}: {error}"))?;

@@ -1,4 +1,4 @@
-//! Why the initial surfaces of a scene cannot be made, and why an HDF5 file or a text file gives none.
+//! Reasons why the initial surfaces of a scene cannot be made, and why an HDF5 file or a text file gives none.
 
 use std::io;
 use std::path::PathBuf;
@@ -19,7 +19,7 @@ use crate::number;
 use crate::run_file::ReadError;
 use crate::text::list;
 
-/// Why the initial surfaces of a scene cannot be made; `key` is the scene's table that asked for it.
+/// Reason why the initial surfaces of a scene cannot be made; `key` is the scene's table that asked for it.
 #[derive(Debug, Error)]
 #[allow(missing_docs)] // The messages say what they mean.
 pub enum SurfaceError {
@@ -38,7 +38,7 @@ pub enum SurfaceError {
     Preparation { key: &'static str, source_name: String, reason: PreparationError },
 }
 
-/// Why a surface file cannot be read.
+/// Reason why a surface file cannot be read.
 #[derive(Debug, Error)]
 #[allow(missing_docs)] // The messages say what they mean.
 pub enum FileError {
@@ -105,7 +105,7 @@ pub enum FileError {
 }
 
 impl FileError {
-    /// Whether the Python package may convert the file.
+    /// Tells whether the Python package may convert the file.
     pub fn may_be_converted(&self) -> bool {
         match self {
             Self::Instrument(_) | Self::Tiff { .. } => true,
@@ -116,7 +116,7 @@ impl FileError {
     }
 }
 
-/// How else a text can be read.
+/// Advice on how else a text can be read; empty for a file that is none.
 fn skipped(is_text: bool) -> &'static str {
     if is_text { "; or say how many lines stand before its table: skip = 12, for example" } else { "" }
 }
@@ -134,7 +134,7 @@ fn by_conversion(is_binary: bool) -> String {
     if is_binary { format!("; if it is of an instrument, {CONVERSION}") } else { String::new() }
 }
 
-/// Why an HDF5 file gives no surface.
+/// Reason why an HDF5 file gives no surface.
 #[derive(Debug, Error)]
 #[allow(missing_docs)] // The messages say what they mean.
 pub enum Hdf5Error {
@@ -201,7 +201,7 @@ fn at_time(at: Option<&(f64, Vec<f64>)>) -> String {
     }
 }
 
-/// Why a text file gives no surface. Lines count from 1.
+/// Reason why a text file gives no surface. Lines count from 1.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[allow(missing_docs)] // The messages say what they mean.
 pub enum TextError {
@@ -313,7 +313,7 @@ pub enum TextError {
     Uneven { line: usize, found: f64, expected: f64, step: f64, gaps: [f64; 2] },
 }
 
-/// How to leave out lines that are not understood.
+/// Advice on how to leave out lines that are not understood.
 fn advice(skip: Option<usize>) -> String {
     match skip {
         Some(lines) => format!("skip = {lines} below file in the scene leaves out the lines before the table"),
@@ -326,7 +326,7 @@ fn name(mark: Decimal) -> &'static str {
     if mark == Decimal::Comma { "comma" } else { "point" }
 }
 
-/// Which other mark numbers have than this one.
+/// Other decimal mark, in words: that of a number `beside` this one, or of the numbers of the file.
 fn other(mark: Decimal, beside: Option<&str>) -> String {
     let (other, key) = if mark == Decimal::Comma { (Decimal::Point, '.') } else { (Decimal::Comma, ',') };
     match beside {

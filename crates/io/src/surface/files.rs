@@ -122,7 +122,7 @@ fn refuse_meaningless(options: &ReadOptions, format: Format) -> Result<(), FileE
     Ok(())
 }
 
-/// How far into a file is looked.
+/// Bytes at the beginning of a file that are looked at.
 const HEAD: u64 = 4096;
 
 pub(super) fn detect(path: &Path) -> Result<Format, FileError> {
@@ -144,7 +144,7 @@ pub(super) fn detect(path: &Path) -> Result<Format, FileError> {
     format.ok_or_else(|| FileError::Unknown { found: describe(&head), is_binary: !head.iter().all(is_printable) })
 }
 
-/// What a zip archive is, told by its entries.
+/// Format of a zip archive, told by its entries.
 fn from_archive(file: BufReader<File>) -> Result<Format, FileError> {
     let archive = ZipArchive::new(file).map_err(|error| FileError::Zip(error.to_string()))?;
     let has = |name: &[u8]| archive.file_names_raw().any(|entry| entry == name);
@@ -215,7 +215,7 @@ fn describe(head: &[u8]) -> String {
     }
 }
 
-/// Why a surface cannot be written.
+/// Reason why a surface cannot be written.
 #[derive(Debug, Error)]
 #[allow(missing_docs)] // The messages say what they mean.
 pub enum WriteError {
@@ -236,8 +236,8 @@ const ENDINGS: &str = ".sdf, .npy or .h5";
 
 /// Writes heights so that reading the file gives the same heights, bit for bit, missing points as missing points.
 ///
-/// The format is that of the ending, .sdf, .npy or .h5 in small or large letters. An .npy file has no place for the
-/// pitch. An existing file is replaced only with `replace`. The file appears at `path` when it is complete; whatever goes wrong, a file that was there before stays as it was.
+/// The format is that of the ending, .sdf, .npy or .h5 in small or large letters. An .npy file has no place for the pitch. An existing
+/// file is replaced only with `replace`. The file appears at `path` when it is complete; if anything fails, one that was there stays.
 pub fn write(path: &Path, patch: &Patch, replace: bool) -> Result<(), WriteError> {
     check(patch).map_err(|reason| WriteError::Unsuitable { path: path.into(), reason })?;
     let ending = path.extension().and_then(OsStr::to_str).unwrap_or_default().to_ascii_lowercase();

@@ -9,13 +9,13 @@ use crate::delimited::{decode, lines};
 /// An instrument's own format.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Instrument {
-    /// What it is, with its article.
+    /// Name of the format, with its article.
     pub name: &'static str,
-    /// A text, which can also be read as a table if its header is skipped.
+    /// True for a text, which can also be read as a table if its header is skipped.
     pub is_text: bool,
 }
 
-/// What to do with a file in such a format.
+/// Advice on a file in such a format.
 pub(super) const CONVERSION: &str = "convert it: plateau surface convert FILE -o FILE.h5, which comes with the Python package (pip install \
     'plateau-brake[all]')";
 
@@ -71,7 +71,7 @@ pub(super) const WORKBOOK: Instrument =
 /// A Sensofar file starts with the day on which it was measured, such as "Fri Mar 15 10:12:00 2013", in 128 bytes.
 const PLU: Instrument = Instrument::binary("a Sensofar file (.plu, .apx)");
 
-/// How the first lines of text exports begin, but for blanks and quotation marks, and the names of these. One line tells a format.
+/// Beginnings of the first lines of text exports, but for blanks and quotation marks, and the names of these. One line tells a format.
 const LINES: &[(&str, &str)] = &[
     ("Wyko ASCII Data File Format", "a text export of Wyko (.asc)"),
     ("Zygo XYZ Data File", "a text export of Zygo (.xyz)"),
@@ -91,14 +91,14 @@ impl Instrument {
     }
 }
 
-/// What a binary file of that path is whose beginning tells nothing, if its ending does.
+/// Format of a binary file whose beginning tells nothing, by the ending of its path, if that is known.
 pub(super) fn by_ending(path: &Path) -> Option<Instrument> {
     let ending = path.extension()?;
     let (_, name) = ENDINGS.iter().find(|(known, _)| ending.eq_ignore_ascii_case(known))?;
     Some(Instrument::binary(name))
 }
 
-/// What a file that starts like this is, if it is one of an instrument.
+/// Format of a file that starts like this, if it is one of an instrument.
 pub(super) fn recognise(head: &[u8]) -> Option<Instrument> {
     let at = |offset: usize, signature: &[u8]| head.get(offset..).is_some_and(|rest| rest.starts_with(signature));
     let is_day = ["Mon ", "Tue ", "Wed ", "Thu ", "Fri ", "Sat ", "Sun "].iter().any(|day| at(0, day.as_bytes()));

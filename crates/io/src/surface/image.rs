@@ -19,7 +19,7 @@ use super::format::Format;
 use super::measured::{MOST_POINTS, Measured, ReadOptions, inflated};
 use crate::memory::{NoRoom, refuse_beyond};
 
-/// Why an image gives no surface.
+/// Reason why an image gives no surface.
 #[derive(Debug, Error)]
 #[allow(missing_docs)] // The messages say what they mean.
 pub enum ImageError {
@@ -69,15 +69,15 @@ struct Raster {
     width: usize,
     height: usize,
     colour: Colour,
-    /// As many samples a pixel as the colour has.
+    /// Samples, as many a pixel as the colour has.
     samples: Samples,
     /// Distance of the pixels along x and y, m, that the file states.
     pixel: Option<[f64; 2]>,
-    /// What is left out of the file.
+    /// Warnings about what is left out of the file.
     warnings: Vec<String>,
 }
 
-/// What a pixel is made of.
+/// Samples that make a pixel.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Colour {
     Grey,
@@ -236,7 +236,7 @@ fn per_metre(pixels: [f64; 2]) -> Option<[f64; 2]> {
 }
 
 impl Colour {
-    /// Numbers of a pixel.
+    /// Number of samples of a pixel.
     fn samples(self) -> usize {
         match self {
             Self::Grey => 1,
@@ -339,7 +339,7 @@ pub(super) struct Grey {
     pub(super) picture: Picture<f32>,
     /// Distance of the pixels along x and y, m, that the file states.
     pub(super) pixel: Option<[f64; 2]>,
-    /// What the image is, in words.
+    /// Kind of the image, in words.
     pub(super) told: String,
 }
 

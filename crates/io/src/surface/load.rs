@@ -1,4 +1,4 @@
-//! From the settings of a scene to the surfaces before the first step: read or made, prepared, and told of.
+//! Surfaces of a scene before the first step: read or made as its settings say, prepared, and told of.
 
 use std::path::{Path, PathBuf};
 
@@ -20,7 +20,7 @@ use crate::input::{self, digested};
 use crate::limits;
 use crate::scene::{BaseSource, HeightSettings, HeightSource, Scene};
 
-/// With what a line of the report goes on that is a warning, behind the table of the scene.
+/// Mark of a line of the report that is a warning, behind the table of the scene.
 const MARK: &str = ": warning: ";
 
 /// The surfaces of a scene, ready for the first step.
@@ -30,11 +30,11 @@ pub struct Loaded {
     pub surfaces: InitialSurfaces,
     /// Fraction of the points that `disc.prepare.cutoff` cut; none without it.
     pub disc_cut: Option<f64>,
-    /// The same of `pin.prepare.cutoff`.
+    /// Fraction of the points that `pin.prepare.cutoff` cut; none without it.
     pub pin_cut: Option<f64>,
     /// Every surface file read, each once, with the SHA-256 of what was read of it, in hexadecimal digits.
     pub inputs: Vec<(PathBuf, String)>,
-    /// What was read, made and done, one step a line, for people.
+    /// Steps of reading, making and preparing the surfaces, one a line, for people.
     pub report: Vec<String>,
 }
 
@@ -48,9 +48,9 @@ impl Loaded {
 /// The patches from which the heights of a scene come.
 #[derive(Debug, Clone, Default)]
 pub struct Patches {
-    /// That of the disc.
+    /// Patch of the disc; none if its heights come from no patch.
     pub disc: Option<Patch>,
-    /// That of the pin.
+    /// Patch of the pin; none if its heights come from no patch.
     pub pin: Option<Patch>,
 }
 
@@ -133,8 +133,8 @@ impl Loader<'_> {
     }
 }
 
-/// What a scene makes of the micrograph that the pin's base comes from, and the width of its pixels, m; none where it comes
-/// from something else.
+/// Fibre map that a scene makes of the micrograph of the pin's base, and the width of the micrograph's pixels, m; none where the base
+/// comes from something else.
 pub fn micrograph(scene: &Scene) -> Result<Option<(FibreMap, f64)>, SurfaceError> {
     let BaseSource::Image { path, micrograph } = &scene.pin_base else { return Ok(None) };
     let (map, _) = fibre_map(path, micrograph, &scene.parameters.mesh).map_err(in_file("pin.base", path))?;
@@ -183,7 +183,7 @@ fn keys(body: Body) -> [&'static str; 2] {
     }
 }
 
-/// What heights are called in an error of their preparation.
+/// Name of heights in an error of their preparation.
 fn source_name(source: &HeightSource) -> String {
     match source {
         HeightSource::File { path, .. } => path.display().to_string(),
@@ -321,7 +321,7 @@ impl Loader<'_> {
         }
     }
 
-    /// What the heights of a body are like, within the pin's outline.
+    /// Spread of the heights of a body in words, within the pin's outline.
     fn spread(&self, heights: &[f64], body: Body) -> String {
         if body == Body::Disc || self.mesh.is_rectangle() {
             return spread(heights);
@@ -332,7 +332,7 @@ impl Loader<'_> {
     }
 }
 
-/// What synthetic heights were asked for, in words.
+/// Parameters of synthetic heights, in words.
 fn describe(synthesis: &HeightSynthesis) -> String {
     let HeightSynthesis { seed, rms_height, texture, skewness, kurtosis, patch } = *synthesis;
     let texture = match texture {
@@ -372,7 +372,7 @@ pub fn load(scene: &Scene) -> Result<Loaded, SurfaceError> {
     Ok(made(scene, None)?.0)
 }
 
-/// As [`load`], with the patches from which the heights of disc and pin come: prepared, scaled and with the sign that the
+/// Loads as [`load`] does, with the patches from which the heights of disc and pin come: prepared, scaled and with the sign that the
 /// heights have, at their own pitch; none for a body whose heights come from no patch.
 pub fn load_with_patches(scene: &Scene) -> Result<(Loaded, Patches), SurfaceError> {
     made(scene, Some(Patches::default()))

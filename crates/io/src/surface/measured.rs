@@ -1,5 +1,5 @@
-//! Heights as a surface file has them, and what a scene says of them, where the file may say it, too: also that they are a profile, and what
-//! surface that stands for.
+//! Heights as a surface file has them, and what a scene says of them, where the file may say it, too: also that they are a profile, and
+//! what surface that stands for.
 
 use plateau_core::model::mesh::Mesh;
 use plateau_core::surface::{Body, Length, Patch};
@@ -11,7 +11,7 @@ pub use crate::scene::{Lay, ReadOptions};
 /// Heights as a file has them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Measured {
-    /// What the file is.
+    /// Format of the file.
     pub format: Format,
     /// Points along x, the sliding direction.
     pub columns: usize,
@@ -19,19 +19,19 @@ pub struct Measured {
     pub rows: usize,
     /// Distance of neighbouring points along x and y, m; none if neither file nor user tell it.
     pub pitch: Option<[f64; 2]>,
-    /// The file does not say in which unit its distances are, and they were taken in that of its heights.
+    /// True if the file does not say in which unit its distances are, and they were taken in that of its heights.
     pub is_pitch_assumed: bool,
     /// Heights, m, column by column: the point (column x, row y) is at `x * rows + y`; NaN where there is none.
     pub heights: Vec<f64>,
-    /// Peaks are positive whatever the body, as an instrument gives them; else heights are those of the model.
+    /// True if peaks are positive whatever the body, as an instrument gives them; else heights are those of the model.
     pub instrument: bool,
-    /// A run recorded them of the cells of this body.
+    /// Body for whose cells a run recorded them; none for other heights.
     pub body: Option<Body>,
-    /// The heights are a profile, in one row, and its lay has this direction.
+    /// Direction of the lay, if the heights are a profile, in one row.
     pub profile_lay: Option<Lay>,
-    /// What the file says of itself that a user may want to see, one fact a line.
+    /// Facts that the file states of itself and that a user may want to see, one a line.
     pub notes: Vec<String>,
-    /// What is wrong with the file but does not change its heights, as a checksum that does not fit.
+    /// Faults of the file that do not change its heights, such as a checksum that does not fit.
     pub warnings: Vec<String>,
 }
 
@@ -88,10 +88,10 @@ impl Measured {
     }
 }
 
-/// What file and scene state is the same if it differs by no more than this fraction: headers have few digits.
+/// Largest relative difference of what file and scene state at which it is the same: headers have few digits.
 const SAME: f64 = 0.01;
 
-/// File and scene disagree.
+/// Disagreement of file and scene.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[error(
     "the file states a {key} of {}, the scene {}: leave out {key}",
@@ -100,13 +100,13 @@ const SAME: f64 = 0.01;
 pub struct Disagreement {
     /// Key of the scene.
     pub key: &'static str,
-    /// What the file says, m.
+    /// Length that the file states, m.
     pub file: f64,
-    /// What the scene says, m.
+    /// Length that the scene states, m.
     pub scene: f64,
 }
 
-/// What file or scene state, m; where both do, the scene's.
+/// Length that file or scene state, m; where both do, the scene's.
 pub(super) fn agreed(key: &'static str, file: Option<f64>, scene: Option<f64>) -> Result<Option<f64>, Disagreement> {
     match (file, scene) {
         (Some(file), Some(scene)) if (file - scene).abs() > SAME * scene => Err(Disagreement { key, file, scene }),
@@ -128,12 +128,12 @@ pub(super) const MOST_POINTS: usize = 1 << 28;
 /// Bytes that deflate makes of one at most (RFC 1951: 258 bytes of two bits, and a little).
 pub(super) const MOST_INFLATED: usize = 1032;
 
-/// What a file of so many bytes can hold at most when it is deflated.
+/// Bytes that a file of so many bytes can hold at most when it is deflated.
 pub(super) fn inflated(bytes: usize) -> usize {
     bytes.saturating_mul(MOST_INFLATED)
 }
 
-/// What a file has of a kind, in words: the first of it, and how many more; or that there is nothing.
+/// Parts of a kind that a file has, in words: the first ones, and how many more; or that there is nothing.
 pub(super) fn present<T>(all: &[T], name: impl Fn(&T) -> String, nothing: &str) -> String {
     const NAMED: usize = 12;
     if all.is_empty() {
@@ -146,7 +146,7 @@ pub(super) fn present<T>(all: &[T], name: impl Fn(&T) -> String, nothing: &str) 
     format!("it has {}", names.join(", "))
 }
 
-/// Why a file gives no profile, or a profile no surface.
+/// Reason why a file gives no profile, or a profile no surface.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 #[allow(missing_docs)] // The messages say what they mean.
 pub enum ProfileError {

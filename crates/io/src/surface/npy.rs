@@ -14,7 +14,7 @@ use super::stored::{Kind, Number};
 use crate::memory::{NoRoom, refuse_beyond};
 use crate::text::short;
 
-/// Why a NumPy file gives no surface.
+/// Reason why a NumPy file gives no surface.
 #[derive(Debug, Error)]
 #[allow(missing_docs)] // The messages say what they mean.
 pub enum NpyError {
@@ -43,7 +43,7 @@ pub enum NpyError {
 }
 
 impl NpyError {
-    /// No one array is that of this name, or the only one with two dimensions.
+    /// Error of an archive that has not just one array of that name, or without a name not just one with two dimensions.
     fn choice(name: Option<&str>, arrays: &[Member]) -> Self {
         let problem = match name {
             Some(name) => format!("the archive has no one array \"{}\"", short(name).escape_debug()),
@@ -75,7 +75,7 @@ fn number(descr: &str) -> Result<Number, NpyError> {
 
 const MAGIC: &[u8] = b"\x93NUMPY";
 
-/// NumPy itself refuses longer headers.
+/// Longest header, bytes: NumPy itself refuses longer ones.
 const LONGEST: usize = 10_000;
 
 /// Bytes from which a header can be read, if the file is that long.
@@ -87,7 +87,7 @@ struct Header {
     descr: String,
     fortran_order: bool,
     shape: Vec<u64>,
-    /// Where the data start.
+    /// Byte at which the data start.
     data: usize,
 }
 
@@ -282,7 +282,7 @@ pub(super) fn check_length(head: &[u8], bytes: u64) -> Result<(), NpyError> {
     grid_of(&Header::read(head)?, bytes).map(drop)
 }
 
-/// What an .npy file of so many bytes holds: type of its numbers, columns and rows.
+/// Type of the numbers, columns and rows of an .npy file of so many bytes.
 fn grid_of(header: &Header, bytes: u64) -> Result<(Number, usize, usize), NpyError> {
     let number = number(&header.descr)?;
     let (columns, rows, points) = header.grid()?;

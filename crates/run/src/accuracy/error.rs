@@ -1,4 +1,4 @@
-//! Why errors cannot be measured, and whose fault that is.
+//! Errors of a measurement of errors, which tell whose fault it is.
 
 use std::io;
 
@@ -10,10 +10,10 @@ use thiserror::Error;
 
 use crate::error::{RunError, signal_in_words};
 
-/// Why errors cannot be measured.
+/// Reason why errors cannot be measured.
 #[derive(Debug, Error)]
 pub enum AccuracyError {
-    /// What was asked for cannot be done.
+    /// Input with which nothing can be measured.
     #[error(transparent)]
     Input(#[from] PlanError),
     /// The scene makes no run, or its first steps fail.
@@ -24,7 +24,7 @@ pub enum AccuracyError {
     Failed {
         /// The run, in words.
         run: String,
-        /// Why.
+        /// Reason of the failure.
         error: Unfinished,
     },
     /// A signal came before anything could be compared.
@@ -32,15 +32,15 @@ pub enum AccuracyError {
     Stopped {
         /// The signal.
         signal: u8,
-        /// When, in words.
+        /// Moment, in words.
         moment: String,
     },
 }
 
-/// Why a run did not come to its end.
+/// Reason why a run did not come to its end.
 #[derive(Debug, Error)]
 pub enum Unfinished {
-    /// It could not be put together, or a step failed.
+    /// Run that could not be put together, or a step of it that failed.
     #[error(transparent)]
     Failed(#[from] RunError),
     /// A quantity became infinite or no number.
@@ -49,7 +49,7 @@ pub enum Unfinished {
         /// The step after which that was seen.
         step: u64,
     },
-    /// This signal asked to stop.
+    /// Signal that asked to stop.
     #[error("stopped by {}", signal_in_words(*.0))]
     Stopped(u8),
 }
@@ -60,7 +60,7 @@ impl From<SimulationError> for Unfinished {
     }
 }
 
-/// Why there are no runs to compare.
+/// Reason why there are no runs to compare.
 #[derive(Debug, Error)]
 #[allow(missing_docs)] // The messages say what they mean.
 pub enum PlanError {
@@ -71,7 +71,7 @@ pub enum PlanError {
     NotFiner {
         reference: f64,
         own: f64,
-        /// Whether nothing but the model itself judges runs of the scene.
+        /// True if nothing but the model itself judges runs of the scene.
         needs_model: bool,
     },
     #[error(
@@ -109,16 +109,16 @@ fn or_model(reference: f64, needed: f64) -> String {
     if reference == 1.0 { String::new() } else { format!(", or {} for 1, the model itself", enough(needed)) }
 }
 
-/// Why a run file is no reference of a scene.
+/// Reason why a run file is no reference of a scene.
 #[derive(Debug, Error)]
 pub enum ReferenceError {
-    /// It cannot be read.
+    /// Run file that cannot be read.
     #[error("{0}")]
     Read(#[from] ReadError),
-    /// This file cannot be digested.
+    /// Input file that cannot be digested.
     #[error("{0}: {1}")]
     File(String, #[source] io::Error),
-    /// It is of another scene, or lacks what is compared.
+    /// Run of another scene, or without what is compared.
     #[error("{0}")]
     Refused(String),
 }

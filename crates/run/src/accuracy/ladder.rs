@@ -32,10 +32,10 @@ pub enum Ladder {
 }
 
 impl Ladder {
-    /// All of them.
+    /// All ladders.
     pub const ALL: [Self; 4] = [Self::TimeAcceleration, Self::Mesh, Self::Tolerance, Self::Perturbation];
 
-    /// Its name on the command line and in files.
+    /// Name of the ladder on the command line and in files.
     pub fn name(self) -> &'static str {
         match self {
             Self::TimeAcceleration => "time_acceleration",
@@ -53,7 +53,7 @@ pub struct Step {
     pub ladder: Ladder,
     /// Time acceleration, tolerance, or part of the heights.
     pub value: f64,
-    /// Its cells.
+    /// Cells of the run.
     pub cells: Cells,
 }
 
@@ -103,7 +103,7 @@ pub struct Base {
     pub path: PathBuf,
     /// Changes, as after `--set`.
     pub sets: Vec<String>,
-    /// What they make together.
+    /// Scene that file and changes make together.
     pub scene: Scene,
 }
 
@@ -114,11 +114,11 @@ pub struct Rung {
     pub ladder: Ladder,
     /// Value of what it changes: the time acceleration, the columns of the disc, the tolerance, the part of the heights.
     pub value: f64,
-    /// Its cells.
+    /// Cells of the run.
     pub cells: Cells,
     /// Changes of the base, as after `--set`.
     sets: Vec<String>,
-    /// The scene with them.
+    /// Scene with these changes.
     pub scene: Scene,
 }
 
@@ -148,7 +148,7 @@ impl Rung {
         Ok(rung.lasting(base.scene.duration))
     }
 
-    /// The same for so much physical time (s): a number of steps is another time with another acceleration.
+    /// The same rung for so much physical time (s): a number of steps is another time with another acceleration.
     #[must_use]
     pub fn lasting(mut self, duration: f64) -> Self {
         self.scene.duration = duration;
@@ -174,7 +174,7 @@ pub enum Cells {
 }
 
 impl Cells {
-    /// Every so many columns of the halved cells there is one of these.
+    /// Columns of the halved cells from one of these to the next.
     fn stride(self) -> usize {
         match self {
             Self::Halved => 1,

@@ -31,7 +31,7 @@ const USUAL_ACCELERATION: f64 = 20.0;
 /// Fewest samples of a reference in a window that ends between them: interpolation errs by a part of their distance.
 const SAMPLES_PER_WINDOW: f64 = 20.0;
 
-/// What is asked for.
+/// Request for a measurement.
 #[derive(Debug)]
 pub struct Wish {
     /// The scene.
@@ -46,14 +46,14 @@ pub struct Wish {
     pub budget: f64,
     /// A reference that was read.
     pub reference: Option<ReadReference>,
-    /// Who makes the runs.
+    /// Program that makes the runs.
     pub program: Program,
 }
 
-/// What was found, and the signal that stopped the measurement, if one did.
+/// Result of a measurement, and the signal that stopped it, if one did.
 #[derive(Debug)]
 pub struct Found {
-    /// What was found until then.
+    /// Report of what was found until then.
     pub report: Report,
     /// The signal.
     pub stopped: Option<u8>,
@@ -276,7 +276,7 @@ impl Measurement<'_> {
         rungs
     }
 
-    /// Tells that a run differs from the reference in cells twice as long alone.
+    /// Tells whether a run differs from the reference in cells twice as long alone.
     fn tells_cells(&self, rung: &Rung, reference: f64) -> bool {
         let is_same = rung.ladder == Ladder::TimeAcceleration && rung.value == reference;
         self.finest.is_some() && is_same && rung.cells == Cells::Own
@@ -402,7 +402,7 @@ impl Measurement<'_> {
         Ok((rows, stopped))
     }
 
-    /// Tells that a run fits into what is left of the budget; if not, that is noted.
+    /// Tells whether a run fits into what is left of the budget; if not, that is noted.
     fn has_time(&mut self, rung: &Rung) -> bool {
         let left = self.wish.budget - self.started.elapsed().as_secs_f64();
         let needed = self.seconds_of(rung);
@@ -426,7 +426,7 @@ impl Measurement<'_> {
     }
 }
 
-/// Why there is nothing to compare with.
+/// Error of a run that ended before there was anything to compare.
 fn before_any(unfinished: Unfinished, run: &str) -> AccuracyError {
     match unfinished {
         Unfinished::Stopped(signal) => AccuracyError::Stopped { signal, moment: format!("during {run}") },

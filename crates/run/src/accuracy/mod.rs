@@ -1,4 +1,4 @@
-//! How exact a scene's runs are for their time: a ladder of runs compared with one reference.
+//! Accuracy of a scene's runs against their run time: a ladder of runs compared with one reference.
 //!
 //! | what | where |
 //! |---|---|

@@ -11,14 +11,14 @@ pub struct Compared {
     pub words: &'static str,
     /// Series of a run file whose sum it is.
     pub series: &'static [&'static str],
-    /// Whether these only grow: over a window they then have a mean rate; else what counts is their value at its end.
+    /// True if these only grow: over a window they then have a mean rate; else what counts is their value at its end.
     is_total: bool,
 }
 
 /// Number of quantities.
 pub const COUNT: usize = 4;
 
-/// All of them, in the order of tables.
+/// All quantities, in the order of tables.
 pub const COMPARED: [Compared; COUNT] = [
     Compared { name: "contact_area", words: "contact area", series: &["contact_area_integral"], is_total: true },
     Compared { name: "filled_fraction", words: "filled fraction", series: &["filled_fraction"], is_total: false },
@@ -52,7 +52,7 @@ pub struct QuantityError {
 pub struct Course {
     /// Moments, s.
     time: Vec<f64>,
-    /// Values there.
+    /// Values at the moments.
     values: Vec<Values>,
 }
 
@@ -101,7 +101,7 @@ impl Course {
         course
     }
 
-    /// Tells that there is a moment at the end of each window, or less than `step` (s) after it.
+    /// Tells whether there is a moment at the end of each window, or less than `step` (s) after it.
     pub fn knows(&self, windows: &Windows, step: f64) -> bool {
         windows.ends().all(|end| {
             let after = self.time.partition_point(|time| *time < end - 1e-6 * step);
@@ -162,7 +162,7 @@ pub struct Windows {
 }
 
 impl Windows {
-    /// As many windows as a run of that duration (s) has room for. Each is a whole number of times as wide as `unit` (s),
+    /// Makes as many windows as a run of that duration (s) has room for. Each is a whole number of times as wide as `unit` (s),
     /// and at least `least` (s); a run that is shorter than that is one window.
     ///
     /// The contact area fluctuates as the disc turns, and a mean over a part of a revolution depends on which part that is.

@@ -23,24 +23,24 @@ use crate::options::Observer;
 /// Run that every other one is compared with.
 #[derive(Debug, Clone)]
 pub struct Reference {
-    /// Its time acceleration.
+    /// Time acceleration of the reference.
     pub time_acceleration: f64,
     /// Keys and values in which it differs from the scene.
     pub setting: String,
-    /// What is kept of it.
+    /// Outcome of the run, as far as it is kept.
     pub outcome: Outcome,
-    /// Where it comes from.
+    /// Origin of the run.
     pub provenance: Provenance,
 }
 
 impl Reference {
-    /// Its quantities at the ends of windows.
+    /// Quantities at the ends of windows.
     pub fn course(&self, windows: &Windows) -> Course {
         self.outcome.course.at(windows)
     }
 }
 
-/// Where a reference comes from.
+/// Origin of a reference.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Provenance {
     /// The run file; none for a run made here.
@@ -51,9 +51,9 @@ pub struct Provenance {
     pub source_revision: String,
     /// Machine.
     pub host: String,
-    /// Workers.
+    /// Number of workers.
     pub workers: u64,
-    /// When it was started.
+    /// Time at which it was started, ISO 8601.
     pub start_time: String,
 }
 
@@ -66,7 +66,7 @@ pub struct ReadReference {
     pub sample_every: f64,
 }
 
-/// How many different keys a message names.
+/// Number of different keys that a message names.
 const MOST_KEYS: usize = 5;
 
 /// Reads the reference of a scene; `inputs` are the surface files that the scene reads, with their digests.
@@ -165,17 +165,17 @@ fn refuse_another_scene(run: &RunFile, scene: &Scene, inputs: &[(PathBuf, String
     if message.len() == bare { Ok(()) } else { Err(ReferenceError::Refused(message)) }
 }
 
-/// How long the first steps are timed.
+/// Wall time for which the first steps are timed.
 const TRIAL: Duration = Duration::from_millis(200);
 
 /// A run that came to its end.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Outcome {
-    /// Steps.
+    /// Number of steps.
     pub steps: u64,
     /// Wall time of all steps, s: without making the surfaces, and without a run file. None where a run file does not tell.
     pub wall_time: Option<f64>,
-    /// Its quantities at the ends of the windows.
+    /// Quantities at the ends of the windows.
     pub course: Course,
 }
 

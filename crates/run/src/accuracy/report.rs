@@ -22,7 +22,7 @@ pub struct Report {
     pub tolerance: f64,
     /// A row for every rung that was run, ladder by ladder, the finest first.
     pub rows: Vec<Row>,
-    /// What is worth knowing besides.
+    /// Notes on what is worth knowing besides.
     pub notes: Vec<String>,
 }
 
@@ -41,7 +41,7 @@ pub struct OwnError {
 }
 
 impl OwnError {
-    /// Of the model itself.
+    /// Error of the model itself, which has none.
     pub const NONE: Self = Self { opening: [0.0; COUNT], growth: [1.0; COUNT], end: 0.0, cells: [0.0; COUNT] };
 
     /// The same, with errors that grow after the opening as those of another run do: `opening` in the opening, `whole` over
@@ -66,16 +66,16 @@ impl OwnError {
 pub struct Row {
     /// The rung.
     pub rung: Rung,
-    /// What was measured, or why the run failed.
+    /// Errors and time of the run, or the reason why it failed.
     pub result: Result<Measured, String>,
-    /// Whether no other rung is as quick and as exact.
+    /// True if no other rung is as quick and as exact.
     pub on_front: bool,
 }
 
 /// A run that came to its end.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Measured {
-    /// Steps.
+    /// Number of steps.
     pub steps: u64,
     /// Wall time of all steps, s.
     pub wall_time: f64,
@@ -83,12 +83,12 @@ pub struct Measured {
     pub errors: [QuantityError; COUNT],
 }
 
-/// What can be said about a permitted error.
+/// Advice for a permitted error.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Advice {
-    /// This row is the quickest of those that are as exact.
+    /// Row that is the quickest of those that are as exact.
     Use(usize),
-    /// No row is as exact; this one has the least error.
+    /// Row with the least error, where none is as exact.
     Missed(usize),
     /// No run is quicker than the reference and has an error that is known.
     NoChoice,
@@ -119,7 +119,7 @@ impl Report {
         self.worst_of(&run.errors.map(|error| error.mean_square))
     }
 
-    /// The same of the reference itself.
+    /// Largest error of the reference itself.
     pub fn own_error(&self) -> f64 {
         self.worst_of(&self.own.whole()).map_or(0.0, |(error, _)| error)
     }
@@ -148,7 +148,7 @@ impl Report {
     }
 }
 
-/// Tells of each run that it is on the Pareto front of wall time and error: no other one is as good in both, and better in one.
+/// Tells of each run whether it is on the Pareto front of wall time and error: no other one is as good in both, and better in one.
 fn front(costs: &[Option<[f64; 2]>]) -> Vec<bool> {
     let beats = |one: [f64; 2], other: [f64; 2]| one[0] <= other[0] && one[1] <= other[1] && one != other;
     let is_beaten = |other: [f64; 2]| costs.iter().flatten().any(|one| beats(*one, other));

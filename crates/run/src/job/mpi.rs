@@ -22,11 +22,11 @@ use send_wrapper::SendWrapper;
 /// the many short ones slow.
 const LONGEST_SLOT: usize = 1024;
 
-/// How long a rank that failed waits for rank 0 to report the same and end all: what fails is mostly the same on all ranks,
+/// Time for which a rank that failed waits for rank 0 to report the same and end all: what fails is mostly the same on all ranks,
 /// and rank 0 may have a file to close.
 const HEAD_START: Duration = Duration::from_secs(5);
 
-/// This process as one rank of an MPI job, from the start to the end of MPI.
+/// Process as one rank of an MPI job, from the start to the end of MPI.
 ///
 /// A job ends well only when every rank says so with [`Session::finish`]. A session that is dropped otherwise, by a
 /// panic or a forgotten path, ends all ranks with exit status 1, because the others would wait for this one for ever.
@@ -60,7 +60,7 @@ impl Session {
         }
     }
 
-    /// This rank's end of the queue of pieces of independent work.
+    /// Requests of this rank for pieces of independent work, or answers to them.
     #[must_use]
     pub fn work_requests(&self) -> WorkRequests {
         WorkRequests { job: Rc::clone(&self.job) }
@@ -95,11 +95,11 @@ pub struct Mpi {
     size: usize,
     /// Words of a message that fit into the first round of `all_gather`; equal on all ranks.
     slot: usize,
-    /// This rank's part of the first round: the length of its message, then its first `slot` words.
+    /// Part of this rank in the first round: the length of its message, then its first `slot` words.
     outgoing: Vec<u64>,
-    /// What a round brought, in order of rank.
+    /// Words that a round brought, in order of rank.
     incoming: Vec<u64>,
-    /// Only for the thread that started MPI, which is all that MPI was promised.
+    /// Job, for the thread that started MPI alone, which is all that MPI was promised.
     job: SendWrapper<Rc<Job>>,
 }
 
@@ -206,7 +206,7 @@ const LARGEST_TAG: usize = 32_767;
 /// The system gives memory only for the part that is used.
 const SEND_BUFFER: usize = 64 << 20;
 
-/// Why ranks cannot talk to each other.
+/// Reason why ranks cannot talk to each other.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[allow(missing_docs)] // The messages say what they mean.
 pub enum MpiError {
@@ -228,7 +228,7 @@ impl From<MpiError> for CommError {
     }
 }
 
-/// What ends with MPI; a job that is dropped before this rank is done ends all ranks.
+/// Part of this rank in a job, which ends with MPI; dropped before the rank is done, it ends all ranks.
 struct Job {
     finished: Cell<bool>,
     world: SimpleCommunicator,
@@ -247,12 +247,12 @@ impl Job {
         Ok(Self { finished: Cell::new(false), world: universe.world(), _universe: universe })
     }
 
-    /// This rank is done: from here on MPI may end in good order.
+    /// Notes that this rank is done: from here on MPI may end in good order.
     fn finish(&self) {
         self.finished.set(true);
     }
 
-    /// All ranks.
+    /// Communicator of all ranks.
     fn world(&self) -> &SimpleCommunicator {
         &self.world
     }
@@ -285,7 +285,7 @@ pub struct WorkRequests {
 }
 
 impl WorkRequests {
-    /// On rank 0: who asks and with which word, if somebody does.
+    /// Returns on rank 0 the rank that asks, with its word, if one does.
     pub fn request(&self) -> Option<(usize, u64)> {
         let anybody = self.job.world().any_process();
         let status = anybody.immediate_probe_with_tag(TAG)?;
@@ -294,13 +294,13 @@ impl WorkRequests {
         Some((status.source_rank().unsigned_abs() as usize, word))
     }
 
-    /// On rank 0: the answer to a rank that asked.
+    /// Answers on rank 0 a rank that asked.
     pub fn answer(&self, rank: usize, piece: Option<usize>) {
         let word = piece.map_or(NOTHING, |piece| piece as u64);
         self.job.world().process_at_rank(rank as Rank).send_with_tag(&word, TAG);
     }
 
-    /// On another rank: tells rank 0 a word and waits for the next piece; none when there are no more.
+    /// Asks from another rank: tells rank 0 a word and waits for the next piece; none when there are no more.
     pub fn ask(&self, word: u64) -> Option<usize> {
         let first = self.job.world().process_at_rank(0);
         first.send_with_tag(&word, TAG);

@@ -65,13 +65,13 @@ pub fn say_strange(study: &Study, resolved: &Resolved, observer: &dyn SweepObser
 /// The run file of a run that is being made.
 #[derive(Debug)]
 pub struct KeptFile {
-    /// Takes samples.
+    /// Writer that takes samples.
     pub writer: RunWriter,
     snapshots: usize,
     /// Wall time before this process, s, and since when it counts.
     earlier: f64,
     start: Instant,
-    /// Others see by it that the file is being written.
+    /// Claim by which others see that the file is being written.
     _claim: Claim,
 }
 
@@ -105,7 +105,7 @@ impl KeptFile {
         self.writer.snapshot(snapshot)
     }
 
-    /// What it has, as soon as that is on the disk.
+    /// State of the file, as soon as what it has is on the disk.
     pub fn state(&mut self) -> Result<FileState, RunFileError> {
         let images = self.writer.sync().wait();
         // Without an answer it is not complete, and says why.

@@ -46,19 +46,19 @@ pub fn make(request: &Request<'_>, under_way: &mut UnderWay<'_>) -> Result<(Outc
 
 /// A run that is to be made.
 pub struct Request<'a> {
-    /// Of which study.
+    /// Study of the run.
     pub study: &'a Study,
     /// Options of the sweep.
     pub options: &'a SweepOptions,
-    /// Who follows it.
+    /// Observer that follows it.
     pub observer: &'a dyn SweepObserver,
     /// Surfaces of other runs.
     pub shared: &'a SharedSurfaces,
     /// Warnings of the surfaces of the runs.
     pub warnings: &'a Mutex<SceneWarnings>,
-    /// Its number in the study.
+    /// Number of the run in the study.
     pub number: usize,
-    /// Its scene.
+    /// Scene of the run.
     pub scene: &'a Scene,
     /// Identity that the run is expected to have.
     pub expected: &'a Identity,
@@ -119,7 +119,7 @@ impl Request<'_> {
         Ok(Outcome::Finished { steps, until: scene.duration, series: recorder.series().pack(), events, pulse_time })
     }
 
-    /// Tells the observer how many steps were taken since the last time, about ten times a second; whether a signal ends the run.
+    /// Tells the observer how many steps were taken since the last time, about ten times a second; true if a signal ends the run.
     fn steps(&self, count: u64) -> bool {
         self.observer.steps(count);
         self.observer.asked_to_stop().is_some()

@@ -42,15 +42,15 @@ pub fn file_size(scene: &Scene) -> u64 {
 /// A run before it is made.
 #[derive(Debug, Clone)]
 pub struct ResolvedRun {
-    /// By what its result is known: the name of [`of`](Self::of).
+    /// Name by which its result is known: that of [`of`](Self::of).
     pub identity: String,
     /// Identity of the run.
     pub of: Identity,
-    /// Its run file, where the study keeps those.
+    /// Run file of the run, where the study keeps those.
     pub file: PathBuf,
-    /// Its steps.
+    /// Number of steps.
     pub steps: u64,
-    /// Its length.
+    /// Length of the run.
     pub length: RunLength,
     /// Series and quantities of events that the responses of the study need and its scene records.
     pub needed: BTreeSet<String>,
@@ -59,7 +59,7 @@ pub struct ResolvedRun {
 /// Runs before they are made.
 #[derive(Debug)]
 pub struct Resolved {
-    /// By their numbers.
+    /// Runs by their numbers.
     pub runs: BTreeMap<usize, ResolvedRun>,
     /// Values of the scenes that can hardly be meant.
     pub warnings: SceneWarnings,
@@ -67,7 +67,7 @@ pub struct Resolved {
     pub files: BTreeSet<PathBuf>,
     /// Runs that repeat one of these before them.
     repeats: BTreeSet<usize>,
-    /// Of every response that some runs do not record: its place, how many, and what their scenes lack.
+    /// Responses that some runs do not record, by place: how many runs, and what their scenes lack.
     unrecorded: BTreeMap<usize, (usize, String)>,
 }
 
@@ -75,7 +75,7 @@ pub struct Resolved {
 struct Known {
     run: ResolvedRun,
     warnings: Vec<Found>,
-    /// For each response what it lacks to record its series, if anything.
+    /// Part that the scene lacks to record the series of each response, if it lacks any.
     lacking: Vec<Option<String>>,
     files: Vec<(PathBuf, String)>,
 }
@@ -94,7 +94,7 @@ impl Resolved {
         self.repeats.len()
     }
 
-    /// By what results are known, in the order of the design.
+    /// Names by which results are known, in the order of the design.
     pub fn identities(&self) -> Vec<String> {
         self.runs.values().map(|run| run.identity.clone()).collect()
     }
@@ -104,8 +104,8 @@ impl Resolved {
         self.runs.values().map(|run| run.length).collect()
     }
 
-    /// Warns of responses that ask for a time after the end of some run, or of all, which then give none. Another question to the same runs costs
-    /// none of them, so nothing is refused.
+    /// Warns of responses that ask for a time after the end of some run, or of all, which then give none. Another question to the same runs
+    /// costs none of them, so nothing is refused.
     pub fn warn_of_late_questions(&self, study: &Study, observer: &dyn SweepObserver) {
         let ends = || self.runs.values().map(|run| run.length.duration);
         let (shortest, longest) = (ends().fold(f64::INFINITY, f64::min), ends().fold(0.0, f64::max));
@@ -214,8 +214,8 @@ impl Resolved {
     }
 }
 
-/// Series that the responses of a study need of a run of this scene; what the scene does not record is lacking in every run of it, which is said
-/// elsewhere.
+/// Series that the responses of a study need of a run of this scene; what the scene does not record is lacking in every run of it, which is
+/// said elsewhere.
 pub fn needed(study: &Study, scene: &Scene) -> BTreeSet<String> {
     let needs = study.responses.iter().flat_map(|response| response.needs());
     needs.filter(|series| lacking(scene, series).is_none()).map(str::to_owned).collect()
@@ -246,20 +246,20 @@ pub(super) fn refuse_without_scene(plan: &Plan) -> Result<(), SweepError> {
 /// Length of a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RunLength {
-    /// Its duration, s.
+    /// Duration of the run, s.
     pub duration: f64,
-    /// Its simulated revolutions; none where it chooses its time acceleration as it goes.
+    /// Simulated revolutions of the run; none where it chooses its time acceleration as it goes.
     pub revolutions: Option<f64>,
 }
 
 impl RunLength {
-    /// That of a scene: a step takes the pin on by a column of the disc.
+    /// Length of the run of a scene: a step takes the pin on by a column of the disc.
     pub fn of(scene: &Scene) -> Self {
         let revolutions = scene.steps as f64 / scene.parameters.mesh.disc_columns() as f64;
         Self { duration: scene.duration, revolutions: scene.adaptive.is_none().then_some(revolutions) }
     }
 
-    /// Over what part of the run a mean over its last tenth is taken, at the end of it.
+    /// Part of the run, at its end, over which a mean over its last tenth is taken, 1.
     pub fn part(&self) -> f64 {
         self.revolutions.map_or(0.1, |turns| (LEAST_REVOLUTIONS / turns).clamp(0.1, 1.0))
     }
@@ -270,7 +270,7 @@ pub(super) fn seconds(time: f64) -> String {
     format!("{} s", number::rounded(time, 6))
 }
 
-/// Says of responses that ask for the last tenth over what they are a mean, where that is more.
+/// Notes over what responses that ask for the last tenth are a mean, where that is more.
 pub fn note_short_tenths(study: &Study, lengths: &[RunLength], observer: &dyn SweepObserver) {
     let asks = study.responses.iter().filter(|response| response.question == Question::MeanOfLastTenth);
     let names: Vec<String> = asks.map(|response| format!("\"{}\"", response.name)).collect();
@@ -280,7 +280,7 @@ pub fn note_short_tenths(study: &Study, lengths: &[RunLength], observer: &dyn Sw
     }
 }
 
-/// In words, of the run with the fewest simulated revolutions.
+/// Means over more than a tenth, in words, of the run with the fewest simulated revolutions.
 fn longer(lengths: &[RunLength]) -> Option<String> {
     let longer = lengths.iter().filter(|length| length.part() > 0.1 * (1.0 + 1e-9));
     let (count, most) = (longer.clone().count(), longer.max_by(|one, other| one.part().total_cmp(&other.part()))?);

@@ -38,10 +38,10 @@ const STRANGE: usize = 10;
 pub struct Sweep<'a> {
     plan: &'a Plan,
     options: SweepOptions,
-    /// None in a process that decides nothing.
+    /// Runs, resolved; none in a process that decides nothing.
     resolved: Option<Resolved>,
     journal: Journal,
-    /// As far as it is known before runs are made.
+    /// Summary, as far as it is known before runs are made.
     summary: SweepSummary,
     pending: Vec<usize>,
 }
@@ -51,7 +51,7 @@ pub struct Sweep<'a> {
 pub struct SweepSummary {
     /// Title of the study.
     pub study: String,
-    /// Its runs.
+    /// Number of runs of the study.
     pub runs: usize,
     /// Runs that finished before.
     pub finished_before: usize,
@@ -180,7 +180,7 @@ impl<'a> Sweep<'a> {
         &self.pending
     }
 
-    /// Steps of all of them together.
+    /// Number of steps of all of them together.
     pub fn steps(&self) -> u64 {
         let steps = |resolved: &Resolved| self.pending.iter().map(|number| resolved.runs[number].steps).sum::<u64>();
         self.resolved.as_ref().map_or(0, steps)
@@ -268,7 +268,7 @@ pub struct Runner<'a> {
     /// Runs that another process was making when they were looked at.
     waiting: Mutex<BTreeSet<usize>>,
     says_that_it_waits: AtomicBool,
-    /// Made with the first record.
+    /// Shard of the journal, made with the first record.
     shard: Mutex<Option<Shard>>,
     made: Mutex<Made>,
     /// Runs that read other files than were there when it was decided to make them.
@@ -284,13 +284,13 @@ pub struct Runner<'a> {
 /// Numbers of runs that were made.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Made {
-    /// Finished here.
+    /// Number of runs that finished here.
     pub finished: usize,
-    /// Failed here.
+    /// Number of runs that failed here.
     pub failed: usize,
-    /// Finished meanwhile in other processes.
+    /// Number of runs that finished meanwhile in other processes.
     pub finished_elsewhere: usize,
-    /// Failed meanwhile in other processes.
+    /// Number of runs that failed meanwhile in other processes.
     pub failed_elsewhere: usize,
 }
 
@@ -300,7 +300,7 @@ fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
 }
 
 impl<'a> Runner<'a> {
-    /// For runs of a plan; `journal` has the results that are there.
+    /// Makes it for runs of a plan; `journal` has the results that are there.
     pub fn new(
         plan: &'a Plan,
         decided: Option<&'a Resolved>,

@@ -10,7 +10,7 @@ const MOST_SETTINGS: usize = 100_000_000;
 /// Factor before a design sets it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Factor {
-    /// So many levels, at least two.
+    /// Number of levels, at least two.
     Levels(usize),
     /// A range between two values.
     Range,
@@ -41,19 +41,19 @@ pub enum Kind {
     CentralComposite {
         /// Distance of the axial points.
         alpha: Alpha,
-        /// Centre points, with the two-level and with the axial points.
+        /// Numbers of centre points, with the two-level and with the axial points.
         centre: [usize; 2],
     },
     /// Midpoints of edges (from six factors on of faces) and centre points, for quadratic response surfaces of 3 to
     /// 7 factors. No point is at a corner.
     BoxBehnken {
-        /// Centre points.
+        /// Number of centre points.
         centre: usize,
     },
-    /// As many strata of every range as there are points, each with one point, at random within; the points are kept
+    /// Strata of every range, as many as there are points, each with one point, at random within; the points are kept
     /// apart. Levels get equal shares of the strata.
     LatinHypercube {
-        /// Their number.
+        /// Number of points.
         points: usize,
         /// Seed of the random numbers.
         seed: u64,
@@ -96,7 +96,7 @@ pub enum Alpha {
     /// Two-level points and axial points, each with their centre points, are orthogonal blocks: a shift between them
     /// changes no effect.
     Orthogonal,
-    /// On the faces: no value outside the range.
+    /// Axial points on the faces: no value outside the range.
     Face,
 }
 
@@ -142,7 +142,7 @@ pub(super) fn room(points: Option<usize>, factors: usize) -> Result<usize, Desig
     }
 }
 
-/// So many factors, in words.
+/// A number of factors, in words.
 pub(super) fn counted(factors: usize) -> String {
     format!("{factors} factor{}", if factors == 1 { "" } else { "s" })
 }

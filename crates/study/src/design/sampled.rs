@@ -7,11 +7,11 @@
 //! doi:10.1016/0378-3758(90)90122-B.
 //!
 //! Sobol's sequence fills the ranges evenly, the more points the finer: I. M. Sobol', On the distribution of points in a cube and the
-//! approximate evaluation of integrals, USSR Comput. Math. Math. Phys. 7(4), 86–112 (1967), doi:10.1016/0041-5553(67)90144-9; in the order of
-//! the Gray code: I. A. Antonov, V. M. Saleev, ibid. 19(1), 252–256 (1979), doi:10.1016/0041-5553(79)90085-5.
+//! approximate evaluation of integrals, USSR Comput. Math. Math. Phys. 7(4), 86–112 (1967), doi:10.1016/0041-5553(67)90144-9; in the order
+//! of the Gray code: I. A. Antonov, V. M. Saleev, ibid. 19(1), 252–256 (1979), doi:10.1016/0041-5553(79)90085-5.
 //!
-//! Of the points of Morris's trajectories each differs from the one before in one factor: M. D. Morris, Technometrics 33(2), 161–174 (1991),
-//! doi:10.1080/00401706.1991.10484804.
+//! Trajectories of Morris have points of which each differs from the one before in one factor: M. D. Morris, Technometrics 33(2), 161–174
+//! (1991), doi:10.1080/00401706.1991.10484804.
 
 use rand_chacha::rand_core::{Rng, SeedableRng};
 use rand_chacha::{ChaCha8Rng, ChaCha12Rng};
@@ -97,12 +97,12 @@ impl Random {
         Self(ChaCha12Rng::from_seed(key))
     }
 
-    /// One of 0 … bound − 1; probabilities differ by bound / 2⁶⁴.
+    /// Random number from 0 to bound − 1; probabilities differ by bound / 2⁶⁴.
     fn below(&mut self, bound: usize) -> usize {
         ((u128::from(self.0.next_u64()) * bound as u128) >> u64::BITS) as usize
     }
 
-    /// Strictly between 0 and 1, in the middle of one of 2²⁴ equal parts, so that no rounding leads out of a stratum.
+    /// Random number strictly between 0 and 1, in the middle of one of 2²⁴ equal parts, so that no rounding leads out of a stratum.
     fn inside(&mut self) -> f64 {
         ((self.0.next_u64() >> 40) as f64 + 0.5) / f64::from(1_u32 << 24)
     }
@@ -156,7 +156,7 @@ fn directions(dimension: usize) -> [u32; DIGITS] {
     directions
 }
 
-/// So many trajectories of one point more than there are factors, on a grid of so many levels along each range. Steps are half
+/// Makes so many trajectories of one point more than there are factors, on a grid of so many levels along each range. Steps are half
 /// the number of levels long, which gives all levels the same chance; places, directions and the order of factors are drawn by lot.
 pub(super) fn morris(trajectories: usize, levels: usize, seed: u64, factors: &[Factor]) -> Result<Design, DesignError> {
     if trajectories == 0 {

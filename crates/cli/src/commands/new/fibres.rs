@@ -73,13 +73,13 @@ pub(super) fn beyond() -> String {
     line("repeat", true, "smaller than the pin: mirrored tiles; or extend = \"statistics\", random fibres like these")
 }
 
-/// Whether the picture of a scene is smaller than its pin, which is refused.
+/// Tells whether the picture of a scene is smaller than its pin, which is refused.
 pub(super) fn is_too_small(found: &Result<Option<(FibreMap, f64)>, SurfaceError>) -> bool {
     let small = |reason: &FileError| matches!(reason, FileError::Micrograph(MicrographError::Small { .. }));
     matches!(found, Err(SurfaceError::File { reason, .. }) if small(reason))
 }
 
-/// What a picture shows, and how much of it is fibre.
+/// Notes on the size of a picture, and on the fraction of fibre in it and on the pin.
 pub(super) fn told(path: &Path, map: &FibreMap, pixel: f64, scene: &Scene, is_small: bool) -> Vec<String> {
     let [width, height] = map.fibre.size(pixel).map(Length);
     let picture = 100.0 * map.fibre.fraction();

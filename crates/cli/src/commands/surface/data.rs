@@ -22,7 +22,7 @@ use crate::message;
 const TO_DESCRIBE: u64 = 56;
 /// Points along the longer side of the picture of the pin's base: more than a figure shows.
 const LONGEST: f64 = 1000.0;
-/// What the picture of the base has where there is no cell.
+/// Value in the picture of the base where there is no cell.
 const NOTHING: u8 = 3;
 
 /// The data of surfaces: their heights as arrays, all else in one document.
@@ -136,7 +136,7 @@ impl Data {
         Ok(cells)
     }
 
-    /// Writes heights as they are described and drawn; what there is to tell of them.
+    /// Writes heights as they are described and drawn, and returns what there is to tell of them.
     fn heights(&self, part: &str, name: &str, grid: &Grid) -> Result<Value, Failure> {
         let Grid { columns, rows, pitch, heights } = *grid;
         refuse_beyond(TO_DESCRIBE.saturating_mul(heights.len() as u64)).map_err(|no_room| {
@@ -155,7 +155,7 @@ impl Data {
         }))
     }
 
-    /// Writes the document of the surfaces; the folder, which is complete.
+    /// Writes the document of the surfaces and returns the folder, which is then complete.
     pub fn finish(&self) -> Result<&Path, Failure> {
         self.document("surfaces.json", &self.surfaces)?;
         Ok(&self.folder)
@@ -263,7 +263,7 @@ impl<'a> Grid<'a> {
     }
 }
 
-/// What a body is called.
+/// Name of a body.
 fn name_of(body: Body) -> &'static str {
     if body == Body::Disc { "disc" } else { "pin" }
 }

@@ -18,7 +18,7 @@ use crate::output::print;
 use data::Data;
 use recorded::NamedHeights;
 
-/// More surfaces make no legible picture.
+/// Most surfaces that still make a legible picture.
 const MOST_PLOTTED: usize = 12;
 
 /// Describes, converts and draws surfaces.
@@ -211,7 +211,7 @@ fn tell(arguments: &SurfaceArguments, read: &[PathBuf], data: &Data) -> Result<(
     print((described + &written).trim_start_matches('\n'))
 }
 
-/// Where a page of a figure of this kind goes: the first to the named file, further ones beside it with the end of their names.
+/// Path of a page of a figure of this kind: the named file for the first, a file beside it with the end of its name for a further one.
 fn of_page(place: &Path, kind: &str, name: &str) -> PathBuf {
     let stem = place.file_stem().unwrap_or_default().to_string_lossy();
     let own = Path::new(name).file_stem().unwrap_or_default().to_string_lossy();

@@ -11,13 +11,13 @@ pub struct Key {
     pub section: &'static str,
     /// Name in that table; a key of an inline table has a dotted name, for instance `synthetic.seed`.
     pub name: &'static str,
-    /// Its content.
+    /// Content of the key.
     pub kind: Kind,
-    /// Its need: what happens when it is absent.
+    /// Need of the key: what happens when it is absent.
     pub need: Need,
-    /// Its meaning, in one line.
+    /// Meaning of the key, in one line.
     pub meaning: &'static str,
-    /// Its role: the part of a run that changes with it.
+    /// Role of the key: the part of a run that changes with it.
     pub role: Role,
 }
 
@@ -27,12 +27,12 @@ impl Key {
         join(self.section, self.name)
     }
 
-    /// Tells whether it is a step of a preparation that "none" takes out of a scene, as if the key were absent there and in what it extends.
+    /// Tells whether the key is a step of preparation that "none" takes out of a scene, as if it were absent there and in what it extends.
     pub fn may_be_none(&self) -> bool {
         self.section.ends_with(".prepare") && self.need == Need::Optional && !self.name.contains('.')
     }
 
-    /// Tells whether it is a seed of random heights or bases.
+    /// Tells whether the key is a seed of random heights or bases.
     pub fn is_seed(&self) -> bool {
         self.name.ends_with(".seed") || self.name == "extend_seed"
     }
@@ -48,7 +48,7 @@ impl Key {
 pub enum Role {
     /// The physics that is simulated.
     Physics,
-    /// The same, computed otherwise.
+    /// The same physics, computed otherwise.
     Numerics,
     /// Length of the run.
     Length,
@@ -95,7 +95,7 @@ pub enum Kind {
     Integer(u64),
     /// true or false.
     Bool,
-    /// Only true: the key names a choice and has no other value.
+    /// `true` and nothing else: the key names a choice and has no other value.
     True,
     /// One of these words.
     Choice(&'static [&'static str]),
@@ -118,19 +118,19 @@ pub enum Kind {
 /// Need of a key: what happens when it is absent.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Need {
-    /// It is an error; for a key of an inline table, if that table is there.
+    /// Error; for a key of an inline table, if that table is there.
     Required,
     /// The key is one of a group of which one is chosen (see [`GROUPS`](super::GROUPS)).
     OneOf,
-    /// It is an error where the key's way of saying the same is chosen (see [`WAYS`](super::WAYS)), unless another key has a certain value.
+    /// Error where the key's way of saying the same is chosen (see [`WAYS`](super::WAYS)), unless another key has a certain value.
     OfWay(Option<Choose>),
-    /// This value is taken, in TOML; for a key of an inline table, if that table is there.
+    /// Default that is taken, in TOML; for a key of an inline table, if that table is there.
     Default(&'static str),
     /// The value of the same name in this table is taken.
     SameAs(&'static str),
     /// A value that depends on the scene is taken.
     Computed(&'static str),
-    /// It is an error, unless another key has a certain value: then this value is taken, in TOML.
+    /// Error, unless another key has a certain value: then this default is taken, in TOML.
     RequiredUnless(Choose, &'static str),
     /// The step that the key describes is not done.
     Optional,
@@ -171,11 +171,11 @@ pub struct Range {
 impl Range {
     /// Any finite number.
     pub const ANY: Self = Self::new(f64::NEG_INFINITY, false, f64::INFINITY, false);
-    /// More than 0.
+    /// Numbers above 0.
     pub const POSITIVE: Self = Self::new(0.0, false, f64::INFINITY, false);
-    /// 0 or more.
+    /// Numbers from 0 on.
     pub const NOT_NEGATIVE: Self = Self::new(0.0, true, f64::INFINITY, false);
-    /// From 0 to 1, both included.
+    /// Numbers from 0 to 1, both included.
     pub const FRACTION: Self = Self::new(0.0, true, 1.0, true);
 
     /// The numbers between two, each of which is or is not one of them.
@@ -191,7 +191,7 @@ impl Range {
     }
 }
 
-/// In words: "more than -1 and at most 0.5".
+/// Writes it in words: "more than -1 and at most 0.5".
 impl fmt::Display for Range {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let low = if self.low_included { "at least" } else { "more than" };

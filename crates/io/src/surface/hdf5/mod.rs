@@ -22,11 +22,11 @@ use crate::number;
 use crate::run_file::{ReadError, RunFile, State, map_path};
 use crate::text::short;
 
-/// What is looked for.
+/// Kind of dataset that is looked for.
 #[derive(Clone, Copy)]
 enum Wanted {
     Heights,
-    /// Shape (columns, rows).
+    /// Fibre map of shape (columns, rows).
     Base((usize, usize)),
 }
 
@@ -95,7 +95,7 @@ pub(super) fn heights(path: &Path, dataset: Option<&str>, at: Option<f64>) -> Re
     Ok(Measured { notes, instrument: is_converted, ..Measured::new(Format::Hdf5, [columns, rows], pitch, heights) })
 }
 
-/// From which file the heights were converted, and by what, if they were.
+/// Note on the file from which the heights were converted, and on what converted it, if they were.
 fn converted(dataset: &Dataset) -> hdf5::Result<Option<String>> {
     if dataset.attr("source_file").is_err() {
         return Ok(None);

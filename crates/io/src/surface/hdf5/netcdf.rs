@@ -1,4 +1,4 @@
-//! What netCDF says of a dataset: which dimension is x and which is y, how far its points are apart, and how its numbers are packed
+//! Conventions of netCDF for a dataset: which dimension is x and which is y, how far its points are apart, how its numbers are packed
 //! (HDF5 Dimension Scale Specification; NetCDF Users Guide, attribute conventions; CF conventions, 2.5.1 and 8.1).
 
 use hdf5::types::{FloatSize, Reference, TypeDescriptor, VarLenArray};
@@ -15,7 +15,7 @@ const SCALE_FACTOR: &str = "scale_factor";
 /// The attribute that says whether integers are to be read without a sign, whatever their type is.
 const UNSIGNED: &str = "_Unsigned";
 
-/// What a stored number stands for: NaN where it is a mark or not valid, else times `scale_factor` plus `add_offset`.
+/// Packing of numbers: a stored one means NaN where it is a mark or not valid, else itself times `scale_factor` plus `add_offset`.
 pub(super) struct Packing {
     scale_factor: f64,
     add_offset: f64,
@@ -28,12 +28,12 @@ pub(super) struct Packing {
 }
 
 impl Packing {
-    /// Whether a factor is stated.
+    /// Tells whether a factor is stated.
     pub(super) fn is_packed(dataset: &Dataset) -> bool {
         dataset.attr(SCALE_FACTOR).is_ok()
     }
 
-    /// As the attributes of a dataset have it.
+    /// Reads the packing from the attributes of a dataset.
     pub(super) fn of(dataset: &Dataset) -> Result<Self, Hdf5Error> {
         let one = |name: &str, absent: f64, fits: fn(f64) -> bool, expected: &'static str| {
             if dataset.attr(name).is_err() {
@@ -73,7 +73,7 @@ impl Packing {
         })
     }
 
-    /// Makes what they stand for of stored numbers, in place.
+    /// Turns stored numbers into those that they stand for, in place.
     pub(super) fn unpack(&self, stored: &mut [f64]) {
         let Self { scale_factor, add_offset, ref marks, valid, range } = *self;
         range.iter().for_each(|range| into_range(*range, stored));
@@ -89,7 +89,7 @@ impl Packing {
         }
     }
 
-    /// What is done to the stored numbers, in words.
+    /// Factor, offset and valid range of the stored numbers in words, if they are stated.
     pub(super) fn note(&self) -> Option<String> {
         let Self { scale_factor, add_offset, valid, .. } = *self;
         let packed = ((scale_factor, add_offset) != (1.0, 0.0)).then(|| {
@@ -193,23 +193,23 @@ pub(super) fn numbers(location: &Location, name: &str) -> hdf5::Result<Vec<f64>>
 /// Numbers of an attribute that is read.
 const MOST_NUMBERS: usize = 64;
 
-/// How far a coordinate may be from a regular grid, in pitches, besides what rounding to its type makes.
+/// Largest distance of a coordinate from a regular grid, in pitches, besides what rounding to its type makes.
 const TOLERANCE: f64 = 1e-3;
-/// How NAME begins of a scale that netCDF makes for a dimension without coordinates.
+/// Beginning of the NAME of a scale that netCDF makes for a dimension without coordinates.
 const NO_COORDINATES: &str = "This is a netCDF dimension";
 
-/// What the dimensions of a dataset with two of them say.
+/// Order, pitch and direction of the dimensions of a dataset with two of them.
 pub(super) struct Dimensions {
-    /// y comes first, x second.
+    /// True if y comes first, x second.
     pub(super) is_turned: bool,
     /// Distance of neighbouring points along x and y, m, if the coordinates of both are there.
     pub(super) pitch: Option<[f64; 2]>,
-    /// Coordinates along x and y decrease.
+    /// True where coordinates along x and y decrease.
     decreases: [bool; 2],
 }
 
 impl Dimensions {
-    /// As labels, scales and coordinates have it; x first where they say nothing.
+    /// Reads them from labels, scales and coordinates; x comes first where these say nothing.
     pub(super) fn of(dataset: &Dataset) -> Result<Self, Hdf5Error> {
         let (labels, scales) = (labels(dataset)?, scales(dataset)?);
         let name = |place: usize| {
@@ -247,7 +247,7 @@ impl Dimensions {
         ((columns, rows), places.map(value).collect())
     }
 
-    /// How values are laid out, in words, where it is not (columns, rows).
+    /// Layout of the values in words, where it is not (columns, rows) with growing x and y.
     pub(super) fn note(&self) -> Option<String> {
         let turned = self.is_turned.then(|| "dimensions (y, x)".to_owned());
         let reversed = ["x", "y"].into_iter().zip(self.decreases).filter(|(_, decreases)| *decreases);
@@ -289,7 +289,7 @@ fn scales(dataset: &Dataset) -> hdf5::Result<Vec<Option<Dataset>>> {
     lists.iter().map(scale).collect()
 }
 
-/// From one coordinate of a dimension to the next, m; none where there are no coordinates, or one point only.
+/// Step from one coordinate of a dimension to the next, m; none where there are no coordinates, or one point only.
 fn step(dataset: &Dataset, place: usize, scale: &Dataset) -> Result<Option<f64>, Hdf5Error> {
     let count = dataset.shape()[place];
     let descriptor = scale.dtype()?.to_descriptor()?;
@@ -347,7 +347,7 @@ pub(super) fn stated_unit(dataset: &Dataset) -> Result<Option<String>, Hdf5Error
     Ok(unit)
 }
 
-/// Whether a text is a name of the metre.
+/// Tells whether a text is a name of the metre.
 pub(super) fn is_metre(unit: &str) -> bool {
     ["m", "metre", "metres", "meter", "meters"].contains(&unit)
 }

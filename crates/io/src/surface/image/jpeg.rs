@@ -46,7 +46,7 @@ impl Raster {
     }
 }
 
-/// Whether there is an end-of-image marker behind the first scan: cameras write more behind it.
+/// Tells whether there is an end-of-image marker behind the first scan: cameras write more behind it.
 fn has_end(content: &[u8]) -> bool {
     let scan = segments(content).find(|(marker, _)| *marker == 0xda);
     scan.is_some_and(|(_, at)| content[at..].windows(2).any(|pair| pair == b"\xff\xd9"))

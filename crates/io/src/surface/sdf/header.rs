@@ -1,4 +1,4 @@
-//! What an SDF file can be, hold and lack: dialects, types of numbers, the checked header, errors.
+//! Parts of an SDF file: dialects, types of numbers, the checked header, errors.
 
 use std::{fmt, io};
 
@@ -7,7 +7,7 @@ use thiserror::Error;
 
 use crate::surface::stored::{Kind, Number};
 
-/// Where in a file.
+/// Position in a file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Position {
     /// Line of a text, counted from 1.
@@ -25,7 +25,7 @@ impl fmt::Display for Position {
     }
 }
 
-/// Why an SDF file cannot be read.
+/// Reason why an SDF file cannot be read.
 #[derive(Debug, Error)]
 #[allow(missing_docs)] // The messages say what they mean.
 pub enum SdfError {
@@ -67,12 +67,12 @@ pub enum Dialect {
     Iso2,
 }
 
-/// How numbers are stored.
+/// Encoding of numbers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Encoding {
-    /// As text.
+    /// Text.
     Ascii,
-    /// As they are in memory, little endian.
+    /// Numbers as they are in memory, little endian.
     Binary,
 }
 
@@ -81,7 +81,7 @@ pub enum Encoding {
 pub struct SdfKind {
     /// The dialect.
     pub dialect: Dialect,
-    /// How numbers are stored.
+    /// Encoding of its numbers.
     pub encoding: Encoding,
 }
 
@@ -129,7 +129,7 @@ pub(in crate::surface) fn without_margin(text: &[u8]) -> &[u8] {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct DataType {
     pub(super) number: Number,
-    /// With its article.
+    /// Name with its article.
     pub(super) name: &'static str,
 }
 
@@ -148,7 +148,7 @@ const DATA_TYPES: [DataType; 8] = [
     data_type(Kind::Float, 8, "a binary64 number"),
 ];
 
-/// From here on a binary32 or a binary64 number of BCR-1.0 marks a point that was not measured.
+/// Least binary32 and binary64 number of BCR-1.0 that marks a point that was not measured.
 const BCR_MISSING_32: f32 = 3.4e38;
 const BCR_MISSING_64: f64 = 1.7e308;
 
@@ -201,12 +201,12 @@ impl DataType {
     }
 }
 
-/// What an SDF file holds.
+/// Content of an SDF file.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Surface {
     /// The heights.
     pub patch: Patch,
-    /// What is odd about the file though its heights could be read.
+    /// Oddities of the file, whose heights could be read nevertheless.
     pub warnings: Vec<String>,
 }
 
@@ -222,7 +222,7 @@ pub(super) struct RawHeader {
     pub(super) check_type: (i64, Position),
 }
 
-/// A header that can be.
+/// A header that was checked.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Header {
     pub(super) dialect: Dialect,
@@ -263,7 +263,7 @@ impl Header {
         Profiles { patch, downward: self.dialect == Dialect::Bcr1, done: 0 }
     }
 
-    /// Heights that the header promises.
+    /// Number of heights that the header promises.
     pub(super) fn heights(&self) -> u128 {
         self.points as u128 * self.profiles as u128
     }
@@ -292,19 +292,19 @@ fn zero(field: &'static str, (found, at): (i64, Position), expected: &'static st
 pub(super) struct Profiles {
     /// The patch that they make, with NaN where a height is still to come.
     pub(super) patch: Patch,
-    /// The first profile has the largest y.
+    /// True if the first profile has the largest y.
     downward: bool,
-    /// Heights taken so far.
+    /// Number of heights taken so far.
     done: usize,
 }
 
 impl Profiles {
-    /// Heights taken so far.
+    /// Number of heights taken so far.
     pub(super) fn len(&self) -> usize {
         self.done
     }
 
-    /// Heights that are not there yet.
+    /// Number of heights that are not there yet.
     pub(super) fn missing(&self) -> usize {
         self.patch.heights.len() - self.done
     }

@@ -73,7 +73,7 @@ const LONGEST: usize = 1000;
 pub(super) struct Lexer<R> {
     source: R,
     line: usize,
-    /// What stands after this byte in a line is skipped.
+    /// Byte behind which the rest of a line is skipped.
     pub(super) comment: Option<u8>,
     text: Vec<u8>,
 }
@@ -210,7 +210,7 @@ fn not(field: &'static str, value: &str, at: Position, expected: &'static str) -
     SdfError::Field { at, field, found: format!("\"{}\"", short(value.as_bytes())), expected }
 }
 
-/// What is shown of a text.
+/// Beginning of a text, as messages show it.
 fn short(text: &[u8]) -> String {
     text[..text.len().min(40)].escape_ascii().to_string()
 }
@@ -299,7 +299,7 @@ const COUNTS: usize = 42;
 const AFTER_COUNTS: usize = 35;
 /// Bytes that are read at once.
 const CHUNK: usize = 1 << 16;
-/// How much of a trailer is looked at.
+/// Bytes of a trailer that are looked at.
 const TRAILER: u64 = 4096;
 
 fn binary(mut source: impl BufRead, length: u64) -> Result<Surface, SdfError> {
@@ -350,7 +350,7 @@ fn binary(mut source: impl BufRead, length: u64) -> Result<Surface, SdfError> {
     Ok(Surface { patch: heights.patch, warnings })
 }
 
-/// Up to `count` bytes, fewer only at the end of the file.
+/// Reads `count` bytes, fewer only at the end of the file.
 fn take(source: &mut impl Read, count: usize) -> Result<Vec<u8>, SdfError> {
     let mut bytes = Vec::with_capacity(count);
     source.take(count as u64).read_to_end(&mut bytes)?;

@@ -4,11 +4,11 @@
 use crate::delimited::{Decimal, Separator};
 use crate::surface::error::TextError;
 
-/// What is wrong with a cell.
+/// Fault of a cell.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Fault {
     NotANumber,
-    /// This decimal mark where the other is expected.
+    /// Decimal mark in place of the other one.
     Mark(Decimal),
     /// Digits in groups of three.
     Grouped,
@@ -55,7 +55,7 @@ fn with_comma(cell: &str) -> Option<f64> {
     if between_digits && !cell.contains('.') { cell.replacen(',', ".", 1).parse().ok() } else { None }
 }
 
-/// Why a cell is no number.
+/// Reason why a cell is no number.
 fn fault(cell: &str, decimal: Decimal) -> Fault {
     if is_grouped(cell) {
         return Fault::Grouped;
@@ -67,7 +67,7 @@ fn fault(cell: &str, decimal: Decimal) -> Fault {
     }
 }
 
-/// Whether digits stand in groups of three, as in 1,234.5 or 1.234.567: with both marks, or one of them more than once.
+/// Tells whether digits stand in groups of three, as in 1,234.5 or 1.234.567: with both marks, or one of them more than once.
 fn is_grouped(cell: &str) -> bool {
     let digits = cell.strip_prefix(['+', '-']).unwrap_or(cell);
     let Some(mark) = digits.chars().find(|character| [',', '.'].contains(character)) else { return false };
@@ -82,7 +82,7 @@ fn is_grouped(cell: &str) -> bool {
         && (groups.len() > 1 || fraction.is_some_and(is_digits))
 }
 
-/// No number, or an infinite one, where a cell is what programs write for a point that was not measured.
+/// NaN, or an infinite number, where a cell is what programs write for a point that was not measured; none for another cell.
 fn missing(cell: &str) -> Option<f64> {
     let all = |mark: u8| cell.bytes().all(|byte| byte == mark);
     if all(b'*') || all(b'-') || ["bad", "na", "n/a", "no data"].iter().any(|word| cell.eq_ignore_ascii_case(word)) {
@@ -111,7 +111,7 @@ pub(super) fn is_comment(line: &str) -> bool {
     line.trim_start().starts_with(['#', '%'])
 }
 
-/// Whether a line has numbers: a number in its first cell that is not empty, or nothing but missing points.
+/// Tells whether a line has numbers: a number in its first cell that is not empty, or nothing but missing points.
 pub(super) fn starts_numbers(line: &str) -> bool {
     let separator = Separator::of(line);
     let mut cells = separator.cells(line, false).filter(|cell| !cell.is_empty());
@@ -119,7 +119,7 @@ pub(super) fn starts_numbers(line: &str) -> bool {
     cells.next().is_none_or(|cell| !matches!(number(cell, Decimal::Point), Err(Fault::NotANumber)))
 }
 
-/// How the numbers of a file are written.
+/// Separator and decimal mark of the numbers of a file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Dialect {
     pub(super) separator: Separator,
@@ -149,12 +149,12 @@ impl Dialect {
     }
 }
 
-/// Whether a comma can be part of a cell of the line.
+/// Tells whether a comma can be part of a cell of the line.
 fn is_mark_in_cells(separator: Separator, line: &str) -> bool {
     line.contains(',') && (separator != Separator::Character(',') || line.contains('"'))
 }
 
-/// What parts the numbers: what the first line has, where that cannot be a decimal comma.
+/// Separator of the numbers: what the first line has, where that cannot be a decimal comma.
 fn separator<'a>(
     lines: impl Iterator<Item = (usize, &'a str)> + Clone,
     given: Option<Decimal>,
@@ -197,12 +197,12 @@ fn separator<'a>(
     [COMMA, other].into_iter().find(named).ok_or_else(|| TextError::CommaOrColumns { line, found: shown(first.trim()) })
 }
 
-/// Whether a line has commas within numbers and commas between them, as `1,5, 2,5`.
+/// Tells whether a line has commas within numbers and commas between them, as `1,5, 2,5`.
 fn has_both_commas(line: &str) -> bool {
     line.contains(", ") && line.split(", ").any(|cell| cell.trim_end_matches(',').contains(','))
 }
 
-/// What can only be a part of a number, where all lines are of pairs of digits, as in `-0,0469,0,0192`: a whole number that is -0, or a
+/// Finds what can only be a part of a number, where all lines are of pairs of digits, as in `-0,0469,0,0192`: a whole number -0, or a
 /// fraction with a zero in front.
 fn comma_twice<'a>(lines: impl Iterator<Item = (usize, &'a str)>) -> Option<(usize, &'a str)> {
     let are_digits = |text: &str| !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit());
@@ -224,7 +224,7 @@ fn comma_twice<'a>(lines: impl Iterator<Item = (usize, &'a str)>) -> Option<(usi
     found
 }
 
-/// Whether every cell of a line is a number, with a decimal comma unless commas part them.
+/// Tells whether every cell of a line is a number, with a decimal comma unless commas part them.
 fn fits(separator: Separator, line: &str) -> bool {
     separator.cells(line, false).all(|cell| matches!(number(cell, Decimal::Comma), Ok(_) | Err(Fault::Infinite)))
 }
@@ -263,7 +263,7 @@ fn decimal<'a>(lines: impl Iterator<Item = (usize, &'a str)>, separator: Separat
     }
 }
 
-/// Whether the comma of a number may part a group of digits, as in 1,234: one to three digits, of which the first is not
+/// Tells whether the comma of a number may part a group of digits, as in 1,234: one to three digits, of which the first is not
 /// 0, before it and three after it.
 fn may_be_group(cell: &str) -> bool {
     let digits = cell.strip_prefix(['+', '-']).unwrap_or(cell);
@@ -275,7 +275,7 @@ fn may_be_group(cell: &str) -> bool {
     })
 }
 
-/// Whether a number has more than three digits before a comma, which shows that digits are not grouped.
+/// Tells whether a number has more than three digits before a comma, which shows that digits are not grouped.
 fn is_long(cell: &str) -> bool {
     let digits = cell.strip_prefix(['+', '-']).unwrap_or(cell);
     digits.bytes().take_while(u8::is_ascii_digit).count() > 3

@@ -1,4 +1,4 @@
-//! What stands before the numbers of a text file: names with values, names of columns, units.
+//! Header of a text file, which stands before its numbers: names with values, names of columns, units.
 
 use crate::delimited::{Decimal, Separator};
 use crate::units::{self, Dimension};
@@ -57,13 +57,13 @@ pub(super) enum Columns {
 pub(super) struct Names {
     /// Line that has them.
     pub(super) line: usize,
-    /// How many there are.
+    /// Number of columns.
     pub(super) count: usize,
-    /// Which are coordinates and heights.
+    /// Columns that are coordinates and heights.
     pub(super) columns: Columns,
-    /// Where 0 stands for points without a height.
+    /// Column in which 0 stands for points without a height.
     pub(super) valid: Option<usize>,
-    /// What 1 stands for in each column, m.
+    /// Length that 1 stands for in each column, m.
     pub(super) units: Vec<Option<f64>>,
 }
 
@@ -114,7 +114,7 @@ impl Names {
     }
 }
 
-/// What stands in brackets.
+/// Text in the brackets of a cell, if it is in brackets.
 fn bracketed(cell: &str) -> Option<&str> {
     let inner = |open, close| cell.strip_prefix(open)?.strip_suffix(close);
     inner('[', ']').or_else(|| inner('(', ')'))
@@ -136,22 +136,22 @@ fn unit(cell: &str) -> Option<f64> {
     }
 }
 
-/// What stands between a name and its value, and before another name.
+/// Characters between a name and its value, and before another name.
 const BEFORE_VALUES: [char; 3] = ['=', ':', '：'];
 const BEFORE_NAMES: [char; 2] = [',', ';'];
 
-/// What a header states.
+/// Statements of a header.
 #[derive(Debug, Default, PartialEq)]
 pub(super) struct Header {
-    /// What the height 1 stands for, m.
+    /// Length that the height 1 stands for, m.
     pub(super) unit: Option<f64>,
-    /// What 1 stands for along x and y, m.
+    /// Length that 1 stands for along x and y, m.
     pub(super) lateral_unit: Option<f64>,
     /// Distance of points along x and y, m.
     pub(super) pitch: Option<[f64; 2]>,
     /// Extent along x and y, m; every point stands for one pitch.
     pub(super) extent: [Option<f64>; 2],
-    /// Columns and rows.
+    /// Numbers of columns and rows.
     pub(super) counts: [Option<u64>; 2],
     /// The names of the columns.
     pub(super) names: Option<Names>,

@@ -80,7 +80,7 @@ fn table(numbers: &Numbers, xyz: bool, options: &ReadOptions) -> Result<Measured
 /// Coordinates that are off by no more than this, in steps, are evenly spaced.
 const OFF: f64 = 0.02;
 
-/// At least this fraction of the points of a profile has to be there.
+/// Least fraction of the points of a profile that has to be there.
 const COVERAGE: f64 = 0.9;
 
 /// Evenly spaced points.
@@ -88,11 +88,11 @@ const COVERAGE: f64 = 0.9;
 struct Spacing {
     /// Distance of neighbours, in the unit of the coordinates.
     step: f64,
-    /// Points, also those that are not there.
+    /// Number of points, also of those that are not there.
     count: usize,
     /// The place of each coordinate, from 0.
     places: Vec<usize>,
-    /// What the coordinates are rounded to, where that is seen.
+    /// Decimal place to which the coordinates are rounded, in their unit, where that is seen.
     rounded_to: Option<f64>,
 }
 
@@ -150,7 +150,7 @@ impl Spacing {
     }
 }
 
-/// How far numbers are from the middle between the least and the greatest of them: the first point may be off its place as any other.
+/// Largest distance of numbers from the middle between least and greatest of them: the first point may be off its place as any other.
 fn half_range(numbers: impl Iterator<Item = f64>) -> f64 {
     let [least, most] = extent(numbers);
     0.5 * (most - least)
@@ -170,7 +170,7 @@ fn farthest(along: &[f64], step: f64) -> (usize, f64) {
 /// The decimal place to which evenly spaced coordinates are rounded: all are multiples of it, the gaps differ by no more
 /// than it, and no point is off by more (half for its own rounding, half for that of the ends).
 fn rounding(coordinates: &[f64], step: f64, off: f64, gaps: &[f64]) -> Option<f64> {
-    /// Of the place, for the rounding of decimal numbers.
+    /// Tolerance, as a part of the place, for the rounding of decimal numbers.
     const SAME: f64 = 1e-6;
     let exponent: i32 = format!("{step:e}").split_once('e')?.1.parse().ok()?;
     (exponent.saturating_sub(2)..=exponent).rev().find_map(|exponent| {
@@ -203,7 +203,7 @@ fn profile(numbers: &Numbers, options: &ReadOptions) -> Result<Measured, TextErr
     }
 }
 
-/// Which of two coordinates changes along the line of a profile in space.
+/// Finds the column of the one of two coordinates that changes along the line of a profile in space.
 fn traced(numbers: &Numbers, coordinates: [usize; 2]) -> Result<usize, TextError> {
     let changes = |column: usize| numbers.column(column).windows(2).any(|pair| pair[0] != pair[1]);
     match coordinates.map(changes) {
@@ -278,7 +278,7 @@ struct Gridded {
     columns: usize,
     rows: usize,
     steps: [f64; 2],
-    /// Column by column; NaN where the list has no point.
+    /// Heights column by column; NaN where the list has no point.
     heights: Vec<f64>,
 }
 
@@ -327,7 +327,7 @@ fn list(numbers: &Numbers, names: &Names, columns: [usize; 3], options: &ReadOpt
     Ok(Measured { is_pitch_assumed, notes, warnings, ..plain })
 }
 
-/// Whether the first three columns look like a list of points without names.
+/// Tells whether the first three columns look like a list of points without names.
 fn is_list(numbers: &Numbers) -> bool {
     let columns = [0, 1, 2];
     let names = Names::first(numbers.first_line(), numbers.columns, Columns::Points(columns));
@@ -347,7 +347,7 @@ impl Points {
         })
     }
 
-    /// Whether x and y look like coordinates: their values make a grid of which the points fill at least half.
+    /// Tells whether x and y look like coordinates: their values make a grid of which the points fill at least half.
     fn look_gridded(&self) -> bool {
         let points = self.z.len();
         let fits = |[columns, rows]: [usize; 2]| {

@@ -1,4 +1,4 @@
-//! The numbers of a table: where it begins, which of several is read, what all its lines hold; and a matrix of heights, of which each line is a
+//! Numbers of a table: where it begins, which of several is read, what all its lines hold; and a matrix of heights, of which each line is a
 //! profile along x, the first at y = 0, with what stands beside one and is no height.
 
 use std::ops::Range;
@@ -13,8 +13,8 @@ use crate::surface::measured::{Measured, ReadOptions, agreed, agreed_pitch};
 /// Lines that are looked at: no header of an instrument is nearly as long.
 const MOST_LINES: usize = 1000;
 
-/// Lines to leave out, from the first line of the file, so that what is left is a header that is understood, if any, and a table; none where no
-/// table begins within [`MOST_LINES`] lines.
+/// Lines to leave out, from the first line of the file, so that what is left is a header that is understood, if any, and a table; none
+/// where no table begins within [`MOST_LINES`] lines.
 ///
 /// The table is the most numbers in lines of equal count that follow each other; comments between them do not count.
 pub(super) fn lines_before<'a>(lines: impl Iterator<Item = (usize, &'a str)> + Clone) -> Option<usize> {
@@ -34,10 +34,10 @@ pub(super) fn lines_before<'a>(lines: impl Iterator<Item = (usize, &'a str)> + C
 /// Lines of equally many numbers that follow each other.
 #[derive(Clone, Copy)]
 struct Block {
-    /// Its first line.
+    /// First line of the block.
     first: usize,
     separator: Separator,
-    /// Numbers of a line, and of all.
+    /// Count of numbers in a line, and in all lines.
     columns: usize,
     numbers: usize,
 }
@@ -73,7 +73,7 @@ fn count(line: &str, separator: Separator) -> Option<usize> {
     has_number.then_some(columns)
 }
 
-/// Between which lines the table that is read stands, with its header; and what is wrong if there are several, and none is chosen.
+/// Lines of the table that is read, with its header; and what is wrong if there are several, and none is chosen.
 fn chosen<'a>(
     lines: impl Iterator<Item = (usize, &'a str)>,
     options: &ReadOptions,
@@ -98,7 +98,7 @@ fn table_number(options: &ReadOptions, tables: usize) -> Result<usize, TextError
     number.ok_or_else(|| TextError::NoTable { dataset: shown(dataset), tables })
 }
 
-/// What a line is. One of words that no header has is nothing that begins a table.
+/// Kind of a line. One of words that no header has is nothing that begins a table.
 fn kind(text: &str) -> Kind {
     let begins_word = |letter: char| letter.is_alphabetic() || "[(\"#%".contains(letter);
     if !text.trim_start().starts_with(begins_word) || !is_comment(text) && starts_numbers(text) {
@@ -113,9 +113,9 @@ const STAND_INS: [f64; 4] = [-9999.0, -99_999.0, -32_768.0, 9999.0];
 /// The numbers of a file as they stand in it, with what its header states.
 pub(super) struct Numbers {
     pub(super) header: Header,
-    /// Numbers of a line.
+    /// Count of numbers in a line.
     pub(super) columns: usize,
-    /// Line by line; NaN where a point is missing.
+    /// Numbers line by line; NaN where a point is missing.
     pub(super) values: Vec<f64>,
     /// Line of the file of every line of numbers.
     pub(super) lines: Vec<usize>,
@@ -265,7 +265,7 @@ fn beside<'a>(
     })
 }
 
-/// The first line, if it has another number of cells than the one below, or none is below: a line of a header may begin with a number, as "800 points" does.
+/// First line, if it has another number of cells than the one below, or none is below: a header may have a line such as "800 points".
 fn odd_beginning<'a>(mut lines: impl Iterator<Item = (usize, &'a str)>) -> Option<(usize, &'a str)> {
     let cells = |text: &str| Separator::of(text).cells(text, false).count();
     let first = lines.next()?;
@@ -277,7 +277,7 @@ const FEWEST: usize = 6;
 /// Numbers that are off by no more than this, in steps, are evenly spaced: labels are often rounded.
 const OFF: f64 = 0.05;
 
-/// What of a matrix, in columns of so many rows, counts evenly while its neighbour does not: its first column, and its first line.
+/// Labels in a matrix of columns of so many rows, in words: the first column or line, if it counts evenly while its neighbour does not.
 pub(super) fn labels(heights: &[f64], rows: usize) -> impl Iterator<Item = String> {
     let at = |column: usize, row: usize| heights[column * rows + row];
     let columns = heights.len() / rows.max(1);
@@ -299,7 +299,7 @@ pub(super) fn labels(heights: &[f64], rows: usize) -> impl Iterator<Item = Strin
     of_column.into_iter().chain(of_line)
 }
 
-/// Whether numbers are evenly spaced, and not all the same.
+/// Tells whether numbers are evenly spaced, and not all the same.
 fn is_even(numbers: &[f64]) -> bool {
     let [first, .., last] = *numbers else { return false };
     let step = (last - first) / (numbers.len() - 1) as f64;
