@@ -12,12 +12,12 @@ pub trait Runner {
     /// Makes so many steps and returns the time that they took.
     fn advance(&mut self, steps: u64) -> Outcome<Duration>;
 
-    /// Load evaluations per step, mean over all steps so far; none where they are not known.
+    /// Returns the load evaluations per step, mean over all steps so far; none where they are not known.
     fn load_evaluations_per_step(&self) -> Option<f64> {
         None
     }
 
-    /// Exchanges of each worker with the others so far; empty where they are not known.
+    /// Returns the exchanges of each worker with the others so far; empty where they are not known.
     fn exchanges(&self) -> Vec<Exchange> {
         Vec::new()
     }

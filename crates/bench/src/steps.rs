@@ -72,7 +72,7 @@ fn entry(name: &str, against: usize, mesh: MeshSize, workers: usize, simulation:
     Entry { name: name.to_owned(), against, mesh, workers, runner: Box::new(simulation) }
 }
 
-/// Execution by so many workers with the widest instruction set.
+/// Makes an execution by so many workers with the widest instruction set.
 fn execution(workers: usize) -> Execution {
     Execution { workers, instructions: InstructionSet::best(), ..Execution::default() }
 }
@@ -86,7 +86,7 @@ fn simulation(case: &Case, execution: Execution) -> Outcome<Simulation> {
     Ok(simulation)
 }
 
-/// The case at its start, with one worker.
+/// Makes the simulation of a case at its start, with one worker.
 pub fn alone(case: &Case) -> Outcome<Simulation> {
     simulation(case, execution(1))
 }

@@ -64,7 +64,7 @@ impl Results {
         text
     }
 
-    /// Scene, machine, build and settings of the measurement, in words.
+    /// Describes scene, machine, build and settings of the measurement.
     fn circumstances(&self) -> String {
         let Self { machine, build, pace, .. } = self;
         let sets: String = self.sets.iter().map(|set| format!(" `{set}`")).collect();
@@ -107,12 +107,12 @@ fn row(one: &Measurement, against: &Measurement, is_shared: bool) -> String {
     format!("| {} |\n", cells.join(" | "))
 }
 
-/// Least and largest value, in words.
+/// Formats the least and the largest value.
 fn range(spread: Spread) -> String {
     format!("{} – {}", number(spread.minimum), number(spread.maximum))
 }
 
-/// Number with at least three digits.
+/// Formats a number with at least three digits.
 fn number(value: f64) -> String {
     let digits = match value {
         100.0.. => 0,

@@ -72,7 +72,7 @@ impl Failure {
         Self::because(&*error, &error)
     }
 
-    /// Failure as of [`input`](Self::input), with a message of its own.
+    /// Fails as [`input`](Self::input) does, with a message of its own.
     pub fn because(error: &(dyn Error + 'static), message: impl fmt::Display) -> Self {
         let status = if lacks_resources(error) { RUN } else { INPUT };
         Self { status, message: Some(message.to_string()) }

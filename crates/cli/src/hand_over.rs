@@ -77,7 +77,7 @@ fn is_program(file: &Path) -> bool {
     file.metadata().is_ok_and(|found| found.is_file() && found.permissions().mode() & 0o111 != 0)
 }
 
-/// Description that the package gives of the surfaces of a folder, a table or JSON; their parameters are then in the folder's document.
+/// Has the package describe the surfaces of a folder, as a table or as JSON; their parameters are then in the folder's document.
 pub fn described(folder: &Path, as_json: bool) -> Result<String, Failure> {
     let options =
         [OsStr::new("describe"), folder.as_os_str()].into_iter().chain(as_json.then_some(OsStr::new("--json")));
@@ -85,7 +85,7 @@ pub fn described(folder: &Path, as_json: bool) -> Result<String, Failure> {
         .map(|done| String::from_utf8_lossy(&done.stdout).into_owned())
 }
 
-/// Answer of a program that succeeded; else a failure with its reason, or with these words.
+/// Returns the answer of a program that succeeded; else fails with its reason, or with these words.
 pub fn succeeded(answer: Output, otherwise: &str) -> Result<Output, Failure> {
     match answer.status.code() {
         Some(0) => Ok(answer),
@@ -94,7 +94,7 @@ pub fn succeeded(answer: Output, otherwise: &str) -> Result<Output, Failure> {
     }
 }
 
-/// Reason of a failure: the last line on standard error, or these words where nothing is there.
+/// Returns the reason of a failure: the last line on standard error, or these words where nothing is there.
 fn reason(answer: &Output, otherwise: &str) -> String {
     let said = String::from_utf8_lossy(&answer.stderr);
     said.lines().last().map_or(otherwise, |line| line.trim_start_matches("plateau: ")).to_owned()

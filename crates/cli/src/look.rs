@@ -108,7 +108,7 @@ pub struct Pace {
 }
 
 impl Pace {
-    /// Pace before the first look.
+    /// Starts the pace before the first look.
     pub fn new(now: Instant) -> Self {
         Self { seen: VecDeque::new(), samples: 0, news: now, alive: false }
     }

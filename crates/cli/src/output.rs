@@ -78,7 +78,7 @@ pub fn make_directory(path: &Path) -> Result<(), Failure> {
     })
 }
 
-/// Failure because no file can be made where one was asked for.
+/// Fails because no file can be made where one was asked for.
 fn unwritable(path: &Path, error: &io::Error) -> Failure {
     let directory = directory(path).display();
     let path = path.display();

@@ -194,7 +194,7 @@ pub struct Interrupt {
     save: Arc<AtomicBool>,
 }
 
-/// Guard, during whose life a signal ends the program at once: nothing is written yet that could be kept.
+/// Guard: while it lives, a signal ends the program at once; nothing is written yet that could be kept.
 #[derive(Debug)]
 pub struct Preparation {
     goes_on: Arc<Mutex<bool>>,
@@ -202,7 +202,7 @@ pub struct Preparation {
 
 impl Interrupt {
     /// Notes SIGINT, SIGTERM, SIGHUP (the terminal is gone) and SIGXCPU (the time limit of the system is reached) from now on,
-    /// instead of ending the program. What the caller ignores stays ignored, as SIGHUP behind `nohup`.
+    /// so that they do not end the program. What the caller ignores stays ignored, as SIGHUP behind `nohup`.
     pub fn listen() -> io::Result<Self> {
         let signal = Arc::new(AtomicUsize::new(0));
         let ignored = ignored_signals();
@@ -215,7 +215,7 @@ impl Interrupt {
     }
 
     /// Lets a noted signal end the program, wherever it is, until the guard is dropped: surfaces may take long to read and make.
-    /// It says so if it `speaks`: of several processes one does. Where the system gives no thread to look, signals are noted only.
+    /// The program says so if it `speaks`: of several processes one does. Where the system gives no thread to look, signals are noted only.
     pub fn end_at_once(&self, speaks: bool) -> Preparation {
         let goes_on = Arc::new(Mutex::new(true));
         let (signal, preparation) = (Arc::clone(&self.signal), Arc::clone(&goes_on));

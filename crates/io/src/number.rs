@@ -92,7 +92,7 @@ pub fn plain(number: f64) -> String {
     if readable { format!("{number}") } else { format!("{number:e}") }
 }
 
-/// A number of things with their name, `1 worker` or `2 workers`.
+/// Counts things in words, `1 worker` or `2 workers`.
 pub fn count(number: usize, one: &str) -> String {
     if number == 1 { format!("1 {one}") } else { format!("{number} {one}s") }
 }
@@ -102,7 +102,7 @@ pub fn with_minus(number: &str) -> String {
     number.replace('-', "\u{2212}")
 }
 
-/// A duration (s) for people.
+/// Formats a duration (s) for people.
 pub fn duration(seconds: f64) -> String {
     if seconds < 1.0 {
         format!("{:.0} ms", seconds * 1e3)

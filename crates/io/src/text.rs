@@ -45,22 +45,22 @@ pub fn too_long(text: &str) -> Option<String> {
     Some(format!("\"{}\" has {letters} letters, expected at most {LONGEST_NAME}; shorten it", short(text)))
 }
 
-/// Beginning of a text, as long as a message or a heading has room for.
+/// Shortens a text to what a message or a heading has room for.
 pub fn short(text: &str) -> Cow<'_, str> {
     beginning(text, SHOWN)
 }
 
-/// Beginning of a title, as it is shown: somebody else may have made it as long as he likes.
+/// Shortens a title to what is shown: somebody else may have made it as long as he likes.
 pub fn shown_title(text: &str) -> Cow<'_, str> {
     beginning(text, LONGEST_NAME)
 }
 
-/// Beginning of what is said of one thing that is wrong, as it is read, with whatever of a stranger's text is in it.
+/// Shortens what is said of one thing that is wrong to what is read, with whatever of a stranger's text is in it.
 pub fn shown_problem(text: &str) -> Cow<'_, str> {
     beginning(text, LONGEST_PROBLEM)
 }
 
-/// Beginning of a message, as it is read.
+/// Shortens a message to what is read.
 pub fn shown_message(message: &str) -> Cow<'_, str> {
     beginning(message, LONGEST_MESSAGE)
 }

@@ -127,7 +127,7 @@ const LOOK_EVERY: Duration = Duration::from_millis(100);
 
 /// Takes what a simulation reports.
 pub trait Sink {
-    /// Reason why it cannot take them.
+    /// Reason why the sink fails.
     type Error: From<SimulationError>;
 
     /// Takes a sample of the step just done.
@@ -213,7 +213,7 @@ impl Assembly {
         self.sample(&Moment { step: steps, time, ..Moment::default() })
     }
 
-    /// Sample of the step just done, or of a pause before or after its end.
+    /// Takes a sample of the step just done, or of a pause before or after its end.
     fn sample(&mut self, moment: &Moment) -> Result<Sample, SimulationError> {
         let mut sample = self.simulation.sample_at(moment, &self.output.extras)?;
         let parameters = self.simulation.parameters();

@@ -179,7 +179,7 @@ impl From<ClaimError> for RunError {
 }
 
 impl From<RunFileError> for RunError {
-    /// Takes the error of a file that is being made, new or anew.
+    /// Sorts the errors of a file that is being made, new or anew.
     fn from(error: RunFileError) -> Self {
         match error {
             RunFileError::Failed(_) | RunFileError::Write(..) => RunFailure::RunFile(error).into(),
@@ -241,7 +241,7 @@ impl SweepError {
         Self::because(&error, message)
     }
 
-    /// Error as of [`input`](Self::input), with a message of its own.
+    /// Fails as [`input`](Self::input) does, with a message of its own.
     pub(crate) fn because(error: &(dyn StdError + 'static), message: impl fmt::Display) -> Self {
         let message = message.to_string();
         if lacks_resources(error) { Self::Failed(message) } else { Self::Input(message) }

@@ -20,7 +20,7 @@ pub fn processor() -> String {
     line.map_or(std::env::consts::ARCH, |name| name.trim_matches([' ', '\t', ':'])).to_owned()
 }
 
-/// Number of threads that wanted to run, mean over the last minute; none where the system does not tell.
+/// Reads the number of threads that wanted to run, mean over the last minute; none where the system does not tell.
 pub(crate) fn load() -> Option<f64> {
     fs::read_to_string("/proc/loadavg").ok()?.split_whitespace().next()?.parse().ok()
 }

@@ -81,7 +81,7 @@ pub struct Recorder<'a> {
     pub observer: &'a mut dyn Observer,
     /// The processes that take the steps together.
     pub job: &'a mut Job,
-    /// Writer of the state, which does so now and then.
+    /// Checkpointer, which writes the state now and then.
     pub checkpointer: Checkpointer,
     /// Last agreement of all processes.
     pub agreement: Agreement,
@@ -141,13 +141,13 @@ pub fn is_stiff(parameters: &Parameters, stiffness_number: f64) -> bool {
     parameters.integrator == Integrator::Explicit && stiffness_number > LARGE_STIFFNESS_NUMBER
 }
 
-/// Warns where that is so at the temperature with which a run begins.
+/// Warns where the wear rule is out of its depth at the temperature with which a run begins.
 pub fn stiffness_warning(parameters: &Parameters) -> Option<String> {
     let stiffness_number = parameters.first_stiffness_number();
     is_stiff(parameters, stiffness_number).then(|| in_words("the stiffness number is", stiffness_number))
 }
 
-/// Warns that it has become so after so much physical time (s).
+/// Warns that the wear rule has come out of its depth after so much physical time (s).
 pub fn grown_stiffness_warning(stiffness_number: f64, time: f64) -> String {
     let time = number::rounded(time, 4);
     in_words(

@@ -151,7 +151,7 @@ impl PartsSummary {
     }
 }
 
-/// Values of a sample for those series of a brake that a run has.
+/// Collects the values of a sample for those series of a brake that a run has.
 fn of_brake(extras: &[&Extra], last: &Sample) -> BTreeMap<&'static str, f64> {
     let extras = extras.iter().copied().filter(|extra| OF_BRAKES.contains(extra));
     extras.flat_map(|extra| extra.quantities).map(|quantity| (quantity.name, quantity.value(last))).collect()

@@ -135,7 +135,7 @@ fn places(
     Ok(places)
 }
 
-/// Failure with the exit status that tells whose fault it is that errors cannot be measured.
+/// Chooses the exit status, which tells whose fault it is that errors cannot be measured.
 fn failure(error: AccuracyError) -> Failure {
     match error {
         AccuracyError::Input(PlanError::Scene(error)) => Failure::of_scene(error),
@@ -207,7 +207,7 @@ fn errors(report: &Report) -> String {
     columns(heading, &names, &report.rows.iter().map(line).collect::<Vec<_>>())
 }
 
-/// Notes of the report, runs that failed, and stiffness numbers at which the explicit rule is not to be trusted.
+/// Lists notes of the report, runs that failed, and stiffness numbers above 1 of the explicit rule.
 fn notes(report: &Report) -> Vec<String> {
     let mut notes = report.notes.clone();
     for row in &report.rows {
@@ -300,7 +300,7 @@ fn csv(report: &Report) -> String {
     csv_table(names.into_iter().take(1).chain(lines))
 }
 
-/// Shortest text that reads back as the same number; empty for NaN.
+/// Formats a number as short as reads back as the same; empty for NaN.
 fn number(value: f64) -> String {
     if value.is_nan() { String::new() } else { format!("{value:?}") }
 }

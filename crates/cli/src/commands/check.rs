@@ -286,7 +286,7 @@ impl CheckReport {
         format!("{all}: {surfaces} for the surfaces (as now), {trial}")
     }
 
-    /// Main rows of the report, or all of them, as text; with the number of warnings that were given.
+    /// Formats the main rows of the report, or all of them; with the number of warnings that were given.
     fn to_text(&self, all: bool, warnings: usize) -> String {
         let micrometres = |length: f64| format!("{} um", number::short(length * 1e6));
         let mesh = format!(
@@ -407,7 +407,7 @@ impl CycleReport {
         })
     }
 
-    /// Rows for the table of the run.
+    /// Returns the rows for the table of the run.
     fn rows(&self) -> Vec<(&'static str, String)> {
         let [fewest, most] = self.steps_per_event.map(number::grouped);
         let largest = self.largest_acceleration_without_warning;
@@ -458,7 +458,7 @@ impl OutlineReport {
         }
     }
 
-    /// Description in words.
+    /// Describes the pin within its outline.
     fn text(&self) -> String {
         format!(
             "a circle of {} mm in diameter: {} cells, {} mm²",
@@ -486,7 +486,7 @@ struct PulseReport {
 }
 
 impl PulseReport {
-    /// Compares a run of so many steps with its pulse; none where nothing pulses, or load and speed change with time.
+    /// Compares the last tenth of a run of so many steps with a pulse; none where nothing pulses, or load and speed change with time.
     fn of(parameters: &Parameters, base: &[Base], steps: u64) -> Option<Self> {
         let run = steps as f64;
         Some(Self {
@@ -496,7 +496,7 @@ impl PulseReport {
         })
     }
 
-    /// Description in words.
+    /// Describes the last tenth of the run beside its pulses.
     fn text(&self) -> String {
         let Self { pulse_time, last_tenth, revolutions } = *self;
         let enough = |found: f64, wanted: f64| found >= wanted * (1.0 - ROUNDING);

@@ -346,7 +346,7 @@ fn lay(measured: &Measured, form: Level) -> Option<ClearLay> {
 }
 
 impl ClearLay {
-    /// Direction of the lay, in words.
+    /// Describes the direction of the lay.
     fn runs(&self) -> String {
         let Self { aspect_ratio, form, direction } = self;
         let way = match direction.abs() {
@@ -368,12 +368,12 @@ impl ClearLay {
         format!("{} deg", number::plain(degrees))
     }
 
-    /// Direction to which [`rotate`](Self::rotate) turns the lay, in words.
+    /// Names the direction to which [`rotate`](Self::rotate) turns the lay.
     fn to(&self) -> &'static str {
         if self.direction.abs() <= ALONG { "across sliding" } else { "along sliding" }
     }
 
-    /// Remark beside the key in the scene.
+    /// Formats the remark beside the key in the scene.
     fn remark(&self) -> String {
         format!("<- the lay runs {}: this turns it {}", self.runs(), self.to())
     }

@@ -388,7 +388,7 @@ impl Check<'_> {
         Ok(())
     }
 
-    /// Compares a dataset that has one digest with it.
+    /// Compares a dataset with its one digest.
     fn compare(&mut self, path: &str, found: Result<String, String>) {
         let written = self.written(path).map(|digests| digests.and_then(|digests| digests.first().cloned()));
         self.judge(format!("/{path}"), found, written);

@@ -399,7 +399,7 @@ impl RunFile {
     }
 }
 
-/// Message on what is expected in place of a file that is not HDF5, and on the command that makes it of a scene, if one was named.
+/// Tells what is expected in place of a file that is not HDF5, and which command makes it: also of a scene or study that was named.
 fn expected_of(path: &Path) -> String {
     let shown = path.display();
     let expected = "expected a run file of plateau, which";
@@ -472,7 +472,7 @@ pub struct ContactArea {
     pub last_tenth: Option<WindowMean>,
     /// Change of the mean in the second half of the run, or why that is not told.
     pub drift: Result<Drift, NoDrift>,
-    /// Time at which it has come to 90 % of its value at the end, s, or why that is not defined. Of a run with a cycle time in contact.
+    /// Time at which it has come to 90 % of its value at the end, s, or why that is not defined; with a cycle over the time in contact.
     pub running_in: Result<f64, NotDefined>,
 }
 

@@ -119,7 +119,7 @@ fn build(mut settings: Settings, mut files: Vec<(PathBuf, String)>, path: &Path)
     })
 }
 
-/// Count as an address; one that is too large for this machine's addresses is too large in any case, and refused as such later.
+/// Converts a count to an address; one that is too large for this machine is too large in any case, and refused as such later.
 fn address(count: u64) -> usize {
     usize::try_from(count).unwrap_or(usize::MAX)
 }

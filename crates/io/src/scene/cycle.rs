@@ -139,7 +139,7 @@ pub(super) fn operation(
     }))
 }
 
-/// Problem with the key that names a file, where that cannot be read.
+/// Makes a file that cannot be read a problem with the key that names it.
 fn named(settings: &Settings, problem: Problem) -> Problem {
     match problem.origin {
         Origin::File(file) => {

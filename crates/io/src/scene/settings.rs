@@ -51,7 +51,7 @@ impl Settings {
         self.values.get(path).map(|(setting, _)| setting)
     }
 
-    /// Origin of a key, or of an empty table; the default where neither is given.
+    /// Finds the origin of a key, or of an empty table; the default where neither is given.
     pub(super) fn origin(&self, path: &str) -> Origin {
         let table = || self.tables.get(path).cloned().unwrap_or(Origin::Default);
         self.values.get(path).map_or_else(table, |(_, origin)| origin.clone())

@@ -102,7 +102,7 @@ pub(super) struct Response {
 pub(super) enum Mean {
     /// `"last tenth"`.
     LastTenth,
-    /// Time from one to another.
+    /// Start and end of that time.
     Between([Spanned<String>; 2]),
 }
 

@@ -278,7 +278,7 @@ fn question(table: &Table, series: &str, locator: &Locator<'_>) -> Result<Questi
     }
 }
 
-/// Question of a whole series, which is compared at the times of a table that `plateau fit` reads.
+/// Asks for a whole series, which is compared at the times of a table that `plateau fit` reads.
 fn of_file(table: &Table, file: &Spanned<String>, locator: &Locator<'_>) -> Result<Question, Problem> {
     if table.at.is_some() || table.mean.is_some() || table.reaches.is_some() || table.event.is_some() {
         let message = "a whole series is compared at its times: take out at, mean, reaches and event";

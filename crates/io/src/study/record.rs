@@ -56,7 +56,7 @@ pub struct Identity {
 }
 
 impl Identity {
-    /// Identity of a scene whose surfaces have such `inputs`: files, with the digest of what was read. A file that was read twice and
+    /// Identifies a scene whose surfaces have such `inputs`: files, with the digest of what was read. A file that was read twice and
     /// changed in between has both.
     pub fn of(scene: &Scene, inputs: &[(PathBuf, String)]) -> Self {
         let digests = |path: &Path| -> Vec<&str> {
@@ -66,7 +66,7 @@ impl Identity {
         found.unwrap_or_else(|(_, never)| match never {})
     }
 
-    /// Identity of a scene whose surfaces were not read yet: with the files as they are now.
+    /// Identifies a scene whose surfaces were not read yet, by the files as they are now.
     pub fn expected(scene: &Scene, digests: &Digests) -> Result<Self, (PathBuf, io::Error)> {
         Self::with(scene, |path| digests.of(path))
     }

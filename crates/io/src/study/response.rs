@@ -79,7 +79,7 @@ pub enum NoAnswer {
     NoNumber,
     #[error("it has no such event, or the event has no value")]
     NoEvent,
-    /// Time to a fraction of the value at the end that is not defined.
+    /// Time to reach the fraction, which is not defined for this run.
     #[error(transparent)]
     NotDefined(#[from] NotDefined),
 }

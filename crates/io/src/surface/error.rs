@@ -116,7 +116,7 @@ impl FileError {
     }
 }
 
-/// Advice on how else a text can be read; empty for a file that is none.
+/// Advises how else a text can be read; empty for a file that is none.
 fn skipped(is_text: bool) -> &'static str {
     if is_text { "; or say how many lines stand before its table: skip = 12, for example" } else { "" }
 }
@@ -313,7 +313,7 @@ pub enum TextError {
     Uneven { line: usize, found: f64, expected: f64, step: f64, gaps: [f64; 2] },
 }
 
-/// Advice on how to leave out lines that are not understood.
+/// Advises how to leave out lines that are not understood.
 fn advice(skip: Option<usize>) -> String {
     match skip {
         Some(lines) => format!("skip = {lines} below file in the scene leaves out the lines before the table"),
@@ -326,7 +326,7 @@ fn name(mark: Decimal) -> &'static str {
     if mark == Decimal::Comma { "comma" } else { "point" }
 }
 
-/// Other decimal mark, in words: that of a number `beside` this one, or of the numbers of the file.
+/// Names the other decimal mark: that of a number `beside` this one, or of the numbers of the file.
 fn other(mark: Decimal, beside: Option<&str>) -> String {
     let (other, key) = if mark == Decimal::Comma { (Decimal::Point, '.') } else { (Decimal::Comma, ',') };
     match beside {

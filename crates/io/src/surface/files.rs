@@ -144,7 +144,7 @@ pub(super) fn detect(path: &Path) -> Result<Format, FileError> {
     format.ok_or_else(|| FileError::Unknown { found: describe(&head), is_binary: !head.iter().all(is_printable) })
 }
 
-/// Format of a zip archive, told by its entries.
+/// Tells the format of a zip archive by its entries.
 fn from_archive(file: BufReader<File>) -> Result<Format, FileError> {
     let archive = ZipArchive::new(file).map_err(|error| FileError::Zip(error.to_string()))?;
     let has = |name: &[u8]| archive.file_names_raw().any(|entry| entry == name);

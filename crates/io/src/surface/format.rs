@@ -91,14 +91,14 @@ impl Instrument {
     }
 }
 
-/// Format of a binary file whose beginning tells nothing, by the ending of its path, if that is known.
+/// Tells the format of a binary file whose beginning says nothing by the ending of its path, if that is known.
 pub(super) fn by_ending(path: &Path) -> Option<Instrument> {
     let ending = path.extension()?;
     let (_, name) = ENDINGS.iter().find(|(known, _)| ending.eq_ignore_ascii_case(known))?;
     Some(Instrument::binary(name))
 }
 
-/// Format of a file that starts like this, if it is one of an instrument.
+/// Tells the format of a file that starts like this, if it is one of an instrument.
 pub(super) fn recognise(head: &[u8]) -> Option<Instrument> {
     let at = |offset: usize, signature: &[u8]| head.get(offset..).is_some_and(|rest| rest.starts_with(signature));
     let is_day = ["Mon ", "Tue ", "Wed ", "Thu ", "Fri ", "Sat ", "Sun "].iter().any(|day| at(0, day.as_bytes()));

@@ -1,4 +1,4 @@
-//! Surfaces of a scene before the first step: read or made as its settings say, prepared, and told of.
+//! Surfaces of a scene before the first step: read or made as its settings say, prepared, and reported.
 
 use std::path::{Path, PathBuf};
 
@@ -133,8 +133,8 @@ impl Loader<'_> {
     }
 }
 
-/// Fibre map that a scene makes of the micrograph of the pin's base, and the width of the micrograph's pixels, m; none where the base
-/// comes from something else.
+/// Makes the fibre map of the micrograph that a scene has for the pin's base; with the width of its pixels, m; none where the base comes
+/// from something else.
 pub fn micrograph(scene: &Scene) -> Result<Option<(FibreMap, f64)>, SurfaceError> {
     let BaseSource::Image { path, micrograph } = &scene.pin_base else { return Ok(None) };
     let (map, _) = fibre_map(path, micrograph, &scene.parameters.mesh).map_err(in_file("pin.base", path))?;
@@ -183,7 +183,7 @@ fn keys(body: Body) -> [&'static str; 2] {
     }
 }
 
-/// Name of heights in an error of their preparation.
+/// Names heights in an error of their preparation.
 fn source_name(source: &HeightSource) -> String {
     match source {
         HeightSource::File { path, .. } => path.display().to_string(),
@@ -321,7 +321,7 @@ impl Loader<'_> {
         }
     }
 
-    /// Spread of the heights of a body in words, within the pin's outline.
+    /// Describes the spread of the heights of a body within the pin's outline.
     fn spread(&self, heights: &[f64], body: Body) -> String {
         if body == Body::Disc || self.mesh.is_rectangle() {
             return spread(heights);
@@ -332,7 +332,7 @@ impl Loader<'_> {
     }
 }
 
-/// Parameters of synthetic heights, in words.
+/// Describes the synthetic heights that were asked for.
 fn describe(synthesis: &HeightSynthesis) -> String {
     let HeightSynthesis { seed, rms_height, texture, skewness, kurtosis, patch } = *synthesis;
     let texture = match texture {

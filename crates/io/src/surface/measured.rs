@@ -25,7 +25,7 @@ pub struct Measured {
     pub heights: Vec<f64>,
     /// True if peaks are positive whatever the body, as an instrument gives them; else heights are those of the model.
     pub instrument: bool,
-    /// Body for whose cells a run recorded them; none for other heights.
+    /// Body whose cells these are heights of, as a run recorded them; none for other heights.
     pub body: Option<Body>,
     /// Direction of the lay, if the heights are a profile, in one row.
     pub profile_lay: Option<Lay>,
@@ -106,7 +106,7 @@ pub struct Disagreement {
     pub scene: f64,
 }
 
-/// Length that file or scene state, m; where both do, the scene's.
+/// Returns the length that file or scene state, m; where both do, the scene's.
 pub(super) fn agreed(key: &'static str, file: Option<f64>, scene: Option<f64>) -> Result<Option<f64>, Disagreement> {
     match (file, scene) {
         (Some(file), Some(scene)) if (file - scene).abs() > SAME * scene => Err(Disagreement { key, file, scene }),
@@ -128,12 +128,12 @@ pub(super) const MOST_POINTS: usize = 1 << 28;
 /// Bytes that deflate makes of one at most (RFC 1951: 258 bytes of two bits, and a little).
 pub(super) const MOST_INFLATED: usize = 1032;
 
-/// Bytes that a file of so many bytes can hold at most when it is deflated.
+/// Returns the bytes that a file of so many bytes can hold at most when it is deflated.
 pub(super) fn inflated(bytes: usize) -> usize {
     bytes.saturating_mul(MOST_INFLATED)
 }
 
-/// Parts of a kind that a file has, in words: the first ones, and how many more; or that there is nothing.
+/// Lists the parts of a kind that a file has: the first ones, and how many more; or that there is nothing.
 pub(super) fn present<T>(all: &[T], name: impl Fn(&T) -> String, nothing: &str) -> String {
     const NAMED: usize = 12;
     if all.is_empty() {

@@ -43,7 +43,7 @@ pub enum NpyError {
 }
 
 impl NpyError {
-    /// Error of an archive that has not just one array of that name, or without a name not just one with two dimensions.
+    /// Error of an archive in which not just one array has that name or, without a name, two dimensions.
     fn choice(name: Option<&str>, arrays: &[Member]) -> Self {
         let problem = match name {
             Some(name) => format!("the archive has no one array \"{}\"", short(name).escape_debug()),
@@ -282,7 +282,7 @@ pub(super) fn check_length(head: &[u8], bytes: u64) -> Result<(), NpyError> {
     grid_of(&Header::read(head)?, bytes).map(drop)
 }
 
-/// Type of the numbers, columns and rows of an .npy file of so many bytes.
+/// Finds type of the numbers, columns and rows of an .npy file of so many bytes.
 fn grid_of(header: &Header, bytes: u64) -> Result<(Number, usize, usize), NpyError> {
     let number = number(&header.descr)?;
     let (columns, rows, points) = header.grid()?;

@@ -1,4 +1,4 @@
-//! Errors of a measurement of errors, which tell whose fault it is.
+//! Reasons why errors cannot be measured, which tell whose fault that is.
 
 use std::io;
 
@@ -115,7 +115,7 @@ pub enum ReferenceError {
     /// Run file that cannot be read.
     #[error("{0}")]
     Read(#[from] ReadError),
-    /// Input file that cannot be digested.
+    /// File that cannot be digested.
     #[error("{0}: {1}")]
     File(String, #[source] io::Error),
     /// Run of another scene, or without what is compared.

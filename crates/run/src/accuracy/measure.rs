@@ -426,7 +426,7 @@ impl Measurement<'_> {
     }
 }
 
-/// Error of a run that ended before there was anything to compare.
+/// Makes the error of a run that ended before there was anything to compare.
 fn before_any(unfinished: Unfinished, run: &str) -> AccuracyError {
     match unfinished {
         Unfinished::Stopped(signal) => AccuracyError::Stopped { signal, moment: format!("during {run}") },

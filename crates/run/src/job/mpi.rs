@@ -99,7 +99,7 @@ pub struct Mpi {
     outgoing: Vec<u64>,
     /// Words that a round brought, in order of rank.
     incoming: Vec<u64>,
-    /// Job, for the thread that started MPI alone, which is all that MPI was promised.
+    /// Job, to be used only by the thread that started MPI, which is all that MPI was promised.
     job: SendWrapper<Rc<Job>>,
 }
 
@@ -228,7 +228,7 @@ impl From<MpiError> for CommError {
     }
 }
 
-/// Part of this rank in a job, which ends with MPI; dropped before the rank is done, it ends all ranks.
+/// Connection of this rank to MPI; dropped before the rank is done, it ends all ranks.
 struct Job {
     finished: Cell<bool>,
     world: SimpleCommunicator,

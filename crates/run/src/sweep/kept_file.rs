@@ -105,7 +105,7 @@ impl KeptFile {
         self.writer.snapshot(snapshot)
     }
 
-    /// State of the file, as soon as what it has is on the disk.
+    /// Returns the state of the file, as soon as what it has is on the disk.
     pub fn state(&mut self) -> Result<FileState, RunFileError> {
         let images = self.writer.sync().wait();
         // Without an answer it is not complete, and says why.

@@ -253,7 +253,7 @@ pub struct RunLength {
 }
 
 impl RunLength {
-    /// Length of the run of a scene: a step takes the pin on by a column of the disc.
+    /// Computes the length of the run of a scene: a step takes the pin on by a column of the disc.
     pub fn of(scene: &Scene) -> Self {
         let revolutions = scene.steps as f64 / scene.parameters.mesh.disc_columns() as f64;
         Self { duration: scene.duration, revolutions: scene.adaptive.is_none().then_some(revolutions) }
@@ -270,7 +270,7 @@ pub(super) fn seconds(time: f64) -> String {
     format!("{} s", number::rounded(time, 6))
 }
 
-/// Notes over what responses that ask for the last tenth are a mean, where that is more.
+/// Notes the part of the run over which responses that ask for the last tenth are a mean, where that is more.
 pub fn note_short_tenths(study: &Study, lengths: &[RunLength], observer: &dyn SweepObserver) {
     let asks = study.responses.iter().filter(|response| response.question == Question::MeanOfLastTenth);
     let names: Vec<String> = asks.map(|response| format!("\"{}\"", response.name)).collect();
@@ -280,7 +280,7 @@ pub fn note_short_tenths(study: &Study, lengths: &[RunLength], observer: &dyn Sw
     }
 }
 
-/// Means over more than a tenth, in words, of the run with the fewest simulated revolutions.
+/// Describes the mean over more than a tenth, in the run with the fewest simulated revolutions; none where there is none.
 fn longer(lengths: &[RunLength]) -> Option<String> {
     let longer = lengths.iter().filter(|length| length.part() > 0.1 * (1.0 + 1e-9));
     let (count, most) = (longer.clone().count(), longer.max_by(|one, other| one.part().total_cmp(&other.part()))?);

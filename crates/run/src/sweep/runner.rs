@@ -300,7 +300,7 @@ fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
 }
 
 impl<'a> Runner<'a> {
-    /// Makes it for runs of a plan; `journal` has the results that are there.
+    /// Makes a runner for runs of a plan; `journal` has the results that are there.
     pub fn new(
         plan: &'a Plan,
         decided: Option<&'a Resolved>,

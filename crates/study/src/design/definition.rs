@@ -142,7 +142,7 @@ pub(super) fn room(points: Option<usize>, factors: usize) -> Result<usize, Desig
     }
 }
 
-/// A number of factors, in words.
+/// Counts factors in words.
 pub(super) fn counted(factors: usize) -> String {
     format!("{factors} factor{}", if factors == 1 { "" } else { "s" })
 }

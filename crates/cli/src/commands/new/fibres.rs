@@ -79,7 +79,7 @@ pub(super) fn is_too_small(found: &Result<Option<(FibreMap, f64)>, SurfaceError>
     matches!(found, Err(SurfaceError::File { reason, .. }) if small(reason))
 }
 
-/// Notes on the size of a picture, and on the fraction of fibre in it and on the pin.
+/// Notes the size of a picture, and the fraction of fibre in it and on the pin.
 pub(super) fn told(path: &Path, map: &FibreMap, pixel: f64, scene: &Scene, is_small: bool) -> Vec<String> {
     let [width, height] = map.fibre.size(pixel).map(Length);
     let picture = 100.0 * map.fibre.fraction();

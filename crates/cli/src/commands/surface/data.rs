@@ -263,7 +263,7 @@ impl<'a> Grid<'a> {
     }
 }
 
-/// Name of a body.
+/// Names a body.
 fn name_of(body: Body) -> &'static str {
     if body == Body::Disc { "disc" } else { "pin" }
 }

@@ -211,7 +211,7 @@ fn tell(arguments: &SurfaceArguments, read: &[PathBuf], data: &Data) -> Result<(
     print((described + &written).trim_start_matches('\n'))
 }
 
-/// Path of a page of a figure of this kind: the named file for the first, a file beside it with the end of its name for a further one.
+/// Finds the path of a page of a figure of this kind: the named file for the first, one beside it with the end of its name for another.
 fn of_page(place: &Path, kind: &str, name: &str) -> PathBuf {
     let stem = place.file_stem().unwrap_or_default().to_string_lossy();
     let own = Path::new(name).file_stem().unwrap_or_default().to_string_lossy();

@@ -89,7 +89,7 @@ impl Packing {
         }
     }
 
-    /// Factor, offset and valid range of the stored numbers in words, if they are stated.
+    /// Describes factor, offset and valid range of the stored numbers, if they are stated.
     pub(super) fn note(&self) -> Option<String> {
         let Self { scale_factor, add_offset, valid, .. } = *self;
         let packed = ((scale_factor, add_offset) != (1.0, 0.0)).then(|| {
@@ -247,7 +247,7 @@ impl Dimensions {
         ((columns, rows), places.map(value).collect())
     }
 
-    /// Layout of the values in words, where it is not (columns, rows) with growing x and y.
+    /// Describes the layout of the values, where it is not (columns, rows) with growing x and y.
     pub(super) fn note(&self) -> Option<String> {
         let turned = self.is_turned.then(|| "dimensions (y, x)".to_owned());
         let reversed = ["x", "y"].into_iter().zip(self.decreases).filter(|(_, decreases)| *decreases);

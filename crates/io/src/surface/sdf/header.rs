@@ -70,7 +70,7 @@ pub enum Dialect {
 /// Encoding of numbers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Encoding {
-    /// Text.
+    /// Numbers as text.
     Ascii,
     /// Numbers as they are in memory, little endian.
     Binary,

@@ -210,7 +210,7 @@ fn not(field: &'static str, value: &str, at: Position, expected: &'static str) -
     SdfError::Field { at, field, found: format!("\"{}\"", short(value.as_bytes())), expected }
 }
 
-/// Beginning of a text, as messages show it.
+/// Shortens a text for a message.
 fn short(text: &[u8]) -> String {
     text[..text.len().min(40)].escape_ascii().to_string()
 }

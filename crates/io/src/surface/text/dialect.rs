@@ -55,7 +55,7 @@ fn with_comma(cell: &str) -> Option<f64> {
     if between_digits && !cell.contains('.') { cell.replacen(',', ".", 1).parse().ok() } else { None }
 }
 
-/// Reason why a cell is no number.
+/// Finds the reason why a cell is no number.
 fn fault(cell: &str, decimal: Decimal) -> Fault {
     if is_grouped(cell) {
         return Fault::Grouped;
@@ -154,7 +154,7 @@ fn is_mark_in_cells(separator: Separator, line: &str) -> bool {
     line.contains(',') && (separator != Separator::Character(',') || line.contains('"'))
 }
 
-/// Separator of the numbers: what the first line has, where that cannot be a decimal comma.
+/// Finds the separator of the numbers: what the first line has, where that cannot be a decimal comma.
 fn separator<'a>(
     lines: impl Iterator<Item = (usize, &'a str)> + Clone,
     given: Option<Decimal>,

@@ -114,7 +114,7 @@ impl Names {
     }
 }
 
-/// Text in the brackets of a cell, if it is in brackets.
+/// Returns the text in the brackets of a cell, if it is in brackets.
 fn bracketed(cell: &str) -> Option<&str> {
     let inner = |open, close| cell.strip_prefix(open)?.strip_suffix(close);
     inner('[', ']').or_else(|| inner('(', ')'))

@@ -150,7 +150,7 @@ impl Spacing {
     }
 }
 
-/// Largest distance of numbers from the middle between least and greatest of them: the first point may be off its place as any other.
+/// Measures how far numbers are from the middle between least and greatest of them: the first point may be off its place as any other.
 fn half_range(numbers: impl Iterator<Item = f64>) -> f64 {
     let [least, most] = extent(numbers);
     0.5 * (most - least)

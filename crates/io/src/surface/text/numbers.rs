@@ -98,7 +98,7 @@ fn table_number(options: &ReadOptions, tables: usize) -> Result<usize, TextError
     number.ok_or_else(|| TextError::NoTable { dataset: shown(dataset), tables })
 }
 
-/// Kind of a line. One of words that no header has is nothing that begins a table.
+/// Tells the kind of a line. One of words that no header has is nothing that begins a table.
 fn kind(text: &str) -> Kind {
     let begins_word = |letter: char| letter.is_alphabetic() || "[(\"#%".contains(letter);
     if !text.trim_start().starts_with(begins_word) || !is_comment(text) && starts_numbers(text) {
@@ -277,7 +277,7 @@ const FEWEST: usize = 6;
 /// Numbers that are off by no more than this, in steps, are evenly spaced: labels are often rounded.
 const OFF: f64 = 0.05;
 
-/// Labels in a matrix of columns of so many rows, in words: the first column or line, if it counts evenly while its neighbour does not.
+/// Names labels in a matrix of columns of so many rows: the first column or line, if it counts evenly while its neighbour does not.
 pub(super) fn labels(heights: &[f64], rows: usize) -> impl Iterator<Item = String> {
     let at = |column: usize, row: usize| heights[column * rows + row];
     let columns = heights.len() / rows.max(1);
