@@ -185,14 +185,14 @@ class Words:
 
 
 def of_all(made: Any, force: str) -> None:
-    """Options of all words."""
+    """Adds the options of all words."""
     made.add_argument("--force", action="store_true", help=force)
     made.add_argument("-q", "--quiet", action="store_true", help="Say errors only: no warnings, notes, progress")
     made.add_argument("-v", "--verbose", action="store_true", help="Say also what is done to surfaces")
 
 
 def several(made: Any, flag: str, what: str, about: str, **options: Any) -> None:
-    """An option that may be repeated."""
+    """Adds an option that may be repeated."""
     made.add_argument(flag, action="append", default=[], metavar=what, help=about, **options)
 
 
@@ -231,12 +231,12 @@ def json_of(document: Mapping[str, Any]) -> str:
 
 
 def options(given: argparse.Namespace, *names: str) -> dict[str, Any]:
-    """Some of what was given, by name."""
+    """Values of some of the arguments, by name."""
     return {name: getattr(given, name) for name in names}
 
 
 def progress(given: argparse.Namespace) -> bool | None:
-    """Whether progress is shown: not where nothing is to be said, else in terminals."""
+    """Value of ``progress`` for a call: False with ``--quiet``, else None, which shows it in terminals."""
     return False if given.quiet else None
 
 

@@ -136,21 +136,21 @@ def cycle(
         Headers of the table by these names, where it has others: ``{"time": "Zeit", "road_speed": "Tempo [km/h]"}``. A unit is given in
         brackets where the table has none.
     mass : float or str
-        m of the vehicle, kg.
+        Mass m of the vehicle, kg.
     road_load : three numbers
-        F_0, F_1 and F_2 in N, N/(km/h) and N/(km/h)², as a coast-down gives them.
+        Coefficients F_0, F_1 and F_2 in N, N/(km/h) and N/(km/h)², as a coast-down gives them.
     share : float
-        s, the front axle's part of the brake force.
+        Part s of the brake force that acts at the front axle.
     wheel_radius : float or str
-        r_w, the rolling radius, m.
+        Rolling radius r_w, m.
     pad_area, pad_thickness : float or str
-        Friction material of one of the two pads, m² and m.
+        Area and thickness of the friction material of one of the two pads, m² and m.
     effective_radius : float or str
         Radius at which the friction of the pads acts, m.
     piston_area : float or str, optional
-        Of the pistons that press one pad, m²; with a ``brake_pressure``, of which less than 0.5 bar is taken as none.
+        Area of the pistons that press one pad, m²; with a ``brake_pressure``, of which less than 0.5 bar is taken as none.
     disc_mass : float or str
-        Of the disc, kg.
+        Mass of the disc, kg.
     force : bool
         Replace files that exist.
 
@@ -162,7 +162,7 @@ def cycle(
     Warns
     -----
     PlateauWarning
-        Where the table has a gap, looks like noise, or can hardly be meant, such as by a wrong unit, and of what is not used.
+        If the table has a gap, looks like noise, or can hardly be meant, such as by a wrong unit, or if an argument is not used.
 
     Raises
     ------
@@ -245,7 +245,7 @@ class Made(os.PathLike[str]):
     path: str
     # The path of its cycle.
     cycle: str
-    # What was read, in words.
+    # Summary of what was read, in words.
     told: str
     warnings: list[str]
 
@@ -254,7 +254,7 @@ class Made(os.PathLike[str]):
 
 
 def _told(read: pandas.DataFrame, found: pandas.DataFrame, load: "pandas.Series[float]", shown: str) -> tuple[str, list[str]]:
-    """What a table has, and the load that is made of it at these times and speeds, in words, and what of it can hardly be meant."""
+    """Summary of a table and of the load that is made of it, in words, and warnings of what in it can hardly be meant."""
     time, speed = read["time"].to_numpy(), read["road_speed"].to_numpy()
     spans = np.diff(time)
     way = float(np.sum(spans * (speed[1:] + speed[:-1]) / 2.0))
@@ -305,7 +305,7 @@ def _toml(text: str) -> str:
 
 
 def _scene(path: Path, of_cycle: Path, csv: bytes, tables: str, duration: float) -> str:
-    """The scene, as large an acceleration in it as leaves every braking ten simulated revolutions."""
+    """Text of the scene, with a time acceleration from 3 to 100 that leaves every braking ten simulated revolutions, if one does."""
     with tempfile.TemporaryDirectory() as folder:
         made, cycle_made = Path(folder, path.name), Path(folder, of_cycle.name)
         listen(["-q", "new", made, "--duration", f"{duration:.10g} s"])
@@ -337,13 +337,13 @@ def _intervals(found: pandas.DataFrame, mass: float, road_load: Sequence[float])
 
 
 def _beyond_road(mass: float, slowing: Any, speed: Any, road_load: Sequence[float]) -> Any:
-    """What the brakes of the vehicle give beyond its road load, N."""
+    """Braking force of the vehicle beyond its road load, N, at least 0."""
     kmh = 3.6 * speed
     return np.maximum(mass * slowing - road_load[0] - road_load[1] * kmh - road_load[2] * kmh**2, 0.0)
 
 
 def _read(path: Path, columns: Mapping[str, str]) -> pandas.DataFrame:
-    """What the table has, by name, SI, from time 0."""
+    """Columns of the table by name, SI, with times from 0."""
     if unknown := [name for name in columns if name not in COLUMNS]:
         raise InputError(f"column {unknown[0]!r} is unknown, expected some of {', '.join(COLUMNS)}")
     if path.suffix.lower() == ".xlsx":
@@ -402,7 +402,7 @@ def _columns(table: TextTable, columns: Mapping[str, str]) -> Iterator[tuple[str
 
 
 def _scale(table: TextTable, column: int, name: str, unit: str) -> float:
-    """How many SI units one of a column is; NaN of a column without a unit, which may have times of a clock."""
+    """Factor from the unit of a column to SI; NaN for times without a unit, which may be those of a clock."""
     if unit:
         return 1.0 if name == "time" and unit in CLOCKS else in_si(1.0, unit, COLUMNS[name][0])
     if name == "time":
@@ -411,7 +411,7 @@ def _scale(table: TextTable, column: int, name: str, unit: str) -> float:
 
 
 def _unit(table: TextTable, column: int, name: str) -> str:
-    """Where a column's unit may stand, in words."""
+    """Places where the unit of a column may stand, in words."""
     return f'one in brackets behind the header, in the file or as --column {name}="{table.heads[column]} [{COLUMNS[name][1]}]"'
 
 

@@ -37,7 +37,7 @@ class PlateauWarning(UserWarning):
 
 
 class PlateauNote(PlateauWarning):
-    """What is worth knowing, and no reason for doubt."""
+    """A note: worth knowing, and no reason for doubt."""
 
 
 class PlateauError(RuntimeError):
@@ -46,7 +46,7 @@ class PlateauError(RuntimeError):
     Parameters
     ----------
     message : str
-        What was found, what was expected, where the problem is, and what to do.
+        Text that says what was found, what was expected, where the problem is, and what to do.
     command : sequence of str
         The command line of the program; empty if the program was not called.
     status : int, optional
@@ -68,7 +68,7 @@ class InputError(PlateauError, ValueError):
 
 
 class MissingFileError(InputError, FileNotFoundError):
-    """There is no such file."""
+    """A file that was named does not exist."""
 
 
 class MissingPackageError(PlateauError, ImportError):
@@ -135,7 +135,7 @@ def in_python(message: str) -> str:
 
 
 def not_installed(name: str | None) -> str:
-    """What to do where a Python package is missing.
+    """Message about a Python package that is missing, with the command that installs it.
 
     Examples
     --------

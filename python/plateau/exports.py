@@ -67,7 +67,7 @@ def export(
 
 
 def _of(run: xarray.DataTree, group: str) -> xarray.Dataset:
-    """What a group has, statuses as plain integers; says which body has no maps."""
+    """Variables of a group, statuses as plain integers; notes which body has no maps."""
     found = run[group].to_dataset()[[*run[group].data_vars]] if group in run.children else xarray.Dataset()
     if group in ("disc", "pin") and not found.sizes.get("map_time"):
         note(f"{source(run)} has no maps of the {group}: they are left out")
@@ -81,7 +81,7 @@ def _maps(run: xarray.DataTree) -> dict[str, xarray.Dataset]:
 
 
 def _tables(run: xarray.DataTree) -> dict[str, xarray.Dataset]:
-    """What tables have: series and, if there are any, events."""
+    """Data of the tables by name: series and, if there are any, events."""
     events = _of(run, "event")
     return {"series": _of(run, "series")} | ({"events": events.assign_coords(event=np.arange(1, events.sizes["event"] + 1))} if events else {})
 

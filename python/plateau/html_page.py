@@ -19,7 +19,7 @@ def page(title: str, *parts: str) -> str:
 
 @functools.cache
 def _frame() -> Template:
-    """What stands around the parts, read when the first page is made."""
+    """Template of what stands around the parts, read when the first page is made."""
     return Template(Path(__file__).with_name("page.html").read_text(encoding="utf-8"))
 
 

@@ -53,7 +53,7 @@ def read_text(path: Path, content: bytes) -> Read | None:
 
 
 def _keyence(lines: list[str]) -> Read:
-    """Quoted cells: names and values, a line "Height" alone, a matrix. Points that were not measured are empty cells."""
+    """Heights from quoted cells: names and values, a line "Height" alone, a matrix. Points that were not measured are empty cells."""
     separator = next((one for one in ",;\t" if one in lines[0]), ",")
     rows = list(csv.reader(lines, delimiter=separator))
     calibrated = next(at for at, row in enumerate(rows) if row and row[0] in PITCH)
@@ -93,7 +93,7 @@ def _unit(text: str) -> str:
 
 
 def _number(cells: list[str]) -> Callable[[str], float]:
-    """What reads a number with the decimal mark of these cells."""
+    """Function that reads a number with the decimal mark of these cells; NaN of an empty one."""
     commas, points = (any(mark in cell for cell in cells) for mark in ",.")
     if commas and points:
         raise InputError("it has decimal points and decimal commas: save it with one of them")
@@ -101,7 +101,7 @@ def _number(cells: list[str]) -> Callable[[str], float]:
 
 
 def _zygo(lines: list[str]) -> tuple[dict[str, Any], list[list[str]]]:
-    """What the header states, and the blocks below it, which lines of "#" part (MetroPro Reference Guide OMP-0347, section 12)."""
+    """Facts of the header, and the blocks below it, which lines of "#" part (MetroPro Reference Guide OMP-0347, section 12)."""
     marks = [at for at, line in enumerate(lines) if line.strip() == "#"]
     if not marks:
         raise InputError("no line of # ends its header")
@@ -115,7 +115,7 @@ def _zygo(lines: list[str]) -> tuple[dict[str, Any], list[list[str]]]:
 
 
 def _zygo_points(lines: list[str]) -> Read:
-    """Column and row of a pixel, and a height in um or "No Data"."""
+    """Heights from lines with column and row of a pixel, and a height in um or "No Data"."""
     facts, blocks = _zygo(lines)
     points = [line.split(maxsplit=2) for line in blocks[0] if line.strip()]
     places = np.array([[int(x), int(y)] for x, y, _ in points])
@@ -137,7 +137,7 @@ def _zygo_points(lines: list[str]) -> Read:
 
 
 def _zygo_phases(lines: list[str]) -> Read:
-    """Phases as whole numbers, row by row, below the intensities."""
+    """Heights from phases: whole numbers, row by row, below the intensities."""
     facts, blocks = _zygo(lines)
     phases = np.array([int(word) for line in blocks[1] for word in line.split()])
     columns, rows = facts["size"]

@@ -1,4 +1,4 @@
-"""What maps can do: ``run["disc/height"].plateau``."""
+"""Accessor of maps: ``run["disc/height"].plateau``."""
 
 from typing import Any
 
@@ -149,7 +149,7 @@ class MapAccessor:
         Parameters
         ----------
         time : float or str, optional
-            s, or text with a unit such as ``"1 min"``; by default the last map.
+            Time, s, or text with a unit such as ``"1 min"``; by default that of the last map.
 
         Returns
         -------
@@ -173,9 +173,9 @@ class MapAccessor:
         Parameters
         ----------
         time : float or str, optional
-            As for `at_time`.
+            See `at_time`.
         polar : bool
-            As a ring in the plane of the disc.
+            Draw a ring in the plane of the disc.
         ax : matplotlib.axes.Axes, optional
             The axes to draw in; by default new axes, for an unrolled ring several below each other.
         **options

@@ -35,7 +35,7 @@ def refuse_earlier(folder: Path, of: str | None, force: bool) -> None:
 
 
 def followed(path: Path) -> Path:
-    """What a path names, which is replaced: where it is a link, what that points to."""
+    """Path that is written to: the target of a link, else the path itself."""
     if path.is_symlink() and not path.exists():
         raise InputError(f"{path} is a link to {os.readlink(path)}, which is not there; make that, or name another place with -o")
     return path.resolve() if path.is_symlink() else path
@@ -46,8 +46,8 @@ def write(
 ) -> list[str]:
     """Writes files, content by name, into a folder, with the list of them, each under its name when it is complete; gives their paths.
 
-    Where a file would be replaced that is not to be replaced, an input or a file of others without `force`, nothing has changed. `of` says
-    what the files are of, where a later call of the same replaces them.
+    Nothing is changed if a file would be replaced that must not be: an input, or a file of others without `force`. `of` names what the
+    files are of; a later call of the same replaces them.
     """
     refuse_earlier(folder, of, force)
     earlier = _list(folder)
@@ -96,7 +96,7 @@ def refuse_file(path: Path, force: bool, inputs: tuple[Path, ...], to_do: str = 
 
 
 def relative(path: Path, folder: Path) -> str:
-    """The way from a folder to a file: the same wherever both are moved together."""
+    """Path from a folder to a file: the same wherever both are moved together."""
     return os.path.relpath(os.path.realpath(path), os.path.realpath(folder)).replace("\n", "\\n")
 
 
@@ -162,7 +162,7 @@ def _umask() -> int:
 
 
 def _list(folder: Path) -> tuple[str | None, list[str]] | None:
-    """What an earlier call says its files are of, and their names; whoever edits the list cannot make it name a file elsewhere."""
+    """Subject of the files of an earlier call, and their names; whoever edits the list cannot make it name a file elsewhere."""
     if not (folder / LIST).is_file():
         return None
     try:
@@ -176,7 +176,7 @@ def _list(folder: Path) -> tuple[str | None, list[str]] | None:
 
 
 def plain(value: Any) -> Any:
-    """What files for programs have: null for what is no number, no types of NumPy, and a hyphen before numbers in words."""
+    """Value as files for programs have it: null for what is no number, no types of NumPy, and a hyphen before numbers in words."""
     if isinstance(value, Mapping):
         return {str(name): plain(one) for name, one in value.items()}
     value = value.tolist() if hasattr(value, "tolist") else value

@@ -18,7 +18,7 @@ class Progress:
     Parameters
     ----------
     wanted : bool, optional
-        Whether progress is shown; by default in notebooks and terminals.
+        Show progress; by default in notebooks and terminals.
     stacklevel : int
         The caller whose line is named in warnings, from `tell` on.
     """
@@ -75,7 +75,7 @@ def _on_terminal(line: str) -> None:
 
 
 def _in_notebook() -> bool:
-    """Whether this is a kernel of Jupyter."""
+    """Tells whether this is a kernel of Jupyter."""
     ipython = sys.modules.get("IPython")
     shell = ipython.get_ipython() if ipython is not None else None
     return shell is not None and hasattr(shell, "kernel")

@@ -1,4 +1,4 @@
-"""What series and maps are called and in which units, signs and colours they are shown: figures, pages and tables ask here.
+"""Names of series and maps, and the units, signs and colours in which they are shown: figures, pages and tables ask here.
 
 Heights are positive toward the other body wherever they are shown, so peaks are high on both bodies, as in ISO 25178-2. The disc's are
 the model's z; the z of the pin grows away from the disc, so its sign is changed, and as the pin wears by far more than it is rough, it
@@ -24,7 +24,7 @@ NEWTON, NEWTON_METRE, RPM, KMH = Unit("N", 1.0), Unit("N m", 1.0), Unit("rpm", 6
 class Series:
     """A series as it is shown."""
 
-    # Its name in run files, what it is in a few words, and the unit in which numbers of it are given.
+    # Name in run files, title in a few words, and the unit in which numbers of it are given.
     name: str
     title: str
     unit: Unit
@@ -89,7 +89,7 @@ SERIES = {
 
 
 def series_of(name: str, si: str = "1", values: Any = ()) -> Series:
-    """How a series of that name is shown; one that has no place in the table by its name, in the unit of its largest value."""
+    """Series of that name as it is shown; one that has no place in the table by its name, in the unit that suits its largest value."""
     return SERIES.get(name) or Series(name, name.replace("_", " "), unit_of(si, values))
 
 
@@ -97,20 +97,20 @@ def series_of(name: str, si: str = "1", values: Any = ()) -> Series:
 class Map:
     """A map as it is shown."""
 
-    # Its path in run files, but that of the thickness of the debris, which is computed; what it is, with body and sign; what its values are.
+    # Path in run files, but that of the thickness of the debris, which is computed; title, with body and sign; name and unit of its values.
     path: str
     title: str
     what: str
     unit: Unit
-    # By the colour map from nearly the least to nearly the greatest value, from zero on, or by what the cells are.
+    # Colours: by the colour map from nearly the least to nearly the greatest value, from zero on, or by what the cells are.
     colours: Literal["span", "from zero", "statuses"] = "span"
-    # Whether values are counted from their mean, and with which sign.
+    # True if values are counted from their mean; the sign with which they are shown.
     about_mean: bool = False
     sign: float = 1.0
 
     @property
     def body(self) -> str:
-        """``"disc"`` or ``"pin"``."""
+        """Body of the map, ``"disc"`` or ``"pin"``."""
         return self.path.split("/")[0]
 
     def shown(self, values: Any) -> Any:

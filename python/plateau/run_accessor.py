@@ -1,4 +1,4 @@
-"""What runs can do: ``run.plateau``."""
+"""Accessor of runs: ``run.plateau``."""
 
 import functools
 import tomllib
@@ -131,7 +131,7 @@ class RunAccessor:
         series : str
             Name of a series.
         start, end : float or str, optional
-            The part, s, or text with a unit such as ``"30 s"`` or ``"5 min"``; by default the last tenth of the run, at least ten simulated revolutions.
+            Ends of the part, s, or text such as ``"5 min"``; by default the last tenth of the run, at least ten simulated revolutions.
 
         Returns
         -------
@@ -182,7 +182,7 @@ class RunAccessor:
             A series that is a total since the start of the run: ``worn_pin``, ``worn_resin``, ``worn_whole_pin``, ``lost_pin``, ``worn_disc``,
             ``emitted``, ``sliding_distance``, ``friction_work``, ``pm10_mass``, ...
         start, end : float or str, optional
-            As for `mean`.
+            See `mean`.
 
         Returns
         -------
@@ -230,7 +230,7 @@ class RunAccessor:
         Returns
         -------
         xarray.DataArray
-            m, with the dimensions of the map of heights.
+            Thickness, m, with the dimensions of the map of heights.
 
         Raises
         ------

@@ -146,7 +146,7 @@ def _unreadable(path: str | os.PathLike[str], error: Exception) -> InputError:
 
 
 def _is_marked(path: str | os.PathLike[str]) -> bool:
-    """Whether the superblock of an HDF5 file says that a process writes it, or wrote it when it was killed."""
+    """Tells whether the superblock of an HDF5 file says that a process writes it, or wrote it when it was killed."""
     with open(path, "rb") as file:
         superblock = file.read(12)
     return superblock.startswith(SIGNATURE) and len(superblock) == 12 and superblock[8] >= 3 and superblock[11] != 0
@@ -174,7 +174,7 @@ def _state(file: Any, path: str | os.PathLike[str]) -> Any:
 
 
 def _complete_part(file: Any) -> xarray.DataTree:
-    """What is complete: of every series as many values as there are times, which are written last."""
+    """Complete part of a file: of every series as many values as there are times, which are written last."""
     complete = {name: len(file[name]) for name in ("time", "map_time") if name in file}
     names = {"/": [name for name in file if isinstance(file[name], h5py.Dataset)]}
     names |= {group: list(file[group]) for group in file if isinstance(file[group], h5py.Group)}

@@ -92,7 +92,7 @@ class Measure:
 
 
 class Told:
-    """What there is to tell of a run."""
+    """Content of a report on one run: its numbers, sentences and facts."""
 
     def __init__(self, run: xarray.DataTree, label: str) -> None:
         self.run, self.label, self.series = run, label, run.plateau.series
@@ -145,7 +145,7 @@ class Told:
 
     @functools.cached_property
     def five(self) -> dict[str, str]:
-        """The numbers of the scene that matter."""
+        """Main numbers of the scene, as text with units, by name."""
         area, radius, way = self.pin_area, float(array(self.run, "radius").mean()), self.last("sliding_distance")
         if self.has_cycle:
             most, force = "at most ", _short(NEWTON, self.largest("normal_force"), 4)
@@ -163,7 +163,7 @@ class Told:
         }
 
     def answer(self) -> Iterator[str]:
-        """What came out, in sentences."""
+        """Yields the results, in sentences."""
         if self.dissipates and "friction_coefficient" in self.series and self.time:
             mean = self.run.plateau.mean("friction_coefficient", 0.0 if self.has_cycle else None)
             over = "over all events" if self.has_cycle else f"of {self.over}"
@@ -194,13 +194,13 @@ class Told:
 
     @property
     def over(self) -> str:
-        """The time of the mean contact area."""
+        """Time over which the contact area is averaged, in words."""
         contact = (self.summary.get("contact_area_last_tenth") or {}).get("contact_time")
         of = f", of which {contact:.4g} s in contact" if contact else ""
         return f"{self.window.start:.6g} to {self.window.end:.6g} s{of}" if math.isfinite(self.window.value) else UNKNOWN
 
     def notices(self) -> Iterator[str]:
-        """What deserves attention."""
+        """Yields notices of what deserves attention, in sentences."""
         if self.state != "finished":
             yield f"The run is not finished: {self.told_state}. It has {counted(len(self.series), 'sample')}."
         if self.time and not math.isfinite(self.area.error):
@@ -252,7 +252,7 @@ class Told:
 
     @functools.cached_property
     def facts(self) -> dict[str, str]:
-        """What the run is."""
+        """Facts of the run, by name: file, state, mesh, wall time, workers."""
         sizes, wall = self.run.sizes, float(self.run.attrs.get("wall_time", math.nan))
         duration = self.setting("operation", "duration")
         of = "" if self.state == "finished" or duration == UNKNOWN else f" of {duration}"
@@ -286,7 +286,7 @@ def report(
     Parameters
     ----------
     runs : path, xarray.DataTree, or a sequence of them
-        At most ten.
+        Runs, at most ten.
     output : path, optional
         The page; by default in the working directory, named like the run file, or ``report.html`` for several.
     force : bool

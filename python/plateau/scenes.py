@@ -80,7 +80,7 @@ class Scene:
         changes : mapping, optional
             Keys by their whole paths, and their values.
         **more
-            As for `Scene`.
+            See `Scene`.
 
         Returns
         -------
@@ -154,7 +154,7 @@ def scene_of(scene: Any, changes: Mapping[str, Any], stacklevel: int) -> Scene:
 
 
 def engine_name(engine: object) -> str:
-    """What takes the steps, as it is called."""
+    """Name of the engine that takes the steps; refuses others than ``"fast"`` and ``"plain"``."""
     if engine not in ("fast", "plain"):
         raise InputError(f'engine {shown(engine)}: expected "fast" or "plain"')
     return str(engine)

@@ -42,13 +42,13 @@ class Simulation:
     Parameters
     ----------
     scene : path, str, mapping or Scene
-        As for `Scene`.
+        See `Scene`.
     workers : int or "auto", optional
         Threads that share the ring; by default those of the scene. No bit depends on it.
     engine : {"fast", "plain"}
         The engine, or the plain model, cell by cell. Pooled debris is always the plain model's.
     progress : bool, optional
-        Whether many steps show progress; by default in notebooks and terminals.
+        Show the progress of many steps; by default in notebooks and terminals.
 
     Examples
     --------
@@ -81,7 +81,7 @@ class Simulation:
         ----------
         path : path
         workers, progress : optional
-            As for `Simulation`.
+            See `Simulation`.
 
         Returns
         -------
@@ -111,11 +111,11 @@ class Simulation:
         steps : int, optional
             Number of steps, by default one.
         time : float or str, optional
-            Instead of it, the time to come to, s, or text with a unit; nothing is done where that has passed. The last step ends there or
+            Time to come to instead, s, or text with a unit; nothing is done where that has passed. The last step ends there or
             up to one step later, of a cycle earlier.
         watch : bool
-            Whether `pressure`, `sample` and `displacement` of the last step may be asked for. A single step of a small scene takes two
-            thirds of the time without.
+            Keep `pressure`, `sample` and `displacement` of the last step available. A single step of a small scene takes two thirds of the
+            time without.
 
         Raises
         ------
@@ -139,7 +139,7 @@ class Simulation:
         Parameters
         ----------
         steps, time : optional
-            As for `advance`.
+            See `advance`.
         every : int, optional
             Steps between two samples; by default those of a revolution.
 
@@ -189,17 +189,17 @@ class Simulation:
 
     @property
     def engine(self) -> str:
-        """What takes the steps."""
+        """Name of the engine that takes the steps, ``"fast"`` or ``"plain"``."""
         return self._native.execution[0]
 
     @property
     def workers(self) -> int:
-        """Number of threads that take them."""
+        """Number of threads that take the steps."""
         return self._native.execution[1]
 
     @property
     def steps(self) -> int:
-        """Steps taken."""
+        """Number of steps taken."""
         return self._native.steps
 
     @property
@@ -214,7 +214,7 @@ class Simulation:
 
     @property
     def revolution(self) -> int:
-        """Steps of a revolution, each of which stands for as many as the time acceleration: the columns of the disc."""
+        """Number of steps of a revolution, one for each column of the disc; a revolution stands for as many as the time acceleration."""
         return self._native.mesh[1]
 
     @property
@@ -322,7 +322,7 @@ class Simulation:
 
     @property
     def pin_base(self) -> "NDArray[np.uint8]":
-        """What the pin is made of: 0 resin, 1 fibre, 3 absent."""
+        """Material of the pin, by cell: 0 resin, 1 fibre, 3 absent."""
         return self._words("pin_base")
 
     @property
@@ -346,7 +346,7 @@ class Simulation:
         Parameters
         ----------
         disc_height, disc_substrate, pin_height, pin_substrate : array, optional
-            Of the shape of the property of this name.
+            Heights, m, of the shape of the property of this name.
 
         Raises
         ------

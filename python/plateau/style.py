@@ -1,4 +1,4 @@
-"""What all figures have in common: their look (``plateau.mplstyle``), colours, sizes and files."""
+"""Common parts of all figures: their look (``plateau.mplstyle``), colours, sizes and files."""
 
 import functools
 import io

@@ -67,7 +67,7 @@ class Surface:
 
     @property
     def body(self) -> str | None:
-        """Whether it is the disc or the pin of a scene or a run, or the patch that such a one is made of."""
+        """Body of a scene or a run, ``"disc"`` or ``"pin"``, that this is or whose patch it is; None of other surfaces."""
         return self.told["body"]  # type: ignore[no-any-return]
 
     def value(self, name: str) -> float:
@@ -88,7 +88,7 @@ class Surface:
 
     @cached_property
     def spectra(self) -> list[tuple[Any, Any]]:
-        """Power spectra along x and y."""
+        """Power spectra along x and y: spatial frequencies, 1/m, and densities, m³."""
         return [power_spectrum(self.heights, self.pitch[axis], axis) for axis in (1, 0)]
 
     def central(self, part: float) -> list[float]:
@@ -100,7 +100,7 @@ class Surface:
 
     @property
     def core(self) -> list[float]:
-        """Where the least-squares line through the flattest 40 % of the material ratio curve has the ratios 1 and 0, m above the mean."""
+        """Heights, m above the mean, of ratios 1 and 0 on the least-squares line through the flattest 40 % of the material ratio curve."""
         last = len(self.curve) - 1
         part = max(round(0.4 * last), 1)
         at = int(np.argmin(self.curve[:-part] - self.curve[part:]))
@@ -111,8 +111,8 @@ class Surface:
 def power_spectrum(heights: Any, pitch: float, axis: int) -> tuple[Any, Any]:
     """Spatial frequencies, 1/m, and the one-sided mean power spectral density, m³, of profiles along x (axis 1) or y (0), with a Hann window.
 
-    Its integral is the mean square of the profiles, each less its mean. Missing points are interpolated; profiles of which less than half was
-    measured are left out.
+    The integral is the mean square of the profiles, each less its mean. Missing points are interpolated; profiles of which less than half
+    was measured are left out.
     """
     count = heights.shape[axis]
     window = 0.5 - 0.5 * np.cos(2 * np.pi * np.arange(count) / count)

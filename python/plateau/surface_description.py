@@ -1,4 +1,4 @@
-"""What ``plateau surface`` prints: the parameters of surfaces that the program has read or prepared, as a table or as JSON."""
+"""Output of ``plateau surface``: the parameters of surfaces that the program has read or prepared, as a table or as JSON."""
 
 import json
 import math
@@ -67,7 +67,7 @@ COMPARED = ("patch", "patch_in_cells", "sampling_error", "difference")
 
 
 def _compared(folder: Path, one: dict[str, Any], patch: dict[str, Any], body: dict[str, Any]) -> dict[str, list[float]]:
-    """By symbol the parameter of a patch, that of its averages over cells with its sampling error, and that of what was made of it less these."""
+    """Parameters by symbol: of a patch, of its averages over cells, their sampling errors, and differences of the body from these."""
     none = dict.fromkeys(PARAMETERS, np.nan)
     cells, errors = none, none
     if one["cells"]:
@@ -125,7 +125,7 @@ def _beside(one: dict[str, Any], rows: dict[str, list[float]]) -> str:
 
 
 def _remarks(one: dict[str, Any], document: dict[str, Any], found: dict[str, Any], _: Any) -> str:
-    """What a file says of itself, what a scene did, and why parameters are not there."""
+    """Remarks on a surface: what its file says, what a scene did, and why parameters are missing."""
     said, missing = list(one["notes"]), one["points"] - one["measured"]
     if missing:
         said.append(f"{missing} of {one['points']} points are missing and take no part")

@@ -47,7 +47,7 @@ class TextTable:
         return found[0] if found else None
 
     def missing(self, what: str) -> InputError:
-        """That a column is missing."""
+        """Error about a column that is missing, with the columns that there are."""
         return InputError(f"{self.path}: no column {what}; it has {', '.join(self.heads[:12])}{', …' if len(self.heads) > 12 else ''}")
 
     def number(self, row: int, column: int) -> float:
@@ -104,7 +104,7 @@ def aligned(rows: Sequence[Sequence[str]], indent: str = "  ", names: int = 1) -
 
 
 def _is_formula(cell: str) -> bool:
-    """Whether a spreadsheet would compute a cell: numbers, with units or without, are none."""
+    """Tells whether a spreadsheet would compute a cell; numbers, with units or without, are no formulas."""
     return cell.startswith(("=", "+", "-", "@")) and not re.fullmatch(rf"{NUMBER}\s*[\w/^*%° -]*", cell)
 
 

@@ -1,4 +1,4 @@
-"""How sizes of contact spots and plateaus, and heights, are distributed at the first and the last map."""
+"""Distributions of the sizes of contact spots and plateaus, and of heights, at the first and the last map."""
 
 import math
 from collections.abc import Callable
@@ -40,7 +40,7 @@ def _explained(drawing: Drawing, figure: Any, axis: Any, found: Found) -> list[A
 
 
 def areas_of(belongs: Any, radii: Any, angle: float, is_ring: bool) -> Any:
-    """Areas, m², of groups of cells that share edges, the least first. Columns are so wide, rad; those of a ring close round it."""
+    """Areas, m², of groups of cells that share edges, the least first. Columns are `angle` wide, rad; those of a ring close round it."""
     from scipy.ndimage import label
 
     labels, count = label(belongs)

@@ -1,4 +1,4 @@
-"""What the figures of runs have in common: the runs with their names and lines, the moments that are shown, what is left out."""
+"""Common parts of the figures of runs: the runs with their names and lines, the moments that are shown, what is left out."""
 
 import math
 import re
@@ -25,7 +25,7 @@ class Subject:
 
     def __init__(self, run: xarray.DataTree, label: str, number: int, is_only: bool, at: Sequence[float]) -> None:
         self.run, self.label, self.number, self.is_only, self.is_chosen = run, plain(label), number, is_only, bool(at)
-        # Whether load and speed change; times of the samples, s.
+        # True if load and speed change; times of the samples, s.
         self.has_cycle, self.time = self.has("series/normal_force"), np.asarray(array(run, "time").values)
         self.map_time = times = np.asarray(run["map_time"].values) if "map_time" in run.variables else np.array([])
         self.moments = sorted({int(np.argmin(np.abs(times - time))) for time in at} or {0, len(times) - 1}) if times.size else []
@@ -36,7 +36,7 @@ class Subject:
         return re.sub(r"'seed': \d+", "", str(self.run.plateau.scene | {"output": 0}))
 
     def has(self, *paths: str) -> bool:
-        """Whether the run has all these variables, such as ``"series/contact_area"``."""
+        """Tells whether the run has all these variables, such as ``"series/contact_area"``."""
         names = (path.split("/") for path in paths)
         return all(group in self.run.children and name in self.run[group].data_vars for group, name in names)
 

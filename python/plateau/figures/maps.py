@@ -73,7 +73,7 @@ class Picture:
         return float(np.ptp(x)), float(np.ptp(y))
 
     def fitted(self, room: float, least: float) -> tuple[int, float, float, float]:
-        """As many windows as are about so high, mm, their width, their height, and how many times the radius is stretched."""
+        """Number of windows that are about `least` high, mm, their width and height, mm, and how many times the radius is stretched."""
         wide, high = self.span
         count = min(max(math.ceil(least * wide / (room * high)), 1), 6, self.values.shape[1]) if self.form is UNROLLED else 1
         width = min(room, HIGHEST * wide / (high * count))
@@ -81,7 +81,7 @@ class Picture:
         return count, width, count * width * high / wide * stretch, stretch
 
     def below(self, letters: int, stretch: float) -> str:
-        """What is written below, in lines of about so many letters; maps of a figure have the same words."""
+        """Words below a map, in lines of about so many letters; maps of a figure have the same words."""
         words = self.form if letters >= len(UNROLLED) else self.form.replace(" at the mean radius", "").replace(" from the middle", "")
         words = words if letters >= SHORT else wrapped(words.replace("; ", "\n"), letters)
         return words + (f"\nradius stretched {stretch:g}×" if stretch > 1 else "")
@@ -254,7 +254,7 @@ def _moments(drawing: Drawing, subject: Subject, shown: Map) -> Sequence[int]:
 
 
 def _said(subject: Subject, shown: Map, index: int, recorded: xarray.DataArray, cells: xarray.DataArray) -> str:
-    """What is said above a map, given as recorded and as shown; thin films get a status of their own in what is shown."""
+    """Text above a map, which is given as recorded and as shown; thin films get a status of their own in the latter."""
     values, unit = cells.values, shown.unit.symbol
 
     def percent(of: xarray.DataArray) -> str:

@@ -89,13 +89,13 @@ def weighted(line: Any, duration: float, whole: float) -> Any:
 
 
 def calm(every: Sequence[Course]) -> float:
-    """How long means are, s: 0 for windows, more if a line goes up and down all along, as with the place on the disc: it looks like waves."""
+    """Duration of means, s: 0 for windows, more if a line goes up and down all along, as with the place on the disc, like waves."""
     durations = [one.duration for one in every if not one.is_short and pulses(one.values.mean(axis=1).to_numpy())]
     return PART * max(durations, default=0.0)
 
 
 def pulses(line: Any) -> bool:
-    """Whether a line goes up and down all along."""
+    """Tells whether a line goes up and down all along."""
     return bool(np.nansum(np.abs(np.diff(line))) > MOST_WAY * np.ptp(line))
 
 
@@ -140,7 +140,7 @@ def time_axis(axes: Iterable[Any], subjects: Sequence[Subject]) -> None:
 
 
 def note_of(every: Sequence[Course], duration: float, usual: str, *more: str) -> str:
-    """What lines and bands are, and which runs are too short for the means of the others."""
+    """Note on what lines and bands are, and on runs that are too short for the means of the others."""
     unit = unit_of("s", duration)
     said = [f"lines: {usual}"] if any(more) or len(every) > 1 else []
     if duration:
@@ -244,7 +244,7 @@ filled = partial(in_panels, names=FILLED, unit=PERCENT, caption="Filled part of 
 
 
 def debris(drawing: Drawing, subjects: list[Subject]) -> list[Any]:
-    """Where the wear debris is, stacked, with all that was worn; below it the same without what was emitted."""
+    """Balance of the wear debris, stacked, with all that was worn; below it the same without what was emitted."""
     every = [totals(subject, [*PARTS, *SOURCES], MOST) for subject in subjects]
     is_there = pandas.concat(every).gt(0).any()
     there = [name for name in PARTS if is_there[name]]
@@ -310,7 +310,7 @@ def totals(subject: Subject, names: Sequence[str], most: int) -> Any:
 
 
 def rates(subject: Subject, name: str, most: int) -> Any:
-    """What a total grows for each second in windows of equally many samples, by their starts, s; the last twice, for its end."""
+    """Growth of a total per second in windows of equally many samples, by their starts, s; the last twice, for its end."""
     ends = totals(subject, [name], most)[name]
     return (ends.diff() / ends.index.diff()).shift(-1).ffill()
 

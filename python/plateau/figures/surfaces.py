@@ -35,7 +35,7 @@ it falls to 0.2 in the direction in which it does so first."""
 
 
 class Scale:
-    """What axes and colours span: the same for surfaces that belong together."""
+    """Spans of axes and colours: the same for surfaces that belong together."""
 
     def __init__(self, together: Sequence[Surface]) -> None:
         spans = np.array([[one.central(0.001), one.core, one.central(0.005)] for one in together])

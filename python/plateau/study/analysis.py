@@ -30,7 +30,7 @@ MOST_INFLATION, SHARES_DIFFER = 10.0, 0.02
 
 @dataclass(frozen=True, repr=False)
 class Effects(Answer):
-    """What the factors of a study do to its responses, of which ``found["NAME"]`` has one."""
+    """Effects of the factors of a study on its responses; ``found["NAME"]`` has those on one of them."""
 
     study: Study
     responses: list[ResponseEffects]
@@ -51,18 +51,18 @@ class Effects(Answer):
 
     @property
     def residuals(self) -> pandas.DataFrame:
-        """Each run beside the model of each response."""
+        """Residuals: each run beside the model of each response."""
         return pandas.concat([response.residuals for response in self.responses], ignore_index=True)
 
     @property
     def summary(self) -> pandas.DataFrame:
-        """How well the models fit, a row for each response, with cautions."""
+        """Quality of the fit of each model, a row for each response, with cautions."""
         rows = {one.response.name: one.summary | {"unit": one.unit, "cautions": one.cautions} for one in self.responses}
         return pandas.DataFrame.from_dict(rows, orient="index")
 
     @property
     def cautions(self) -> list[str]:
-        """What to be careful about: of all responses, then of each with its name before it."""
+        """Cautions about all responses, then about each with its name before it."""
         return [*together(self.study), *(f"{one.response.name}: {caution}" for one in self.responses for caution in one.cautions)]
 
     @property
@@ -71,12 +71,12 @@ class Effects(Answer):
         return int(self.study.runs["same_as"].duplicated().sum())
 
     def document(self) -> dict[str, Any]:
-        """What ``plateau sweep effects --json`` prints."""
+        """The JSON of ``plateau sweep effects --json``."""
         responses = [report_of(one) for one in self.responses]
         return {"study": self.study.title, "repeats": self.repeats, "cautions": self.cautions, "responses": responses}
 
     def text(self) -> str:
-        """What the command prints."""
+        """The text that ``plateau sweep effects`` prints."""
         said = [caution + "\n" for caution in together(self.study)]
         if self.repeats:
             verb, counts = ("repeats", "counts") if self.repeats == 1 else ("repeat", "count")
@@ -136,7 +136,7 @@ def effects(study: Study | str | os.PathLike[str], model: str | None = None, con
 
 
 def usable(study: Study) -> Study:
-    """The study, if it has results; runs without are said."""
+    """The study, if it has results; warns of runs without."""
     path = study.path or study.directory
     if not study.responses:
         advice = 'name one, such as dataset = "/series/contact_area_mean", at = "end"'

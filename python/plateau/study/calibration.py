@@ -36,17 +36,17 @@ class Outcome:
 
     @property
     def check(self) -> str:
-        """Whether the forecast at the most likely place ``"held"``, ``"failed"``, or met ``"none"``."""
+        """Result of the check of the forecast at the most likely place: ``"held"``, ``"failed"``, or ``"none"`` without runs there."""
         return "none" if not self.checks else "held" if self.checks[-1]["held"] else "failed"
 
     @property
     def has_failed(self) -> bool:
-        """Whether runs contradict the forecast at the most likely place."""
+        """True if runs contradict the forecast at the most likely place."""
         return self.check == "failed"
 
     @cached_property
     def why_no_interval(self) -> str:
-        """Why there is no interval; empty where there is one."""
+        """Reason why there is no interval; empty where there is one."""
         if self.has_failed:
             return "runs contradict the forecast"
         if self.likelihood.p(with_processes=True) < 1.0 - CHECK:
@@ -106,7 +106,7 @@ def calibrated(target: Target, runs: Runs, make: Callable[[Numbers], Runs], seed
 
 
 def _has_no_gain(shares: Sequence[float], then: float) -> bool:
-    """Whether runs are not expected to shorten an interval by more than what a settled fit leaves, or have not for some rounds."""
+    """Tells whether runs are not expected to shorten an interval by more than what a settled fit leaves, or have not for some rounds."""
 
     def gains(before: float, after: float) -> bool:
         return 1.0 + before > (1.0 + SETTLED) * (1.0 + after)
@@ -118,7 +118,7 @@ def _has_no_gain(shares: Sequence[float], then: float) -> bool:
 
 
 def _check(likelihood: Likelihood, place: Numbers, asked: Any, more: Runs | None) -> dict[str, Any]:
-    """What was forecast at a place against what runs give there; against the runs left out where there are some already."""
+    """Check of the forecast at a place against runs there; runs that the fit has already are left out of the forecast."""
     processes = [term.process for term in likelihood.terms]
     if more is None:
         at = [int(np.abs(process.points - place).max(axis=1).argmin()) for process in processes]

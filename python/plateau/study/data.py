@@ -31,23 +31,23 @@ class Factor:
     Attributes
     ----------
     name : str
-        Its name in the study, with `` (factor)`` behind it where tables have a column of that name.
+        Name in the study, with `` (factor)`` behind it where tables have a column of that name.
     keys : str
         The keys of the scene that it sets; empty if it is set elsewhere.
     unit : str
         SI unit of its numbers; ``"1"`` without a unit, ``""`` for words.
     levels : tuple
-        What it is set to, in the order of the study: numbers in SI units or words; the two ends of a range.
+        Values that it is set to, in the order of the study: numbers in SI units or words; the two ends of a range.
     is_range : bool
-        Whether it may have any value between two ends.
+        True if it may have any value between two ends.
     logarithmic : bool
-        Whether equal steps of the range are equal ratios.
+        True if equal steps of the range are equal ratios.
     whole : bool
-        Whether its numbers are whole.
+        True if its numbers are whole.
     study_unit : str
         The unit in which the study states it; empty without one.
     one, zero : float
-        What one and 0 of that unit are in SI units.
+        Values of one and 0 of that unit in SI units.
     """
 
     name: str
@@ -68,7 +68,7 @@ class Factor:
 
     @property
     def is_number(self) -> bool:
-        """Whether its values are numbers."""
+        """True if its values are numbers."""
         return bool(self.levels) and not isinstance(self.levels[0], str)
 
     @property
@@ -113,7 +113,7 @@ class Response:
     Attributes
     ----------
     name : str
-        Its name in the study, with `` (response)`` behind it where tables have a column of that name.
+        Name in the study, with `` (response)`` behind it where tables have a column of that name.
     unit : str
         SI unit; ``"1"`` for plain numbers.
     series : str
@@ -121,9 +121,9 @@ class Response:
     transform : str
         The scale on which it is fitted: ``"none"``, ``"log"``, ``"square root"`` or ``"logit"``.
     low, high : float
-        What it can be at least and at most; infinite without such a bound.
+        Least and greatest values that it can have, SI; infinite without such a bound.
     asked : dict
-        Its table in the study file: ``measured``, ``uncertainty``, ``mean``, ...
+        Table in the study file: ``measured``, ``uncertainty``, ``mean``, ...
     """
 
     name: str
@@ -175,7 +175,7 @@ class Study:
         A row for each run, by its number: ``point``, ``replicate``, ``order``, ``same_as``, ``state``, and by their names all factors and
         responses, in SI units or words; NaN where a run gives no response.
     table : pandas.DataFrame
-        The same for people: quantities in the unit of their column head.
+        Table of the runs for people: quantities in the unit of their column head.
     data : xarray.Dataset
         Factors, responses and series of all runs, with the dimensions ``run`` and ``time`` (``sample`` if the runs have
         different times), SI units.

@@ -109,7 +109,7 @@ def _means(one: ResponseEffects, fit: Fitted, groups: Sequence[list[Factor]], ca
 
 
 def _levels(factor: Factor, levels: list[Any]) -> list[Any]:
-    """Those of many levels that are shown: the ends and the middle; of a range those within, for axial points are beyond it."""
+    """Levels of many that are shown: the ends and the middle; of a range those within, for axial points are beyond it."""
     if factor.is_range:
         levels = [level for level in levels if abs(factor.coded(level)) < 1.0 + 1e-6]
     elif len(levels) <= len(LINES):
@@ -145,7 +145,7 @@ def _residuals(one: ResponseEffects, fit: Fitted) -> Any:
 
 
 def _surface(one: ResponseEffects, fit: Fitted) -> Any:
-    """What the model expects over the two numbers with the largest shares."""
+    """Map of what the model expects over the two numbers with the largest shares."""
     factors = fit.study.factors
     between = [at for at, coding in enumerate(fit.codings) if coding.is_straight and any(at in term for term in fit.terms)]
     shares = {at: sum(row["share"] for row in one.terms.to_dict("records") if at in row["factors"]) for at in between}

@@ -17,7 +17,7 @@ Product = tuple[tuple[int, ...], ...]
 
 
 def told(one: ResponseEffects) -> tuple[list[str], list[list[str]], list[str]]:
-    """What is said of a response, the rows of its table with their heads, and what stands below it."""
+    """Words about a response, the rows of its table with their heads, and the lines below it."""
     if (fit := one.fit) is None:
         return [one.response.name, one.error], [], []
     unit, table, summary = unit_for(one.unit, float(np.abs(fit.values).max())), one.table, one.summary
@@ -66,13 +66,13 @@ def told(one: ResponseEffects) -> tuple[list[str], list[list[str]], list[str]]:
 
 
 def text_of(one: ResponseEffects) -> str:
-    """What the command prints of a response."""
+    """Text of a response, as ``plateau sweep effects`` prints it."""
     lines, rows, below = told(one)
     return "\n  ".join([*lines, *(aligned(rows, indent="") if rows else []), *below]) + "\n"
 
 
 def equations(fit: Fitted) -> dict[str, pandas.DataFrame]:
-    """By ``"coded"`` and ``"of the study"``, the ``variables`` of each product and its ``coefficient``; nothing where there are too many."""
+    """Equations by ``"coded"`` and ``"of the study"``: ``variables`` and ``coefficient`` of each product; none if there are too many."""
     found = {}
     for units in ("coded", "of the study"):
         parts = [_parts(fit, at, units) for at in range(len(fit.codings))]
@@ -94,7 +94,7 @@ def equations(fit: Fitted) -> dict[str, pandas.DataFrame]:
 
 
 def _parts(fit: Fitted, at: int, units: str) -> list[dict[Product, float]]:
-    """What each column of a factor is: a multiple of its number and a constant, or multiples of its levels."""
+    """Parts of each column of a factor: a multiple of its number and a constant, or multiples of its levels."""
     coding, factor = fit.codings[at], fit.study.factors[at]
     if coding.is_straight:
         if units == "coded":

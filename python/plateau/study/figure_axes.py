@@ -27,14 +27,14 @@ def file_names(names: Sequence[str]) -> list[str]:
 
 
 def positions(factor: Factor, values: Any) -> Numbers:
-    """Where values of a factor are on its axis: numbers in the unit of the study, words side by side."""
+    """Positions of values of a factor on its axis: numbers in the unit of the study, words side by side."""
     if factor.is_number:
         return factor.in_study_unit(np.asarray(values, float))
     return np.array([factor.levels.index(value) for value in values], float)
 
 
 def set_axis(axis: Any, factor: Factor, way: str = "x", *, has_levels: bool = False) -> None:
-    """The axis of a factor, with its levels alone if there is nothing between them."""
+    """Sets up the axis of a factor, with its levels alone if there is nothing between them."""
     own = getattr(axis, f"{way}axis")
     own.set_label_text(labelled(factor.name, shown_unit(factor.study_unit)))
     if not factor.is_number:
@@ -59,7 +59,7 @@ def grid_points(x: Factor, y: Factor, grid: Sequence[Numbers], others: dict[str,
 
 
 def held(factors: Sequence[Factor], values: dict[str, Any], but: tuple[Factor, Factor]) -> str:
-    """At which values all factors but two are held, in words."""
+    """Values at which all factors but two are held, in words."""
     return ", ".join(f"{one.name} = {one.shown(values[one.name], 4)}" for one in factors if one not in but)
 
 
@@ -85,7 +85,7 @@ def drawn_map(
 
 
 def dots(axis: Any, x: Factor, y: Factor, points: pandas.DataFrame, mark: str = "o", size: float = 3.5) -> None:
-    """Points of two factors, such as runs."""
+    """Draws points of two factors, such as runs."""
     at = points[[x.name, y.name]].drop_duplicates()
     style = {"mfc": "white", "mec": "black", "mew": 0.6, "ms": size, "clip_on": False, "zorder": 5}
     axis.plot(x.in_study_unit(at[x.name]), y.in_study_unit(at[y.name]), mark, **style)

@@ -1,4 +1,4 @@
-"""What a fit tells of keys and responses, and what is to be known before it is used."""
+"""Answer of a fit: its keys and responses, and what is to be known before they are used."""
 
 import itertools
 import math
@@ -36,16 +36,16 @@ OF_COMPONENTS = "uncertainties, of a component"
 
 @dataclass(frozen=True, repr=False)
 class Fit(Answer):
-    """What a fit tells of keys and responses, in SI units.
+    """Answer of a fit: its keys and responses, in SI units.
 
     Attributes
     ----------
     study : Study
-        As it was after the first runs.
+        Study as it was after the first runs.
     most : int
-        Runs at most.
+        Largest number of runs.
     runs : pandas.DataFrame
-        All runs.
+        Table of all runs.
     """
 
     study: Study
@@ -91,13 +91,13 @@ class Fit(Answer):
 
     @property
     def profiles(self) -> pandas.DataFrame:
-        """How far -2 ln L rises where a key is held at a value, and the threshold of its interval."""
+        """Rise of -2 ln L where a key is held at a value, and the threshold of its interval."""
         parts = [pandas.DataFrame({"key": one.name, "value": one.value(at), "rise": rises}) for one, at, rises, _ in self._profiles]
         return pandas.concat(parts, ignore_index=True).assign(threshold=self._threshold)
 
     @cached_property
     def _terms(self) -> pandas.DataFrame:
-        """What is forecast of each term at the most likely place, by its measurement."""
+        """Forecast of each term at the most likely place and its deviations, by its measurement."""
         likelihood = self._likelihood
         processes = [term.process for term in likelihood.terms]
         means, own, seeds = (each[0] for each in likelihood.moments(likelihood.best[None]))
@@ -190,7 +190,7 @@ class Fit(Answer):
 
     @cached_property
     def cautions(self) -> list[str]:
-        """What is to be known before intervals are used: a sentence each."""
+        """Cautions to read before intervals are used: a sentence each."""
         said, outcome, measured, freedom = list[str](), self.outcome, self.target.measured, self._likelihood.freedom
         if outcome.has_failed:
             check = outcome.checks[-1]
@@ -250,7 +250,7 @@ class Fit(Answer):
         return dict(plain(found | {"checks": self.checks.to_dict("records"), "files": list(files)}))
 
     def text(self) -> str:
-        """What ``plateau fit`` prints."""
+        """The text that ``plateau fit`` prints."""
         keys, responses, level = [], [], f"{100.0 * self.confidence:g} % interval"
         for factor, likely, pieces in self._intervals:
             ends = " or ".join(_interval(factor, piece) for piece in pieces) or f"none: {self.outcome.why_no_interval}"
@@ -348,7 +348,7 @@ def _interval(factor: Factor, piece: dict[Any, Any]) -> str:
 
 
 def _alike(one: Measurement, away: Numbers) -> list[str]:
-    """Whether successive points of a series deviate alike; deviations from what runs give are independent and of deviation 1."""
+    """Caution if successive points of a series deviate alike: `away` should be independent and of deviation 1."""
     alike = float((away[1:] * away[:-1]).sum() / max((away**2).sum(), 1e-300))
     if len(away) < 8 or alike <= 2.0 / math.sqrt(len(away)):
         return []

@@ -38,7 +38,7 @@ def fit(
     retry : bool
         Make runs again that failed before.
     progress : bool, optional
-        Whether progress is shown.
+        Show progress.
 
     Returns
     -------
@@ -83,7 +83,7 @@ def fit(
 
 
 def _is_first(study: Study, most: int) -> npt.NDArray[np.bool_]:
-    """Which runs of the design are made: of so many points that one of the budget is left for the most likely place, and of the least of a fit."""
+    """Marks the runs of the design that are made: of all points in the budget but one, for the most likely place, at least of `LEAST`."""
     points = study.runs.groupby([factor.name for factor in study.factors], sort=False).ngroup()
     return np.asarray(points < max(most // study.seeds - 1, LEAST))
 
@@ -96,7 +96,7 @@ def _table(study: Study, before: int = 0) -> pandas.DataFrame:
 
 
 def _task(study: Study) -> tuple[Target, int, float]:
-    """What is fitted to, runs at most, and the confidence of intervals."""
+    """Target of the fit, largest number of runs, and the confidence of intervals."""
     where, asked = study.path or study.title, study.document.get("fit", {})
     measured = measurements(study)
     if not measured:
@@ -138,7 +138,7 @@ def _correlations(where: Any, asked: dict[str, Any], measured: list[Measurement]
 
 
 def _observed(study: Study, target: Target) -> Runs:
-    """What the runs of a study give of all that was measured."""
+    """Values that the runs of a study give of all that was measured."""
     is_first = (study.runs["same_as"] == study.runs.index).to_numpy()
     values = [_at_times(study, one) if one.is_series else study.runs[[one.response.name]].to_numpy(float) for one in target.measured]
     x = np.column_stack([factor.coded(study.runs[factor.name]) for factor in study.factors])
@@ -167,7 +167,7 @@ def _at_times(study: Study, one: Measurement) -> Numbers:
 
 @dataclass(frozen=True, repr=False)
 class Plan(Answer):
-    """What a fit will do: ``first_runs`` of the design and ``most`` in all, their wall time, s, and the memory of the largest, bytes."""
+    """Plan of a fit: ``first_runs`` of the design and ``most`` in all, their wall time, s, and the memory of the largest, bytes."""
 
     study: Study
     target: Target
@@ -183,7 +183,7 @@ class Plan(Answer):
         return dict(plain({"study": self.study.title, "keys": keys, "responses": responses, **known}))
 
     def text(self) -> str:
-        """What ``plateau fit --plan`` prints."""
+        """The text that ``plateau fit --plan`` prints."""
         keys, measured = [], []
         for factor in self.study.factors:
             scale = ", equal ratios" if factor.logarithmic else ""

@@ -1,4 +1,4 @@
-"""What is wanted of responses: goals, limits, how much is liked, and the search for the point where that is most.
+"""Goals and limits of responses, their desirability, and the search for the point where that is largest.
 
 Expected improvement: runs at points that may be better than all that were run, for responses that are dear and noisy.
 """
@@ -35,7 +35,7 @@ NEAR = 0.02
 
 @dataclass(frozen=True)
 class Goal:
-    """What a response should be: `values` from worth nothing to worth everything, of a target to worth nothing again, SI.
+    """Goal of a response: `values` from worth nothing to worth everything, of a target to worth nothing again, SI.
 
     `is_of_runs` says that the values are those of the runs, beyond which there may be better ones.
     """
@@ -59,7 +59,7 @@ class Goal:
 
 @dataclass(frozen=True)
 class Limit:
-    """What a response has to keep, SI: at least or at most `value`. `scale` is a difference that counts."""
+    """Limit that a response has to keep, SI: at least or at most `value`. `scale` is a difference that counts."""
 
     response: str
     is_least: bool
@@ -68,7 +68,7 @@ class Limit:
     scale: float
 
     def margin(self, forecast: pandas.DataFrame) -> Numbers:
-        """How far what has to keep the limit is from it, in differences that count; negative beyond it."""
+        """Distance from the limit of what has to keep it, in differences that count; negative beyond it."""
         name = "value" if self.on == "mean" else f"{self.on.removesuffix('s')}_{'low' if self.is_least else 'high'}"
         kept = forecast[name].fillna(forecast["value"]).to_numpy()
         return np.asarray((kept - self.value if self.is_least else self.value - kept) / self.scale)
@@ -87,7 +87,7 @@ Start = tuple[float, tuple[Any, ...], Numbers]
 
 @dataclass(frozen=True)
 class Problem:
-    """What is searched for, and where: ``axes`` has the levels of each factor; None if it may be anywhere in its range."""
+    """Goals, limits and region of a search: ``axes`` has the levels of each factor; None if it may be anywhere in its range."""
 
     study: Study
     surrogates: dict[str, Surrogate]
@@ -135,7 +135,7 @@ class Problem:
         return list(dict.fromkeys([*(goal.response for goal in self.goals), *(limit.response for limit in self.limits)]))
 
     def forecasts(self, points: pandas.DataFrame, *, with_intervals: bool = False) -> dict[str, pandas.DataFrame]:
-        """What surrogates expect of the responses that are wanted."""
+        """Forecasts of the responses that are wanted, by name."""
         needs = {limit.response for limit in self.limits if limit.on != "mean"} | set(self.wanted if with_intervals else ())
         values = {name: one.response.back(one.mean(points)) for name, one in self.surrogates.items() if name in set(self.wanted) - needs}
         found = {name: pandas.DataFrame({"value": value}) for name, value in values.items()}
@@ -151,12 +151,12 @@ class Problem:
         return overall(self.goals, [goal.desirability(forecasts[goal.response]["value"]) for goal in self.goals])
 
     def keeps(self, forecasts: dict[str, pandas.DataFrame]) -> Numbers:
-        """Whether forecasts keep all limits."""
+        """Tells whether forecasts keep all limits."""
         kept = [limit.margin(forecasts[limit.response]) >= -ROUNDING for limit in self.limits]
         return np.logical_and.reduce(kept) if kept else np.ones(len(next(iter(forecasts.values()))), bool)
 
     def merit(self, points: pandas.DataFrame) -> Numbers:
-        """Above 0 the mean desirability; below 0 how far a limit is missed or a response is worth nothing, so that the way back is known."""
+        """Merit: above 0 the mean desirability; below 0 how far a limit is missed or a response worth nothing, which tells the way back."""
         found = self.forecasts(points)
         ways = [goal.way(found[goal.response]["value"]) for goal in self.goals]
         merit = overall(self.goals, [np.clip(way, 0.0, 1.0) for way in ways])
@@ -243,7 +243,7 @@ def improved(
 ) -> tuple[Problem, pandas.DataFrame]:
     """Makes so many runs at most where improvement is expected, the last ones where the mean is expected to be best.
 
-    Of a round each point is chosen as if those before it had given what is expected. Gives the problem with all runs, and the points.
+    Each point of a round is chosen as if those before it had given what is expected. Gives the problem with all runs, and the points.
     """
     rows: list[dict[Any, Any]] = []
     left, number = runs // problem.study.seeds, 0
@@ -290,10 +290,10 @@ def with_processes(problem: Problem, *new: pandas.DataFrame) -> Problem:
 
 
 def expected_improvement(problem: Problem, points: pandas.DataFrame) -> Numbers:
-    """By how much of the way to the goals points are expected to be better than the best mean of a point that was run.
+    """Part of the way to the goals by which points are expected to be better than the best mean of a point that was run.
 
-    It is the best expected mean, as runs are noisy (V. Picheny and others, Struct. Multidisc. Optim. 48, 607-626 (2013)). What is as uncertain
-    at points that were run, too, is nothing that more runs tell.
+    The best mean is the expected one, as runs are noisy (V. Picheny and others, Struct. Multidisc. Optim. 48, 607-626 (2013)). What is as
+    uncertain at points that were run, too, is nothing that more runs tell.
     """
     names = problem.wanted
     runs = problem.study.runs.drop_duplicates("point")
@@ -325,7 +325,7 @@ def _promising(problem: Problem) -> tuple[pandas.DataFrame, float]:
 
 
 def is_run(problem: Problem, points: pandas.DataFrame, near: float = NEAR) -> Numbers:
-    """Whether points are at one that was run."""
+    """Tells whether points are at one that was run."""
     known = problem.study.runs.drop_duplicates("point")
     is_near = np.ones((len(points), len(known)), bool)
     for factor in problem.study.factors:
@@ -405,7 +405,7 @@ def wanted(
 
 
 def axes_of(study: Study, hold: Mapping[str, Any] | Sequence[str], is_curved: bool) -> list[list[Any] | None]:
-    """Where each factor may be: its levels, the value that it is held at, or None anywhere in its range."""
+    """Values that each factor may have: its levels, the value that it is held at, or None for any in its range."""
     held = held_values(study, hold, "--hold", is_curved)
     place = pandas.DataFrame({factor.name: [held.get(factor.name, axis_of(factor, None, is_curved)[0])] for factor in study.factors})
     if beyond := beyond_of(study, place)[0]:

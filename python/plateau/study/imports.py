@@ -16,18 +16,18 @@ from plateau.text_tables import read_text_table
 
 @dataclass(frozen=True, repr=False)
 class Imported(Answer):
-    """What a table brought.
+    """Result of an import: what a table brought.
 
     Attributes
     ----------
     lines, new, changed, complete, runs : int
-        Lines of the table, values that were not there before and that have changed, runs that have all imported responses, all runs.
+        Numbers of lines, of values that were not there before and that have changed, of runs with all imported responses, of all runs.
     responses : list of str
-        Which are in the table.
+        Responses in the table.
     idle : list of str
-        What is kept of points and responses that the study does not have now.
+        Kept lines and columns of points and responses that the study does not have now.
     file : Path
-        Where values are kept.
+        File in which values are kept.
     """
 
     study: str
@@ -45,7 +45,7 @@ class Imported(Answer):
         return {**self.__dict__, "file": str(self.file)}
 
     def text(self) -> str:
-        """What ``plateau sweep import`` prints."""
+        """The text that ``plateau sweep import`` prints."""
         lines = [f"  read      {self.lines} {'line' if self.lines == 1 else 'lines'} with {', '.join(self.responses)}"]
         lines += [f"  values    {self.new} new, {self.changed} changed", f"  complete  {self.complete} of {self.runs} runs"]
         kept = ["Kept, but of nothing that the study has now", *(f"  {line}" for line in self.idle)] if self.idle else []

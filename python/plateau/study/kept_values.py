@@ -18,7 +18,7 @@ ROUNDED = 1e-6
 
 
 def file_of(study: Study) -> Path:
-    """The table in which they are kept."""
+    """Path of the table in which imported values are kept."""
     return study.directory / "imported.csv"
 
 
@@ -52,13 +52,13 @@ def _columns(table: TextTable, study: Study, *, strict: bool) -> tuple[dict[int,
 
 
 def _numbers(table: TextTable, row: int, columns: dict[int, tuple[Response, str]]) -> pandas.Series:
-    """What a line has of the responses, SI, by their names."""
+    """Values of the responses in a line, SI, by their names."""
     told = {at: one for at, one in columns.items() if not math.isnan(table.number(row, at))}
     return pandas.Series({one.name: in_si(table.rows[row][at], unit, one.unit) for at, (one, unit) in told.items()}, dtype=float)
 
 
 def factor_value(table: TextTable, row: int, column: int, factor: Factor) -> Any:
-    """What a factor is in a line: a number in SI units, or a word."""
+    """Value of a factor in a line: a number in SI units, or a word."""
     cell, unit = table.rows[row][column].replace("\N{MINUS SIGN}", "-"), table.named(column)[1]
     if not cell:
         raise InputError(f'{table.place(row)}: "{factor.name}" is empty')
@@ -111,7 +111,7 @@ class KeptValues:
                 self.others.loc[run, [*self.others]] = [cells[at] for at in others]
 
     def take(self, table: TextTable, force: bool) -> tuple[list[str], int, int]:
-        """Takes in a table: which responses it has, how many values are new, and how many have changed."""
+        """Takes in a table; gives its responses, and the numbers of values that are new and that have changed."""
         (factors, columns), taken, new, changed = _columns(table, self.study, strict=True), set[int](), 0, 0
         for row in range(len(table.rows)):
             run, now = self._run(table, row, factors, taken), _numbers(table, row, columns)
@@ -159,7 +159,7 @@ class KeptValues:
         return written_table([list(table), *table.to_numpy().tolist(), *([line.get(head, "") for head in table] for line in self.idle_lines)])
 
     def idle(self) -> list[str]:
-        """What is kept of nothing that the study has now, in words."""
+        """Kept lines and columns that match nothing in the study now, in words."""
         heads = self.heads[: len(self.study.factors)]
         lines = [f"line of {', '.join(f'{head} = {line[head]}' for head in heads)}" for line in self.idle_lines]
         return [*lines, *(f'column "{head}"' for head in self.others if self.others[head].ne("").any())]

@@ -63,9 +63,9 @@ def levels(study: Study | str | os.PathLike[str], control: str | None = None, mo
     control : str, optional
         A level, as text, with which all others of its factor are compared (Dunnett); without it all pairs are (Tukey).
     model : str, optional
-        As for `effects`.
+        See `effects`.
     confidence : float
-        That all intervals of a factor hold together.
+        Confidence with which all intervals of a factor hold together.
 
     Returns
     -------
@@ -146,9 +146,9 @@ def _of_factor(fit: Fitted, at: int, names: list[str], control: str | None) -> p
 
 
 def _tail(outside: Callable[[Numbers, Numbers], Numbers], size: float, freedom: float) -> float:
-    """How likely the largest difference is beyond a size, in standard errors.
+    """Probability that the largest difference is beyond a size, in standard errors.
 
-    It is a sum over the error and a normal variable of what is `outside`: 1 less what is within would be rounding alone far out.
+    Sum over the error and a normal variable of what is `outside`: 1 less what is within would be rounding alone far out.
     """
     # About the error, relative to its expectation, of which most of that comes, and as far as exp(-30) of it.
     far = (30.0 / freedom) ** 0.5
@@ -160,13 +160,13 @@ def _tail(outside: Callable[[Numbers, Numbers], Numbers], size: float, freedom: 
 
 
 def _range_beyond(levels: int, highest: Numbers, size: Numbers) -> Numbers:
-    """How likely the lowest of several levels is farther below the highest one than √2 times a size (J. W. Tukey's range)."""
+    """Probability that the lowest of several levels is farther below the highest one than √2 times a size (J. W. Tukey's range)."""
     below, far = special.ndtr(highest), special.ndtr(highest - 2.0**0.5 * size)
     return np.asarray(levels * far * sum(below**power * (below - far) ** (levels - 2 - power) for power in range(levels - 1)))
 
 
 def _any_beyond(shares: Numbers, shared: Numbers, size: Numbers) -> Numbers:
-    """How likely any of several normal variables is beyond ± a size, of which each has a share of a shared one."""
+    """Probability that any of several normal variables, each with its share of a common one, is beyond ± a size."""
     beyond = np.zeros(np.broadcast_shapes(shared.shape, size.shape))
     for share in shares:
         rest = (1.0 - share**2) ** 0.5

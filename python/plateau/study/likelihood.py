@@ -42,14 +42,14 @@ class Runs:
     values: list[Numbers]
 
     def with_more(self, more: "Runs") -> "Runs":
-        """These and others."""
+        """Runs of both, these before the others."""
         values = [np.vstack(pair) for pair in zip(self.values, more.values, strict=True)]
         return Runs(np.vstack([self.x, more.x]), np.concatenate([self.group, more.group]), values)
 
 
 @dataclass(frozen=True)
 class Target:
-    """What is fitted to: measurements, the discrepancy of the model for each (relative), correlations of single values."""
+    """Target of a fit: measurements, the discrepancy of the model for each (relative), correlations of single values."""
 
     measured: Sequence[Measurement]
     discrepancies: Sequence[float]
@@ -57,7 +57,7 @@ class Target:
 
     @cached_property
     def singles(self) -> list[int]:
-        """Which measurements are single values."""
+        """Indices of the measurements that are single values."""
         return [at for at, one in enumerate(self.measured) if not one.is_series]
 
     @cached_property
@@ -140,7 +140,7 @@ class Likelihood:
         return found[:, 0].T, found[:, 1].T, found[:, 2].T / seeds
 
     def misfit(self, places: Numbers, *, with_processes: bool) -> Numbers:
-        """Squares of forecast less measured over the variances of measurement, model, seeds, and if asked to of the processes."""
+        """Sum of squares of forecast less measured over the variances of measurement, model, seeds, and if asked to of the processes."""
         return np.asarray(self._squares(places, with_processes)[0] + sum(each.rest for each in self.components.values()))
 
     @property
@@ -154,7 +154,7 @@ class Likelihood:
 
     @property
     def agrees_by_ignorance(self) -> bool:
-        """Whether what was measured is likely at the most likely place only because little is known there."""
+        """True if what was measured is likely at the most likely place only because little is known there."""
         return (known := self.p()) < 0.01 and self.p(with_processes=True) > 10.0 * known
 
     def apart(self) -> Numbers:
@@ -183,11 +183,11 @@ class Likelihood:
         return np.where(np.isfinite(value), value, np.inf)
 
     def rise(self, places: Numbers) -> Numbers:
-        """How far -2 ln L is above the least."""
+        """Rise of -2 ln L above the least."""
         return self.value(np.atleast_2d(places)) - self.least
 
     def _search(self) -> None:
-        """Places that are looked at, everywhere and near the most likely one, and this itself."""
+        """Finds the most likely place, and keeps the places looked at, everywhere and near it."""
         keys = self.keys
         even = 2.0 * stats.qmc.Sobol(keys, scramble=False).random_base2(min(6 + keys, 9))[1:] - 1.0
         places = np.vstack([even, np.unique(self.runs.x, axis=0)])
@@ -281,7 +281,7 @@ class Likelihood:
         return np.asarray(np.clip(np.round(np.asarray(places) / step) * step, -1.0, 1.0))
 
     def of_runs(self, runs: Runs) -> Numbers:
-        """What runs give of each term, by run."""
+        """Values that runs give of each term, by run."""
         columns = [self.components[at].scores(values) if at in self.components else values for at, values in enumerate(runs.values)]
         return np.hstack(columns)
 

@@ -1,4 +1,4 @@
-"""What was measured of responses, to which runs are fitted."""
+"""Measurements of responses, to which runs are fitted."""
 
 import math
 import re
@@ -15,9 +15,9 @@ from plateau.units import NUMBER, in_si, quantity
 
 @dataclass(frozen=True)
 class Measurement:
-    """What was measured of a response, SI units, with standard uncertainties and where it stands; `times` is empty for a single value.
+    """Measurement of a response, SI units, with standard uncertainties and where it stands; `times` is empty for a single value.
 
-    Errors of a series are alike for `correlation_time`; they are independent if it is 0.
+    Errors of a series are alike for `correlation_time`, s; they are independent if it is 0.
     """
 
     response: Response
@@ -29,7 +29,7 @@ class Measurement:
 
     @property
     def is_series(self) -> bool:
-        """Whether it is a series."""
+        """True if it is a series."""
         return bool(len(self.times))
 
     @property
@@ -41,7 +41,7 @@ class Measurement:
 
 
 def measurements(study: Study) -> list[Measurement]:
-    """What was measured of the responses of a study with ``measured`` or ``measured_file``."""
+    """Measurements of the responses of a study with ``measured`` or ``measured_file``."""
     found = []
     for response in study.responses:
         asked = response.asked

@@ -51,7 +51,7 @@ def contrasts(levels: int) -> Numbers:
 
 @dataclass(frozen=True)
 class Coding:
-    """How the values of a factor become numbers: coded units, or contrasts between the levels (``classes``) that were observed."""
+    """Coding of the values of a factor as numbers: coded units, or contrasts between the levels (``classes``) that were observed."""
 
     factor: Factor
     classes: tuple[object, ...] | None
@@ -69,7 +69,7 @@ class Coding:
 
     @property
     def is_straight(self) -> bool:
-        """Whether the model is straight along its numbers: along a range, and between two levels."""
+        """True if the model is straight along its numbers: along a range, and between two levels."""
         return self.classes is None or self.factor.is_number and len(self.factor.levels) == len(self.classes) == 2
 
     def numbers(self, values: pandas.Series) -> Numbers:
@@ -86,7 +86,7 @@ class Coding:
 
 
 def is_same(values: pandas.Series, level: object) -> Numbers:
-    """Whether values are a level; numbers may differ by rounding."""
+    """Tells which values are a level; numbers may differ by rounding."""
     if isinstance(level, str):
         return np.asarray(values == level)
     return np.asarray(np.isclose(values.to_numpy(float), float(str(level)), rtol=1e-9, atol=0.0))
@@ -126,7 +126,7 @@ class LeastSquares:
         return np.asarray(self.root @ (self.basis.T @ values))
 
     def residuals(self, values: Numbers) -> Numbers:
-        """What the fit leaves; taken twice, so that rounding leaves nothing along the basis."""
+        """Residuals of the fit; taken twice, so that rounding leaves nothing along the basis."""
         left = values - self.basis @ (self.basis.T @ values)
         return np.asarray(left - self.basis @ (self.basis.T @ left))
 
@@ -217,11 +217,11 @@ class Fitted:
         return f"{names[0]}²" if len(term) == 2 and term[0] == term[1] else " × ".join(names)
 
     def owner(self, column: int) -> int:
-        """Which of mean (0), blocks (1) and terms (from 2) a column is of."""
+        """Index of what a column belongs to: mean (0), blocks (1) or a term (from 2)."""
         return next(at for at, columns in enumerate(self.columns) if columns.start <= column < columns.stop)
 
     def tells(self, rows: Numbers) -> Numbers:
-        """Whether the runs tell the value for rows of the model matrix: whether columns that are combinations are the same ones there."""
+        """Tells for which rows of the model matrix the runs determine the value: columns that are combinations are the same ones there."""
         told = np.ones(len(rows), bool)
         for column, (parts, weights) in self.fit.relations.items():
             # What is a multiple of the mean, as the square of a number with two values is, does not count; a factor with one value does.
@@ -280,7 +280,7 @@ class Fitted:
 
     @cached_property
     def lack_of_fit(self) -> tuple[Squares, Squares, float, float]:
-        """What means of points differ by from the model, its error, F and p; NaN where it cannot be tested."""
+        """Squares by which means of points differ from the model, their error, F and p; NaN where it cannot be tested."""
         pure, left = self.scatter
         # Their difference, not that of the sums: it may be far smaller than either.
         missed, freedom = self._unless_rounding(self.residuals - left), self.residual_freedom - pure.freedom
@@ -301,7 +301,7 @@ class Fitted:
 
     @cached_property
     def _held_out(self) -> Numbers:
-        """By point, the mean residual of the fit and of the fit without the point, and the squares of the latter, added up over its runs."""
+        """Mean residual of the fit, and of the fit without the point, by point, and the squares of the latter, added up over its runs."""
         held_out = np.full((self.point_count, 3), np.nan)
         for point in range(self.point_count):
             own = np.flatnonzero(self.runs["point"] == point)
@@ -319,7 +319,7 @@ class Fitted:
 
     @property
     def explained(self) -> Squares:
-        """What the factors explain beside the sets of seeds."""
+        """Squares that the factors explain beside the sets of seeds."""
         blocks = LeastSquares(self.design[:, : self.columns[1].stop])
         left = blocks.residuals(self.values - self.mean)
         return Squares(len(self.fit.kept) - len(blocks.kept), max(float(left @ left) - self.residual.sum, 0.0))
@@ -345,8 +345,8 @@ class Fitted:
     def errors(self, weights: Numbers) -> tuple[Numbers, Numbers]:
         """Variances of weighted sums (rows of `weights`) of the responses over all seeds, and their degrees of freedom; NaN without an error.
 
-        It is what the sum differs by between sets of seeds, of incomplete sets with the right mean if runs scatter alike (R. M. Bell and D. F.
-        McCaffrey, Survey Methodology 28, 169-181 (2002)); with one set of seeds the residual.
+        Variance: what the sum differs by between sets of seeds, of incomplete sets with the right mean if runs scatter alike (R. M. Bell
+        and D. F. McCaffrey, Survey Methodology 28, 169-181 (2002)); with one set of seeds that of the residual.
         """
         if self.seeds < 2 or np.isnan(self.error):
             variances = self.error * np.square(weights).sum(axis=1)
@@ -356,15 +356,15 @@ class Fitted:
 
     @cached_property
     def _leaves(self) -> Numbers:
-        """What the mean model of all blocks leaves of the runs, as a matrix."""
+        """Residual matrix of the mean model of all blocks: what it leaves of the runs."""
         without = self.design.copy()
         without[:, self.columns[1]] = 0.0
         return np.asarray(np.eye(len(self.values)) - without[:, self.fit.kept] @ self.fit.root @ self.fit.basis.T)
 
     def differs_alike(self, directions: Numbers) -> bool:
-        """Whether sums with these orthonormal weights scatter alike between sets of seeds, as far as these tell.
+        """Tells whether sums with these orthonormal weights scatter alike between sets of seeds, as far as these tell.
 
-        By the statistic of S. John, Biometrika 58, 123-127 (1971), tr C²/(tr C)² of their covariance C, against that of normal variables.
+        Test: statistic of S. John, Biometrika 58, 123-127 (1971), tr C²/(tr C)² of their covariance C, against that of normal variables.
         """
         if self.seeds < 2 or len(directions) < 2:
             return True
@@ -384,7 +384,7 @@ class Fitted:
         return _corrected(squares, *self._between(directions, self._leaves))
 
     def _between(self, weights: Numbers, leaves: Numbers) -> tuple[Numbers, Numbers]:
-        """What each set of seeds has in weighted sums of what a model leaves, with squares that sum up to variances, and degrees of freedom."""
+        """Parts of sets of seeds in weighted sums of what a model leaves, with squares that add up to variances, and degrees of freedom."""
         left, member = leaves @ (self.values - self.mean), np.eye(self.seeds)[self.sets]
         parts, freedoms = np.full((len(weights), self.seeds), np.nan), np.full(len(weights), np.nan)
         for at, weight in enumerate(weights):
@@ -483,7 +483,7 @@ def _satterthwaite(parts: Sequence[tuple[Numbers, Numbers]]) -> tuple[Numbers, N
 def _corrected(squares: Squares, parts: Numbers, freedoms: Numbers) -> tuple[Squares, float, float]:
     """Error, F and p of squares of sums of which each set of seeds has these parts, with these degrees of freedom.
 
-    That some differ more between sets than others takes degrees of freedom (S. W. Greenhouse and S. Geisser, Psychometrika 24, 95-112 (1959)).
+    Unequal differences between sets take degrees of freedom (S. W. Greenhouse and S. Geisser, Psychometrika 24, 95-112 (1959)).
     """
     if not (whole := float(np.square(parts).sum())) > 0:
         return Squares(0.0, 0.0), np.nan, np.nan

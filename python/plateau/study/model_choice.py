@@ -1,4 +1,4 @@
-"""Which model is fitted to a response, and what it misses."""
+"""Choice of the model that is fitted to a response, and what it misses."""
 
 from functools import lru_cache
 from typing import Any
@@ -61,7 +61,7 @@ def _choice(study: Study, response: Response) -> tuple[str, str]:
 
 
 def no_squares(fit: Fitted) -> str:
-    """Why the runs do not allow a quadratic model, to which it is the fit; empty if they do."""
+    """Reason why the runs do not allow the quadratic model that was fitted; empty if they do."""
     if not any(fit.is_curved):
         return NO_CURVE
     # Squares of numbers with two values are part of the mean.
@@ -78,14 +78,14 @@ def no_squares(fit: Fitted) -> str:
 
 
 def misfit(fit: Fitted) -> dict[str, Any] | None:
-    """What a model misses significantly, by replicates or by models with all its terms and more (Bonferroni), and the model to try."""
+    """Significant misfit of a model, by replicates or by models with all its terms and more (Bonferroni), and the model to try."""
     return _misfit(fit)[0]
 
 
 # Cautions, advice and JSON ask for it, and each time all other models would be fitted.
 @lru_cache(maxsize=32)
 def _misfit(fit: Fitted) -> tuple[dict[str, Any] | None, Fitted | None]:
-    """What a model misses, and the fit of the model to try."""
+    """Misfit of a model, and the fit of the model to try."""
     if np.isnan(fit.error):
         return None, None
     own, level = fit.residual, 1.0 - fit.confidence
@@ -121,7 +121,7 @@ def _other(fit: Fitted, model: str) -> Fitted | None:
 
 
 def cautions(fit: Fitted) -> list[str]:
-    """What is to be known before the model is believed: a sentence each."""
+    """Cautions to read before the model is believed: a sentence each."""
     said = []
     missed, best = _misfit(fit)
     if missed is not None:
@@ -150,7 +150,7 @@ def cautions(fit: Fitted) -> list[str]:
 
 
 def _untested(fit: Fitted) -> str:
-    """That effects have no error, for sets of seeds lack points; empty if all have one."""
+    """Caution that effects have no error, for sets of seeds lack points; empty if all have one."""
     found = fit.combined(np.eye(len(fit.coefficients))[fit.own])
     without = dict.fromkeys(fit.label(fit.terms[fit.owner(fit.own[at]) - 2]) for at in np.flatnonzero(found["standard_error"].isna()) if at)
     if not without:

@@ -63,7 +63,7 @@ class Optimum(Answer):
     at_ends : list of str
         Factors that are at an end of their range.
     canonical : list of dict
-        Of each response with a quadratic model: ``response``, ``nature``, ``value`` at the stationary point, ``stationary`` (a row for each
+        Analyses of the quadratic models: ``response``, ``nature``, ``value`` at the stationary point, ``stationary`` (a row for each
         factor: ``value``, SI, ``coded``, ``is_within`` its range), ``eigenvalues`` and their ``directions`` in coded units of the factors.
     rounds : pandas.DataFrame
         The points that were run on the way: ``round``, factors, ``expected_improvement`` (part of the way of the goal), means of the responses.
@@ -105,7 +105,7 @@ class Optimum(Answer):
         return found | {"rounds": plain(self.rounds.to_dict("records")), "cautions": self.cautions}
 
     def text(self) -> str:
-        """What ``plateau sweep optimize`` prints."""
+        """The text that ``plateau sweep optimize`` prints."""
         problem, study = self.problem, self.problem.study
         found = "best at" if self.keeps_limits else "no settings within the ranges keep all limits; they are missed least at"
         lines = [study.title, f"  {found} {_place(study, self.settings['value'])}"]
@@ -152,7 +152,7 @@ class Optimum(Answer):
         return with_minus("\n".join([*lines, *(f"  caution: {caution}" for caution in self.cautions), ""]))
 
     def _alone(self, limit: Limit, unit: Unit) -> str:
-        """How near a response comes to its limit if nothing else is wanted."""
+        """Words about how near a response comes to its limit if nothing else is wanted."""
         ends = (limit.value - 100.0 * limit.scale, limit.value + 100.0 * limit.scale)
         goal = Goal(limit.response, "maximize" if limit.is_least else "minimize", ends if limit.is_least else ends[::-1])
         problem = replace(self.problem, goals=[goal], limits=[limit])
@@ -203,20 +203,20 @@ def optimize(
     limit : sequence of str
         ``NAME<=VALUE`` or ``NAME>=VALUE``.
     limit_on : {"mean", "means", "runs"}
-        What has to keep the limits: what is expected, the interval of means, or that of one more run.
+        Value that has to keep the limits: the expected mean, the interval of means, or that of one more run.
     importance : sequence of str
         ``NAME=NUMBER``: how much a goal counts, 1 unless given.
     hold : dict or sequence of str
         ``FACTOR=VALUE``.
     model, confidence
-        As for `effects`.
+        See `effects`.
     runs : int
         Make up to so many runs where improvement is expected, between levels of numbers, too, one place after the other, each with all seeds.
         The best place that was run is given.
     confirm : bool
         Make runs at the best settings.
     jobs, workers, progress
-        As for ``plateau.sweep``.
+        See ``plateau.sweep``.
 
     Returns
     -------

@@ -31,7 +31,7 @@ INTERVALS = ["mean_low", "mean_high", "run_low", "run_high"]
 
 @dataclass(frozen=True, repr=False)
 class Prediction(Answer):
-    """What is expected of the responses of a study at places.
+    """Forecasts of the responses of a study at places.
 
     Attributes
     ----------
@@ -71,7 +71,7 @@ class Prediction(Answer):
         return wide.assign(beyond=at_place["beyond"].first().to_numpy(), cautions=[joined(own["cautions"]) for _, own in at_place])
 
     def document(self) -> dict[str, Any]:
-        """What ``plateau sweep predict --json`` prints, SI units."""
+        """The JSON of ``plateau sweep predict --json``, SI units."""
         places = []
         for (_, rows), (_, place) in zip(self.table.groupby("place", sort=False), self.places.iterrows(), strict=True):
             told, beyond = plain(rows.to_dict("records")), list(filter(None, rows["beyond"].iloc[0].split("; ")))
@@ -85,7 +85,7 @@ class Prediction(Answer):
         return found | {"models": [surrogate.words or None for surrogate in self.surrogates], "places": places}
 
     def text(self) -> str:
-        """What ``plateau sweep predict`` prints."""
+        """The text that ``plateau sweep predict`` prints."""
         lines: list[str] = []
         for (number, rows), (_, place) in zip(self.table.groupby("place", sort=False), self.places.iterrows(), strict=True):
             asked = {one.name: "" if one.name in self.given else " (not given)" for one in self.study.factors}
@@ -120,7 +120,7 @@ def forecast_cells(study: Study, row: dict[Any, Any], confidence: float) -> tupl
 
 
 def confirmed_words(row: dict[Any, Any], unit: Unit) -> str:
-    """What runs at a place gave, mean ± standard error, for people."""
+    """Result of runs at a place, mean ± standard error, for people."""
     judged = "" if row["is_within"] is None else f", {'within' if row['is_within'] else 'outside'} the interval of runs"
     return f"{unit.text(row['confirmed'], row['confirmed_error'])}, {row['confirmed_runs']:.0f} runs{judged}"
 
@@ -141,7 +141,7 @@ def reported(row: dict[Any, Any], error: str) -> dict[str, Any]:
 
 
 def confirmed_by(row: dict[Any, Any]) -> dict[str, Any] | None:
-    """What runs at the place gave, for JSON; None without any."""
+    """Result of runs at the place, for JSON; None without any."""
     count = int(row["confirmed_runs"])
     made = {"runs": count, "mean": row["confirmed"], "standard_error": row["confirmed_error"]}
     return {**made, "within_run_interval": row["is_within"]} if count else None
@@ -169,11 +169,11 @@ def predict(
     confirm : bool
         Make runs there, with all seeds of the study.
     model : str, optional
-        As for `effects`.
+        See `effects`.
     confidence : float
         Level of the intervals.
     jobs, workers, progress
-        As for ``plateau.sweep``.
+        See ``plateau.sweep``.
 
     Returns
     -------

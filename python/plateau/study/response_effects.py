@@ -1,4 +1,4 @@
-"""What the factors of a study do to one response: the analysis of variance with effects, means, and what the runs say of its scale."""
+"""Effects of the factors of a study on one response: the analysis of variance with effects, means, and what the runs say of its scale."""
 
 import itertools
 from collections.abc import Sequence
@@ -33,14 +33,14 @@ NONE |= {"equations": [], "lenth": None, "terms": [], "cautions": []}
 
 @dataclass(frozen=True, repr=False)
 class ResponseEffects:
-    """What the factors do to one response, on the scale of the fit.
+    """Effects of the factors on one response, on the scale of the fit.
 
     Attributes
     ----------
     fit : Fitted or None
-        None where nothing could be fitted.
+        Model that was fitted; None where nothing could be.
     error : str
-        Why; empty otherwise.
+        Reason why nothing could be fitted; empty otherwise.
     table : pandas.DataFrame
         The analysis of variance, type III: a row for the sets of seeds (``replicate``), each term, the residual with its parts, and the
         total. ``effect`` is the difference between the ends of a factor; of a product half the difference between the effects of one
@@ -50,9 +50,9 @@ class ResponseEffects:
     box_cox : tuple of float, or None
         Power of the response that the model fits best, and the ends of the powers that fit hardly worse.
     advice : str
-        What that says of the transform; empty where there is nothing to say.
+        Advice from that power on the transform; empty where there is nothing to say.
     equations : dict
-        By ``"coded"`` and ``"of the study"``, the ``variables`` of each product and its ``coefficient``.
+        Equations by ``"coded"`` and ``"of the study"``: the ``variables`` of each product and its ``coefficient``.
     """
 
     response: Response
@@ -66,7 +66,7 @@ class ResponseEffects:
 
     @property
     def title(self) -> str:
-        """What is fitted, such as ``log(contact area, m²)``."""
+        """Name of what is fitted, such as ``log(contact area, m²)``."""
         unit = "" if self.response.unit == "1" else f", {shown_unit(self.response.unit)}"
         return self.response.name if self.response.transform == "none" else f"{self.response.transform}({self.response.name}{unit})"
 
@@ -82,7 +82,7 @@ class ResponseEffects:
 
     @property
     def summary(self) -> dict[str, Any]:
-        """How well the model fits: shares of the variance that it explains, error, numbers of runs."""
+        """Quality of the fit: shares of the variance that it explains, error, numbers of runs."""
         if (fit := self.fit) is None:
             return {}
         residual, total = fit.residual, fit.total
@@ -143,7 +143,7 @@ class ResponseEffects:
 
 
 def error_from(fit: Fitted) -> str:
-    """What tells the error, in words."""
+    """Source of the error, in words."""
     if fit.residual_freedom == 0:
         return "none: the model is saturated"
     if np.isnan(fit.error):
@@ -276,7 +276,7 @@ def lenth(table: pandas.DataFrame, confidence: float) -> tuple[float, float, flo
 def box_cox(fit: Fitted) -> tuple[float, float, float] | None:
     """Power of the response that the model fits best, and the powers that fit hardly worse; None unless all responses are above 0.
 
-    Its likelihood is that of (u^power - 1)/power, u the response by its geometric mean (G. E. P. Box, D. R. Cox, J. R. Stat. Soc. B 26 (1964)).
+    Likelihood: that of (u^power - 1)/power, u the response by its geometric mean (G. E. P. Box, D. R. Cox, J. R. Stat. Soc. B 26 (1964)).
     """
     responses, basis = fit.response.back(fit.values), fit.fit.basis
     if np.isnan(fit.error) or not (responses > 0).all() or fit.residual_freedom < 3:
@@ -302,7 +302,7 @@ def box_cox(fit: Fitted) -> tuple[float, float, float] | None:
 
 
 def transform_advice(fit: Fitted, found: tuple[float, float, float] | None) -> str:
-    """What the best power says of the transform: nothing where another one would not forecast points better that it does not know."""
+    """Advice from the best power on the transform; empty where another one would not forecast points better that it does not know."""
     power = TRANSFORMS.get(fit.response.transform)
     if found is None or power is None or found[1] <= power <= found[2]:
         return ""

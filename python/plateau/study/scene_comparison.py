@@ -70,10 +70,10 @@ class Comparison(Answer):
     titles : dict
         Names and what figures call the scenes: their titles, if these differ.
     confidence : float
-        Of the intervals.
+        Confidence of the intervals.
     cautions : list of str
     directory : Path
-        Where runs are kept.
+        Folder in which runs are kept.
     """
 
     table: pandas.DataFrame
@@ -88,7 +88,7 @@ class Comparison(Answer):
 
     @property
     def title(self) -> str:
-        """Which scenes."""
+        """Names of the scenes, the reference last."""
         first, *others = self.scenes
         return f"{', '.join(others)} against {first}"
 
@@ -111,7 +111,7 @@ class Comparison(Answer):
         return [*self.table["words"], *(f"caution: {caution}" for caution in self.cautions)]
 
     def text(self) -> str:
-        """What ``plateau compare`` prints."""
+        """The text that ``plateau compare`` prints."""
         lines = listed(self.shown().astype(str).to_dict("records"))
         return with_minus("\n".join([self.title, *lines, *(f"  {words}" for words in self.said()), ""]))
 
@@ -172,7 +172,7 @@ def compare(
     Parameters
     ----------
     scenes : sequence of path
-        Two or more; the first one is the reference.
+        Two or more scenes; the first one is the reference.
     seeds : int
         Number of sets of surfaces, 1, 2, ...; all synthetic surfaces of a scene have the same seed.
     responses : sequence of str
@@ -186,7 +186,7 @@ def compare(
     confidence : float
         Confidence of intervals.
     jobs, workers, progress : optional
-        As for ``plateau.sweep``.
+        See ``plateau.sweep``.
 
     Returns
     -------
@@ -356,7 +356,7 @@ def _seed_keys(scene: Mapping[str, Any]) -> list[str]:
 
 
 def _fixed(scene: Mapping[str, Any]) -> list[str]:
-    """What of the surfaces of a resolved scene is the same with all seeds: of one that is extended by its statistics, the patch."""
+    """Surfaces of a resolved scene that are the same with all seeds; of one that is extended by its statistics, the patch."""
     paths = [path for path, _ in _leaves(scene)]
 
     def has(place: str) -> bool:
@@ -404,7 +404,7 @@ def of_scenes(
     directory : path
         Folder of the study, which has the file ``study.toml`` then.
     responses : str or sequence of str
-        As for `compare`: ``"contact_area:mean"``, ``"worn_pin:end"``.
+        Responses as for `compare`: ``"contact_area:mean"``, ``"worn_pin:end"``.
     force : bool
         Write the files of a study that is there anew; its results stay.
 

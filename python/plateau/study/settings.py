@@ -87,7 +87,7 @@ def ends_of(study: Study, factor: Factor) -> tuple[float, float]:
 
 
 def reach_of(study: Study) -> float:
-    """How far from the middle the region goes in all numbers together, coded: to the corners of the ranges, or to the farthest run."""
+    """Distance from the middle to the farthest place of the region in all numbers together, coded: a corner of the ranges, or a run."""
     coded = [factor.coded(study.runs[factor.name]) for factor in study.factors if factor.is_number]
     return float(max(len(coded), np.square(coded).sum(axis=0).max(initial=0.0)) ** 0.5)
 
@@ -104,7 +104,7 @@ def region_of(study: Study) -> str:
 
 
 def beyond_of(study: Study, places: pandas.DataFrame) -> list[str]:
-    """By place, which factors are beyond the region of the design: the ranges, and around them what is no farther out than runs are."""
+    """Factors, by place, that are beyond the region of the design: the ranges, and around them what is no farther out than runs are."""
     said: list[list[str]] = [[] for _ in range(len(places))]
     coded = {factor: factor.coded(places[factor.name].to_numpy(float)) for factor in study.factors if factor.is_number}
     for factor, own in coded.items():
@@ -128,7 +128,7 @@ def straight_between(study: Study, places: pandas.DataFrame) -> list[str]:
 
 
 def no_curve(names: list[str]) -> list[str]:
-    """That the runs show no curve of factors with two values."""
+    """Caution that the runs show no curve of factors with two values."""
     if not names:
         return []
     said = f"no curve of {', '.join(names)}: the runs have two values of {'it' if len(names) == 1 else 'each'}, and between these forecasts "

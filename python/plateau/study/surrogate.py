@@ -26,9 +26,9 @@ POINTS_FOR_EACH, MOST_POINTS = 10, 1000
 
 @dataclass(frozen=True, repr=False)
 class Surrogate:
-    """What forecasts a response: the model that was fitted to it, or a process, whichever forecasts points better that it does not know.
+    """Surrogate of a response: the model that was fitted to it, or a process, whichever forecasts points better that it does not know.
 
-    Either is None where there is none, and `error` says why nothing could be fitted.
+    `fit` and `process` are None where there is none; `error` says why nothing could be fitted.
     """
 
     study: Study
@@ -44,7 +44,7 @@ class Surrogate:
 
     @cached_property
     def _candidates(self) -> list[tuple[str, float]]:
-        """What model and process are, and roots of the mean squares of their leave-one-point-out errors, SI; NaN where they are not known."""
+        """Names of model and process, and roots of the mean squares of their leave-one-point-out errors, SI; NaN where not known."""
         response, process = self.response, self.process
         of = response.name if response.transform == "none" else f"{response.transform}({response.name})"
         found = [(f"{WORDS.get(self.fit.model, self.fit.model)} in {of}", self.fit.loo_error) if self.fit else ("", np.nan)]
@@ -55,7 +55,7 @@ class Surrogate:
 
     @property
     def words(self) -> str:
-        """What it is, such as ``quadratic in log(wear)``."""
+        """Name of what forecasts, such as ``quadratic in log(wear)``."""
         return self._candidates[self.takes_process][0]
 
     @property
@@ -85,14 +85,14 @@ class Surrogate:
 
     @property
     def is_chance(self) -> bool:
-        """Whether what is forecast may be scatter: the model is not significant, or the process foretells points no better than their mean."""
+        """True if the forecast may be scatter: the model is not significant, or the process foretells points no better than their mean."""
         if self._taken is not None:
             return not self.missed < 1.0
         return bool(f_test(self._fit.explained, self._fit.residual)[1] > 1.0 - self._fit.confidence)
 
     @cached_property
     def cautions(self) -> list[str]:
-        """What is to be known before it is believed: a sentence each."""
+        """Cautions to read before a forecast is believed: a sentence each."""
         if self._taken is None:
             said = cautions(self.fit) if self.fit else []
         else:
@@ -155,7 +155,7 @@ def _columns(study: Study, factor: Factor, points: pandas.DataFrame) -> Numbers:
 
 
 def surrogates(study: Study, model: str | None = None, confidence: float = 0.95, of_any_design: bool = False) -> list[Surrogate]:
-    """What forecasts each response; no process if a model is asked for, or points do not fill ranges, unless `of_any_design`."""
+    """Surrogate of each response; no process if a model is asked for, or points do not fill ranges, unless `of_any_design`."""
     counts = [study.runs[factor.name].nunique() for factor in study.factors if factor.is_number]
     has_many = study.design not in SPARSE and all(count > MOST_FACTORIAL_LEVELS for count in counts)
     found, may_be_process = [], model is None and (of_any_design or study.design in FILLING or has_many)

@@ -43,7 +43,7 @@ MISSED = 0.1
 
 @dataclass(frozen=True, repr=False)
 class Sensitivity(Answer):
-    """Which part of the variance of each response each factor has.
+    """Parts of the variance of each response that the factors have.
 
     Attributes
     ----------
@@ -64,11 +64,11 @@ class Sensitivity(Answer):
 
     @property
     def is_morris(self) -> bool:
-        """Whether the table has elementary effects."""
+        """True if the table has elementary effects."""
         return self.study.design == "morris"
 
     def document(self) -> dict[str, Any]:
-        """What ``plateau sweep sensitivity --json`` prints."""
+        """The JSON of ``plateau sweep sensitivity --json``."""
         responses = []
         for surrogate in self.surrogates:
             response, found = surrogate.response, {}
@@ -93,7 +93,7 @@ class Sensitivity(Answer):
         return pandas.concat([largest_first, rows[is_seeds]])
 
     def text(self) -> str:
-        """What ``plateau sweep sensitivity`` prints."""
+        """The text that ``plateau sweep sensitivity`` prints."""
         lines = []
         for surrogate in self.surrogates:
             response, rows = surrogate.response, self.ranked(surrogate.response.name).to_dict("records")
@@ -134,7 +134,7 @@ def sensitivity(study: Study | str | os.PathLike[str], confidence: float = 0.95)
     Parameters
     ----------
     study : path or Study
-        Of a Morris design it gives elementary effects, of others Sobol's indices of what forecasts the response best.
+        Study, TOML; a Morris design gives elementary effects, any other Sobol's indices of what forecasts the response best.
     confidence : float
         Level of the intervals.
 
@@ -274,12 +274,12 @@ def drawn_models(one: Surrogate, places: pandas.DataFrame, random: np.random.Gen
 
 
 def _student(freedom: float, count: int, random: np.random.Generator) -> Numbers:
-    """So many values of Student's t with a common scale."""
+    """Values of Student's t with a common scale."""
     return np.asarray(random.standard_normal(count) * np.sqrt(freedom / random.chisquare(freedom)))
 
 
 def elementary_effects(study: Study, response: str) -> pandas.DataFrame:
-    """What a response changes by when one factor does, along the trajectories of a Morris design, per whole range or change of level."""
+    """Elementary effects of the factors on a response, along the trajectories of a Morris design, per whole range or change of level."""
     # Means over the seeds; a point of which one is missing is left out, for its other seeds would be compared with other ones.
     at_point = study.runs.groupby("point")
     points, mean = at_point.first(), at_point[response].mean().where(at_point[response].count() == at_point.size())
