@@ -24,7 +24,7 @@ def check(scene: Path | Mapping[str, Any] | Scene, *, set: Mapping[str, Any] | N
     Parameters
     ----------
     scene, set, workers
-        As for `run`.
+        See `run`.
 
     Returns
     -------
@@ -89,7 +89,7 @@ def command(*arguments: Any, json: bool = False, **options: Any) -> Any:
     *arguments : str, path or Scene
         The command and its arguments: ``"surface", "disc.sdf"``.
     json : bool
-        Whether the command prints JSON, which is returned as Python objects. ``plateau COMMAND --help`` says which commands can do this.
+        True if the command prints JSON, which is returned as Python objects. ``plateau COMMAND --help`` says which commands can do this.
     **options
         Options of the command, with ``_`` instead of ``-``: ``force=True`` is ``--force``, ``output="figures"`` is ``--output figures``, a
         list repeats the option. ``set`` takes a mapping, as for `run`. Options that are None or False are left out.

@@ -24,9 +24,9 @@ class Mean(NamedTuple):
     value : float
         The mean, in the unit of the quantity.
     error : float
-        Its standard error; NaN if the part is too short (fewer than five samples or revolutions).
+        Standard error; NaN if the part is too short (fewer than five samples or revolutions).
     start, end : float
-        The part, s.
+        Start and end of the part, s.
     revolutions : float
         Simulated revolutions of the disc in it; NaN if they are not known.
     unit : str
@@ -117,7 +117,7 @@ def mean_between(time: Array, integral: Array, revolutions: Array | None, start:
     revolutions : array, shape (samples,), optional
         Simulated revolutions until then.
     start, end : float
-        The part, s.
+        Start and end of the part, s.
     known_time : array, shape (samples,), optional
         Time until each of them in which the quantity has a value, s: the mean is over this time. By default all of it.
 

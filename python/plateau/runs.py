@@ -44,7 +44,7 @@ def run(
     Parameters
     ----------
     scene : path, str, mapping or Scene
-        As for `Scene`.
+        See `Scene`.
     output : path, optional
         The run file; by default the one that the scene names.
     set : mapping, optional
@@ -52,7 +52,7 @@ def run(
     workers : int or "auto", optional
         Threads that share the run.
     engine : {"fast", "plain"}
-        As for `Simulation`.
+        See `Simulation`.
     force : bool
         Replace an existing run file.
     resume : bool
@@ -60,7 +60,7 @@ def run(
     extend_to : float or str, optional
         Continue beyond the end of a run, to this time, s, or text with a unit such as ``"2 h"``.
     progress : bool, optional
-        Whether progress is shown; by default in notebooks and terminals.
+        Show progress; by default in notebooks and terminals.
 
     Returns
     -------
@@ -145,7 +145,7 @@ def sweep(
     force : bool
         Replace tables even by ones with fewer finished runs.
     progress : bool, optional
-        Whether progress is shown; by default in notebooks and terminals.
+        Show progress; by default in notebooks and terminals.
 
     Returns
     -------

@@ -40,9 +40,9 @@ class Heights:
     pitch : tuple of float
         Distances of the points along x and y, m.
     by : str
-        What read them, with its version.
+        Program or library that read them, with its version.
     notes : list of str
-        What a user should know.
+        Notes that a user should know.
     """
 
     values: Any
@@ -61,7 +61,7 @@ def convert(path: str | os.PathLike[str], output: str | os.PathLike[str] | None 
     output : path, optional
         File to write; unless given, `path` with the ending ``.h5``.
     force : bool
-        Whether a file there is replaced.
+        Replace a file that is there.
 
     Returns
     -------

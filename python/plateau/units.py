@@ -242,9 +242,9 @@ def quantity(said: object, si: str, *, is_difference: bool = False, needs_unit: 
     si : str
         The SI unit.
     is_difference : bool
-        Whether it is a difference, of which 5 °C are 5 K.
+        True for a difference, of which 5 °C are 5 K.
     needs_unit : bool
-        Whether text must have a unit; otherwise text without one is in the SI unit, too.
+        True if text must have a unit; otherwise text without one is in the SI unit, too.
     example : str, optional
         A text that messages give where a number cannot be given, as on a command line.
 
