@@ -12,6 +12,7 @@ use plateau_tests::program::{Outcome, WorkingDirectory, kill, scene, wait_until}
 use plateau_tests::run_file::{Content, RunFile, differences, differences_of_start};
 use plateau_tests::scenes::Stream;
 use plateau_tests::scenes::few_or_all;
+use serde_json::Value;
 
 /// A run of some seconds with many samples, some maps and a checkpoint every few hundredths of a second.
 fn arguments(file: &str, more: &[&str]) -> Vec<String> {
@@ -223,9 +224,17 @@ fn a_checkpoint_of_the_end_is_believed_only_beside_the_file_of_the_end() {
 #[test]
 fn a_finished_run_goes_on_beyond_its_end() {
     let directory = WorkingDirectory::new();
-    assert_eq!(run(&directory, "run.h5", &["--set", "operation.duration=5 s"]).status, Some(0));
-    run(&directory, "run.h5", &["--set", "operation.duration=5 s", "--extend-to", "15 s"]).ends(0, &[]);
+    let told = |file: &str, more: &[&str]| -> Value {
+        let done = run(&directory, file, &[more, &["--json"]].concat());
+        serde_json::from_str(&done.stdout).unwrap_or_else(|error| panic!("{error}: {done:?}"))
+    };
+    let short = told("run.h5", &["--set", "operation.duration=5 s"]);
+    let longer = told("run.h5", &["--set", "operation.duration=5 s", "--extend-to", "15 s"]);
     assert_eq!(run(&directory, "whole.h5", &["--set", "operation.duration=15 s"]).status, Some(0));
+    // Its speed is that of the steps that it took itself.
+    let [steps, before] = [&longer, &short].map(|summary| summary["steps"].as_u64().unwrap());
+    let [speed, time] = ["steps_per_second", "wall_time"].map(|name| longer[name].as_f64().unwrap());
+    assert_eq!((speed * time).round() as u64, steps - before);
     let [longer, whole] = ["run.h5", "whole.h5"].map(|name| RunFile::open(directory.path(name)));
     // 5 s is a multiple of the samples' time, so there is none more.
     for series in ["contact_area", "pool", "filled_fraction"] {

@@ -128,7 +128,7 @@ impl Prepared {
         }
         let checkpointer = Checkpointer::new(&path, identity, scene.output.checkpoint_every, state.as_ref());
 
-        let start = Instant::now();
+        let (start, before) = (Instant::now(), assembly.simulation.course().steps);
         observer.starts("", assembly.schedule.end_time());
         let (agreement, recorded) = (Agreement::default(), Recorded::new(&scene.parameters));
         let is_stiff = is_stiff(&scene.parameters, scene.parameters.first_stiffness_number());
@@ -166,6 +166,7 @@ impl Prepared {
             chosen,
             course,
             report,
+            before,
             wall_time,
         );
         summary.inexact_load().iter().for_each(|warning| observer.warning(warning));

@@ -32,7 +32,7 @@ pub struct RunSummary {
     pub time: f64,
     /// Wall time in this process, s.
     pub wall_time: f64,
-    /// Steps of the whole run over that time, 1/s.
+    /// Steps of this process over that time, 1/s.
     pub steps_per_second: f64,
     /// Number of times that the load was looked for in a step, mean.
     pub load_evaluations_per_step: f64,
@@ -158,7 +158,8 @@ fn of_brake(extras: &[&Extra], last: &Sample) -> BTreeMap<&'static str, f64> {
 }
 
 impl RunSummary {
-    /// Puts together what was done for the surfaces and what the run file, the last sample, the simulation and the writer tell.
+    /// Puts together what was done for the surfaces and what the run file, the last sample, the simulation and the writer tell; `before`
+    /// are the steps of earlier processes.
     #[expect(clippy::too_many_arguments, reason = "each from somewhere else")]
     pub(crate) fn new(
         scene: &Scene,
@@ -170,6 +171,7 @@ impl RunSummary {
         chosen: Option<Chosen>,
         course: Course,
         report: WriterReport,
+        before: u64,
         wall_time: f64,
     ) -> Self {
         // With a cycle, the distance at the end counts also what of the last pause's angle no step has turned.
@@ -187,7 +189,7 @@ impl RunSummary {
             steps: last.step,
             time: last.time,
             wall_time,
-            steps_per_second: last.step as f64 / wall_time,
+            steps_per_second: (course.steps - before) as f64 / wall_time,
             load_evaluations_per_step: 1.0 + course.extra_readings as f64 / course.steps as f64,
             writer_wait: report.waited.as_secs_f64(),
             peak_memory: memory::peak(),

@@ -147,7 +147,7 @@ pub(super) fn counted(factors: usize) -> String {
     format!("{factors} factor{}", if factors == 1 { "" } else { "s" })
 }
 
-/// Tells whether all factors are ranges or have two levels, as this design needs.
+/// Refuses factors that are neither ranges nor of two levels, as this design needs them.
 pub(super) fn only_ends(factors: &[Factor], design: &str) -> Result<(), DesignError> {
     match factors.iter().position(|factor| factor.levels() != 2) {
         None => Ok(()),
