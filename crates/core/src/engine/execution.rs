@@ -62,7 +62,7 @@ pub struct Execution {
     pub decomposition: Decomposition,
     /// True if each worker stays on a core of its own.
     pub pin: bool,
-    /// True if cells to which nothing out of the ordinary happens are swept with few instructions: false is for tests.
+    /// True if cells to which nothing out of the ordinary happens are passed over with few instructions: false is for tests.
     pub shortcut: bool,
 }
 

@@ -1,12 +1,12 @@
 //! Storage of heights as the kernels want it, of disc and pin, and a bit for what each cell of the pin is: strips of eight rows, each
 //! strip column by column.
 //!
-//! A strip of a column is one [`Chunk`]; a sweep along a strip reads and writes memory from one end to the other. Rows
+//! A strip of a column is one [`Chunk`]; a pass along a strip reads and writes memory from one end to the other. Rows
 //! beyond the mesh fill up the last strip: the pin's are so high, and the disc's so low, that they never touch.
 //!
 //! A pin that is no rectangle (model 1, extension) lacks cells. One that is not there is stored as resin out of reach, so that it never
 //! touches, wears or supports. What it must not get is debris: so the kernels know of every column of a strip which of its cells are there.
-//! Columns at either end without any such cell are not swept at all.
+//! Columns at either end without any such cell are not passed over at all.
 
 use std::ops::Range;
 

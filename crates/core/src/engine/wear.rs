@@ -6,7 +6,7 @@ use crate::engine::lanes::Lanes;
 
 /// Cells after wear.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Worn<L> {
+pub(crate) struct SurfaceLoss<L> {
     /// New surface height, m.
     pub height: L,
     /// Height that was really lost, m.
@@ -18,11 +18,11 @@ pub(crate) struct Worn<L> {
 /// A build-up is worn through where the raw loss Δh reaches it; the substrate then loses (1 − t/Δh) Δh_sub =
 /// (Δh − t) `below`, with `below` = Δh_sub/Δh, and surface and substrate coincide.
 #[inline(always)]
-pub(crate) fn pin<L: Lanes>(height: L, substrate: L, raw: L, below: L) -> Worn<L> {
+pub(crate) fn pin<L: Lanes>(height: L, substrate: L, raw: L, below: L) -> SurfaceLoss<L> {
     let build_up = substrate - height;
     let through = height.below(substrate) & !raw.below(build_up);
     let deeper = (raw - build_up) * below;
-    Worn {
+    SurfaceLoss {
         height: L::select(through, substrate + deeper, height + raw),
         lost: L::select(through, build_up + deeper, raw),
     }
@@ -30,10 +30,10 @@ pub(crate) fn pin<L: Lanes>(height: L, substrate: L, raw: L, below: L) -> Worn<L
 
 /// Wears cells of the disc by their raw loss (m), which lowers them; else as [`pin`].
 #[inline(always)]
-pub(crate) fn disc<L: Lanes>(height: L, substrate: L, raw: L, below: L) -> Worn<L> {
+pub(crate) fn disc<L: Lanes>(height: L, substrate: L, raw: L, below: L) -> SurfaceLoss<L> {
     // The disc is the pin upside down.
     let worn = pin(upside_down(height), upside_down(substrate), raw, below);
-    Worn { height: upside_down(worn.height), lost: worn.lost }
+    SurfaceLoss { height: upside_down(worn.height), lost: worn.lost }
 }
 
 /// Subtracts heights from 0, and does not negate them, so that the height 0 stays 0 and does not become −0, which has other bits.

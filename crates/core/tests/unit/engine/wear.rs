@@ -2,7 +2,7 @@ use super::*;
 use crate::engine::lanes::{Lanes, Portable};
 
 /// Height and loss of one cell.
-fn worn(wear: fn(Portable, Portable, Portable, Portable) -> Worn<Portable>, cell: [f64; 4]) -> (f64, f64) {
+fn worn(wear: fn(Portable, Portable, Portable, Portable) -> SurfaceLoss<Portable>, cell: [f64; 4]) -> (f64, f64) {
     let [height, substrate, raw, below] = cell.map(Portable::splat);
     let worn = wear(height, substrate, raw, below);
     (worn.height.chunk().0[5], worn.lost.chunk().0[5])
