@@ -248,7 +248,45 @@ class Seeds(unittest.TestCase):
             seeds_needed(study_of([number("A", -1.0, 1.0)], pandas.DataFrame({"A": [-1.0, 1.0, -1.0], "y": [1.0, 2.0, 1.5]})))
 
 
+class Missing(unittest.TestCase):
+    def test_values_that_are_missing_because_of_their_size_are_said(self) -> None:
+        runs = cube(3)
+        runs["y"] = 10.0 + runs["A"] + np.random.default_rng(1).normal(size=24)
+        lacks = runs.index[runs["A"] > 0][:5]
+        factors = [number(name, -1.0, 1.0) for name in "ABC"]
+        study = study_of(factors, runs.assign(y=runs["y"].where(~runs.index.isin(lacks))))
+        with warnings.catch_warnings(action="ignore", category=PlateauWarning):
+            found = effects(study)
+            self.assertIn("y: 5 of 24 runs have no value of it (5 of the 12 with A = 1): if such runs lack it because of how large it is", found.cautions[0])
+            self.assertIn(found.cautions[0].removeprefix("y: "), found.text())
+            self.assertEqual(found.cautions[0], found.document()["cautions"][0])
+            self.assertTrue(found.table["cautions"].str.startswith("5 of 24 runs have no value of it; ").all())
+            said = [effects(study_of(factors, runs.assign(y=runs["y"].where(kept))))["y"].cautions[0] for kept in (runs["replicate"] < 3, runs.index != 3)]
+            self.assertTrue(said[0].startswith("8 of 24 runs have no value of it: if"), said)
+            self.assertTrue(said[1].startswith("1 of 24 runs has no value of it (run 4): if"), said)
+        self.assertFalse(any("no value" in one for one in effects(study_of(factors, runs)).cautions))
+
+    def test_many_values_of_a_number_are_halves(self) -> None:
+        runs = pandas.DataFrame(stats.qmc.LatinHypercube(2, rng=np.random.default_rng(1)).random(20), columns=["A", "B"])
+        runs["y"] = (runs["A"] + runs["B"]).where(runs["B"] < 0.7)
+        cautions = effects(study_of([span("A", 0.0, 1.0), span("B", 0.0, 1.0)], runs, "latin-hypercube")).cautions
+        self.assertIn("6 of 20 runs have no value of it (6 of the 10 with B above 0.5)", cautions[0])
+
+
 class Model(unittest.TestCase):
+    def test_a_smaller_model_is_named_where_there_is_one(self) -> None:
+        corners = pandas.DataFrame(list(itertools.product((-1.0, 1.0), repeat=2)), columns=["A", "B"]).assign(y=[1.0, 2.0, 4.0, 3.0])
+        factors = [number(name, -1.0, 1.0) for name in "ABC"]
+        of_two = effects(study_of(factors[:2], corners)).text()
+        self.assertIn("no interval can be told: give [replicates] of seeds, such as those of the disc, or the smaller --model main", of_two)
+        self.assertIn("more points or --model main would", of_two)
+        # Half of 2³: three main effects and the mean are as many as runs.
+        half = study_of(factors, corners.assign(C=corners["A"] * corners["B"]), "fractional-factorial")
+        for model in (None, "main"):
+            said = effects(half, model).text()
+            self.assertIn("no interval can be told: give [replicates]", said)
+            self.assertNotIn("--model main", said)
+
     def test_centre_points_have_a_term(self) -> None:
         # D. C. Montgomery, Design and Analysis of Experiments, 8th ed., example 6.7: yield of a chemical process.
         corners = [(-1.0, -1.0, 39.3), (1.0, -1.0, 40.9), (-1.0, 1.0, 40.0), (1.0, 1.0, 41.5)]

@@ -269,7 +269,7 @@ class SensitivityTest(unittest.TestCase):
         rows = found.table.set_index("factor")
         self.assertTrue(rows.loc["B", ["first_order", "total", "total_low"]].isna().all())
         self.assertAlmostEqual(rows.loc["A", "total"], 1.0, places=6)
-        few = "as many coefficients as points"
+        few = "6 of 12 runs have no value of it; as many coefficients as points"
         self.assertEqual(rows["cautions"].tolist(), [f"no curve of A; {few}", f"not told by the runs; {few}", few])
         said = " ".join(found.document()["cautions"])
         self.assertIn("y: no parts of B: the runs have one value of it", said)

@@ -6,6 +6,7 @@ import numpy as np
 import pandas
 
 from plateau.study.model import MODELS, ROUNDING, Fitted, contrasts, named
+from plateau.study.model_choice import replicates_advice
 from plateau.study.response_effects import ResponseEffects
 from plateau.text_tables import aligned
 from plateau.units import Unit, unit_for, with_digits, with_minus
@@ -34,8 +35,7 @@ def told(one: ResponseEffects) -> tuple[list[str], list[list[str]], list[str]]:
     error = f"error {'' if np.isnan(fit.error) else 'from '}{summary['error_from']}"
     error += f"; residual {with_digits(fit.error**0.5 * scale)}{symbol}" if np.isfinite(fit.error) else ""
     if fit.residual_freedom == 0:
-        error += ", so no interval can be told: give [replicates] of seeds, such as those of the disc, or a smaller model, such as "
-        error += "--model main"
+        error += f", so no interval can be told: {replicates_advice(fit)}"
     for _, margins in table[["margin_of_error", "simultaneous_margin_of_error"]].dropna().head(1).iterrows():
         error += ", margin of error {}, simultaneous {} (Lenth)".format(*(with_digits(value * scale) for value in margins))
     missing = f", {fit.missing} without a response" if fit.missing else ""

@@ -4,6 +4,7 @@ from functools import lru_cache
 from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
 from plateau.errors import InputError
 from plateau.study.data import Response, Study
@@ -11,6 +12,8 @@ from plateau.study.model import CONTRIBUTES, LEAST_FREEDOM, MODELS, ROUNDING, Fi
 
 # Most coefficients of a model that is tried beside another one.
 MOST_TRIED = 300
+# Values of a number in the runs up to which each is a part of the design; of more the halves of its range are.
+MOST_PARTS = 5
 NO_CURVE = "no factor that is a number has more than two values"
 
 
@@ -23,9 +26,7 @@ def fitted(study: Study, response: Response, model: str | None = None, confidenc
     reason = "as asked for"
     if model is None:
         model, reason = _choice(study, response)
-    runs = study.runs
-    # What was measured elsewhere was measured for each run by itself.
-    own = np.ones(len(runs), bool) if not response.series else ~runs["same_as"].duplicated().to_numpy()
+    runs, own = study.runs, _own(study, response)
     values = response.scaled(runs[response.name])
     if (beyond := np.isfinite(runs[response.name].to_numpy(float)) & ~np.isfinite(values)).any():
         takes = {"log": "more than 0", "square root": "of at least 0", "logit": "more than 0 and less than 1"}[response.transform]
@@ -41,6 +42,11 @@ def fitted(study: Study, response: Response, model: str | None = None, confidenc
     if np.ptp(values) <= max(ROUNDING * largest, 1e-60):
         raise NothingToFit(f"the response is {float(values[0])!r} in all {len(values)} observations: no factor has an effect on it")
     return Fitted(study, response, model, runs[has], values, reason, confidence, centre, missing)
+
+
+def _own(study: Study, response: Response) -> npt.NDArray[np.bool_]:
+    """Marks the runs that have a value of their own: what was measured elsewhere was measured for each run by itself."""
+    return np.ones(len(study.runs), bool) if not response.series else ~study.runs["same_as"].duplicated().to_numpy()
 
 
 def _choice(study: Study, response: Response) -> tuple[str, str]:
@@ -120,9 +126,43 @@ def _other(fit: Fitted, model: str) -> Fitted | None:
     return other if is_told and not (model == "quadratic" and no_squares(other)) else None
 
 
+def _main(fit: Fitted) -> Fitted:
+    """The smallest model of the same response."""
+    return fitted(fit.study, fit.response, "main", fit.confidence, bool(fit.centre))
+
+
+def replicates_advice(fit: Fitted) -> str:
+    """Advice on what gives the effects of a saturated model an error."""
+    smaller = ", or the smaller --model main" if _main(fit).residual_freedom > 0 else ""
+    return f"give [replicates] of seeds, such as those of the disc{smaller}"
+
+
+def of_missing(fit: Fitted) -> list[str]:
+    """Caution that runs have no value of the response, with the part of the design that has most of them."""
+    if not fit.missing:
+        return []
+    runs, parts = fit.study.runs[_own(fit.study, fit.response)], list[tuple[str, npt.NDArray[np.bool_]]]()
+    lacks = ~runs.index.isin(fit.runs.index)
+    for factor in fit.study.factors:
+        values = runs[factor.name].to_numpy()
+        coded = np.round(factor.coded(values), 9) if factor.is_number else values
+        if factor.is_number and len(np.unique(coded)) > MOST_PARTS:
+            middle = factor.shown(float(factor.value(0.0)), 4)
+            parts += [(f"{factor.name} below {middle}", coded < 0.0), (f"{factor.name} above {middle}", coded > 0.0)]
+        else:
+            parts += [(f"{factor.name} = {factor.shown(values[own.argmax()], 4)}", own) for own in (coded == one for one in dict.fromkeys(coded))]
+    # Of those without a value that with most more than an even share.
+    name, part = max(parts, key=lambda one: lacks[one[1]].sum() - lacks.mean() * one[1].sum())
+    is_even = lacks[part].mean() <= lacks.mean() * (1.0 + 1e-9)
+    where = f" (run {runs.index[lacks][0]})" if fit.missing == 1 else "" if is_even else f" ({lacks[part].sum()} of the {part.sum()} with {name})"
+    said = f"{fit.missing} of {len(runs)} runs {'has' if fit.missing == 1 else 'have'} no value of it{where}: if such runs lack it because of how large it "
+    said += "is there, as those do that have not run in, results are biased, and intervals do not tell by how much; make these runs, or longer ones, "
+    return [said + "or take a response that all runs have"]
+
+
 def cautions(fit: Fitted) -> list[str]:
     """Cautions to read before the model is believed: a sentence each."""
-    said = []
+    said = of_missing(fit)
     missed, best = _misfit(fit)
     if missed is not None:
         p = "p < 0.0001" if missed["p"] < 1e-4 else f"p = {missed['p']:.2g}"
@@ -135,7 +175,8 @@ def cautions(fit: Fitted) -> list[str]:
         how = ": points differ from the model by more than replicates from each other" if missed["by_replicates"] else ""
         said.append(f"lack of fit{how} ({p}); {better}")
     if (freedom := fit.point_count - len(fit.own)) <= 0:
-        said.append("as many coefficients as points: runs cannot show what the model misses; more points or a smaller --model would")
+        smaller = " or --model main" if (main := _main(fit)).point_count > len(main.own) else ""
+        said.append(f"as many coefficients as points: runs cannot show what the model misses; more points{smaller} would")
     elif freedom < LEAST_FREEDOM:
         few = f"few points: {fit.point_count} for {len(fit.own)} coefficients"
         said.append(f"{few}, so that the fit hardly shows what the model misses")

@@ -10,7 +10,7 @@ import pandas
 from plateau.errors import InputError
 from plateau.study.data import Factor, Numbers, Response, Study
 from plateau.study.model import Fitted, NothingToFit, f_test
-from plateau.study.model_choice import cautions, fitted
+from plateau.study.model_choice import cautions, fitted, of_missing
 from plateau.study.process import Process
 from plateau.units import unit_of, with_digits
 
@@ -98,7 +98,7 @@ class Surrogate:
         else:
             points, factors = len(self._taken.points), len(self.study.factors)
             few = f"few points: {points} for {factors} factors; take {POINTS_FOR_EACH} for each factor or more"
-            said = [few] if points < POINTS_FOR_EACH * factors else []
+            said = of_missing(self._fit) + ([few] if points < POINTS_FOR_EACH * factors else [])
         if self.response.transform != "none" and self.fit and np.isfinite(self.fit._run_variance[0]):
             what = "a forecast, and its interval of means, is the median of runs with other seeds, not their arithmetic mean"
             said = [*said, f"transformed ({self.response.transform}): {what}"]
