@@ -307,6 +307,17 @@ class CautionsOfTables(unittest.TestCase):
             self.assertTrue(answer.table["cautions"].str.contains("few points; two sets of seeds").all(), answer.table["cautions"].tolist())
         self.assertTrue(found[1].table["cautions"].str.startswith("no curve of A, B, C; ").all())
         words = runs.assign(pad=np.resize(["p", "q", "r"], 16))[["pad", "replicate", "y"]]
+        # Pure chance, whose largest value is nowhere sure, in polynomials and in processes.
+        corners = pandas.DataFrame(np.repeat(list(itertools.product((-1.0, 0.0, 1.0), repeat=2)), 3, axis=0), columns=["A", "B"])
+        for seed, design in ((6, "central-composite"), (6, "latin-hypercube")):
+            given = corners.assign(y=np.random.default_rng(seed).normal(size=27), replicate=np.tile([1, 2, 3], 9))
+            chance = study_of([span("A"), span("B")], given, design)
+            for answer in (quietly(predict, chance, {"A": 0.3}), quietly(optimize, chance, maximize=["y"])):
+                told = "the runs do not show that any factor has an effect"
+                self.assertIn(told, answer.text())
+                self.assertIn(told, " ".join(answer.cautions))
+                self.assertIn(told, " ".join(answer.document()["cautions"]))
+                self.assertTrue(answer.table["cautions"].str.contains(told).all(), answer.table["cautions"].tolist())
         table = quietly(levels, study_of([word("pad", "p", "q", "r")], words)).table
         self.assertTrue(table["cautions"].str.contains("as many coefficients as points").all())
 

@@ -246,6 +246,12 @@ class Wishes(unittest.TestCase):
         self.assertEqual((best.get_xdata()[0], best.get_ydata()[0]), (found.settings["value"][0], np.nanmax(kept.get_ydata())))
         np.testing.assert_allclose(whole.get_ydata(), (1.0 + np.asarray(whole.get_xdata())) / 2.0, atol=1e-9)
 
+    def test_goals_that_exclude_each_other_are_in_the_table(self):
+        runs = pandas.DataFrame({"A": np.linspace(-1.0, 1.0, 9)}).assign(y=lambda runs: runs["A"], z=lambda runs: runs["A"])
+        found = optimize(study_of([span("A")], runs, "csv", responses={"y": "1", "z": "1"}), maximize=["y=0.5..1"], minimize=["z=-1..0"])
+        self.assertIn("a goal is worth nothing wherever the others are worth something: give wider values", found.text())
+        self.assertTrue(found.table["cautions"].str.startswith("a goal is worth nothing wherever").all())
+
     def test_what_cannot_be_wanted(self):
         given = study_of([span("A"), span("B", unit="N", study_unit="N")], LIMITS_MEET, "central-composite", responses=RESPONSES)
         for options, message in [

@@ -20,7 +20,7 @@ from plateau.study.goals import ROUNDING, Goal, Limit, Problem, axes_of, beyond_
 from plateau.study.prediction import INTERVALS, confirmed_by, confirmed_words, forecast_cells, forecast_table, reported, settings_at
 from plateau.study.results import analysed
 from plateau.study.runs import made_study
-from plateau.study.settings import beyond_of, ends_of, no_curve, region_of, straight_between
+from plateau.study.settings import beyond_of, ends_of, in_short, joined, no_curve, region_of, straight_between
 from plateau.study.surrogate import Surrogate, surrogates
 from plateau.style import APART, CHOSEN, LINES, NARROW, QUIET, WIDE, Figures, in_style, labelled, new
 from plateau.text_tables import listed
@@ -279,10 +279,6 @@ def _told(problem: Problem, best: pandas.DataFrame, confirming: pandas.DataFrame
     known = problem.surrogates.items()
     tables = {name: forecast_table(one, best, beyond, problem.confidence, confirming, [*cautions]) for name, one in known}
     cautions += [f"{name}: {said}" for name, table in tables.items() for said in table.attrs["cautions"]]
-    for goal in problem.goals:
-        if problem.surrogates[goal.response].is_chance:
-            why = "the runs do not show that any factor has an effect, so where it is best may be chance, of which its interval does not know"
-            cautions.append(f"{goal.response}: {why}")
     table = pandas.DataFrame([(response.name, response.unit) for response in study.responses], columns=["response", "unit"])
     columns = ["response", "value", *INTERVALS, "leverage", "cautions", "confirmed", "confirmed_error", "confirmed_runs", "is_within"]
     table = table.merge(pandas.concat(tables.values())[columns], "left", on="response").fillna({"cautions": "", "confirmed_runs": 0})
@@ -298,7 +294,8 @@ def _told(problem: Problem, best: pandas.DataFrame, confirming: pandas.DataFrame
             at_ends.append(f"{factor.name} ({factor.shown(value)})")
     total = float(overall(problem.goals, [worth[goal.response] for goal in problem.goals])) if keeps else 0.0
     if keeps and total <= 0.0:
-        cautions.append("a goal is worth nothing wherever the others are worth something; give wider values, such as NAME=LOW..HIGH")
+        cautions.append("a goal is worth nothing wherever the others are worth something: give wider values, such as NAME=LOW..HIGH")
+        table["cautions"] = [joined([in_short(cautions[-1:]), own]) for own in table["cautions"]]
     said = _canonical(problem, best)
     return Optimum(pandas.DataFrame(settings), table, total, keeps, at_ends, said, rounds, cautions, problem)
 

@@ -217,7 +217,7 @@ def forecast_table(
     one: Surrogate, places: pandas.DataFrame, beyond: list[str], confidence: float, made: pandas.DataFrame | None, general: list[str]
 ) -> pandas.DataFrame:
     """Forecasts of a response, with what is to be known of each; `general` is to be known of all responses."""
-    names, response, notes = ["value", *INTERVALS, "leverage"], one.response, list(one.cautions)
+    names, response, notes = ["value", *INTERVALS, "leverage"], one.response, [*one.cautions, *one.of_chance]
     found = one.forecast(places, confidence)[names] if one.fit else pandas.DataFrame(np.nan, index=places.index, columns=names)
     said: list[list[str]] = [[] for _ in range(len(places))]
     most = one.fit.most_leverage if one.fit else np.inf
@@ -225,6 +225,7 @@ def forecast_table(
     is_cut = found[["value", *INTERVALS]].isin(bounds).any(axis=1)
     advice = "" if response.transform != "none" else f'; transform = "{"logit" if response.high == 1.0 else "log"}" keeps to what can be'
     is_far, is_untold = found["leverage"] > most * (1.0 + SAME), found["mean_low"].isna() & (one.fit is not None)
+    of_all = in_short([*general, *notes])
     marked = {
         f"extrapolation: leverage is above {most:.3g}, the largest of the runs": is_far,
         "no interval: the runs do not tell it there, or leave no error; terms that cannot be told from others count as nothing": is_untold,
@@ -235,7 +236,7 @@ def forecast_table(
             notes.append(long + (f" ({int(marks.sum())} of {len(places)} places)" if len(places) > 1 else ""))
         for at in np.flatnonzero(marks):
             said[at].append(long.split(":")[0])
-    cautions = [joined([in_short([*general, *one.cautions]), *own]) for own in said]
+    cautions = [joined([of_all, *own]) for own in said]
     table = places.assign(response=response.name, unit=response.unit, **found, beyond=beyond, cautions=cautions)
     kinds = ["mean", "sem", "count"]
     runs = pandas.DataFrame(columns=kinds) if made is None else made.groupby("point")[response.name].agg(kinds)

@@ -84,11 +84,17 @@ class Surrogate:
         return said
 
     @property
-    def is_chance(self) -> bool:
-        """True if the forecast may be scatter: the model is not significant, or the process foretells points no better than their mean."""
-        if self._taken is not None:
-            return not self.missed < 1.0
-        return bool(f_test(self._fit.explained, self._fit.residual)[1] > 1.0 - self._fit.confidence)
+    def of_chance(self) -> list[str]:
+        """Caution that what forecasts differ by may be scatter: the model is not significant, or the process foretells no better than the mean."""
+        if (process := self._taken) is not None:
+            # Of means of points, which scatter less than runs.
+            missed = float(np.square(process.loo[0]).mean() / process.means.var())
+            is_chance, how = not missed < 1.0, f"points that were left out are missed by {100 * missed:.0f} % of their variance"
+        else:
+            p = f_test(self.fit.explained, self.fit.residual)[1] if self.fit else np.nan
+            is_chance, how = self.fit is not None and p > 1.0 - self.fit.confidence, f"p = {p:.2g}"
+        why = "what forecasts differ by, and where they are best, may be chance, of which intervals at the best place do not know"
+        return [f"the runs do not show that any factor has an effect ({how}): {why}; more sets of seeds or wider ranges may show one"] if is_chance else []
 
     @cached_property
     def cautions(self) -> list[str]:
