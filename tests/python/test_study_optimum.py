@@ -13,6 +13,7 @@ import numpy as np
 import pandas
 from checkout import QUICK, Folder
 from made_studies import number, span, study_of, word
+from matplotlib.colors import to_rgba
 from plateau.errors import InputError, RunFailed
 from plateau.study.data import Response
 from plateau.study.goals import Goal, Limit, Problem, beyond_runs, expected_improvement, improved, overall
@@ -20,6 +21,7 @@ from plateau.study.optimum import canonical, optimize
 from plateau.study.prediction import predict
 from plateau.study.results import analysed
 from plateau.study.runs import made_study, written
+from plateau.style import APART
 from plateau.units import quantity, unit_for
 from scipy import stats
 
@@ -245,6 +247,19 @@ class Wishes(unittest.TestCase):
         self.assertEqual(np.isfinite(kept.get_ydata()).sum(), 1)
         self.assertEqual((best.get_xdata()[0], best.get_ydata()[0]), (found.settings["value"][0], np.nanmax(kept.get_ydata())))
         np.testing.assert_allclose(whole.get_ydata(), (1.0 + np.asarray(whole.get_xdata())) / 2.0, atol=1e-9)
+
+    def test_the_star_is_where_limits_are_kept(self):
+        # A + B is largest where B = 0.33 - A² has a slope of -1; that limit is between places of an even grid.
+        places = pandas.DataFrame(list(itertools.product((-1.0, 0.0, 1.0), repeat=2)), columns=["A", "B"])
+        runs = places.assign(y=places["A"] + places["B"], z=places["A"] ** 2 + places["B"])
+        found = optimize(study_of([span("A"), span("B")], runs, "csv", responses={"y": "1", "z": "1"}), maximize=["y"], limit=["z<=0.33"])
+        np.testing.assert_allclose(found.settings["value"].astype(float), [0.5, 0.08], atol=1e-6)
+        areas = [one for one in found.figures()["contour"].axes[0].collections if one.filled]
+        missed, shown = ([one for one in areas if (one.get_facecolor()[0] == to_rgba(APART)).all() == is_grey] for is_grey in (True, False))
+        for a in np.linspace(-0.9, 0.9, 37):
+            inside, outside = ((a, 0.33 - a**2 + away) for away in (-1e-3, 1e-3))
+            self.assertTrue(any(path.contains_point(inside) for one in shown for path in one.get_paths()), a)
+            self.assertEqual([any(path.contains_point(at) for one in missed for path in one.get_paths()) for at in (inside, outside)], [False, True], a)
 
     def test_goals_that_exclude_each_other_are_in_the_table(self):
         runs = pandas.DataFrame({"A": np.linspace(-1.0, 1.0, 9)}).assign(y=lambda runs: runs["A"], z=lambda runs: runs["A"])

@@ -141,19 +141,18 @@ class Problem:
         found = {name: pandas.DataFrame({"value": value}) for name, value in values.items()}
         return found | {name: self.surrogates[name].forecast(points, self.confidence) for name in needs}
 
-    def worth(self, points: pandas.DataFrame) -> Numbers:
-        """The mean desirability; NaN where a limit is missed."""
-        found = self.forecasts(points)
-        return np.where(self.keeps(found), self.desirability(found), np.nan)
-
     def desirability(self, forecasts: dict[str, pandas.DataFrame]) -> Numbers:
         """The mean desirability, whether limits are kept or not."""
         return overall(self.goals, [goal.desirability(forecasts[goal.response]["value"]) for goal in self.goals])
 
+    def margins(self, forecasts: dict[str, pandas.DataFrame]) -> Numbers:
+        """Distance from the nearest limit, in differences that count; negative beyond one, infinite without any."""
+        margins = [limit.margin(forecasts[limit.response]) for limit in self.limits]
+        return np.asarray(np.min(margins, axis=0) if margins else np.full(len(next(iter(forecasts.values()))), np.inf))
+
     def keeps(self, forecasts: dict[str, pandas.DataFrame]) -> Numbers:
         """Tells whether forecasts keep all limits."""
-        kept = [limit.margin(forecasts[limit.response]) >= -ROUNDING for limit in self.limits]
-        return np.logical_and.reduce(kept) if kept else np.ones(len(next(iter(forecasts.values()))), bool)
+        return np.asarray(self.margins(forecasts) >= -ROUNDING)
 
     def merit(self, points: pandas.DataFrame) -> Numbers:
         """Merit: above 0 the mean desirability; below 0 how far a limit is missed or a response worth nothing, which tells the way back."""

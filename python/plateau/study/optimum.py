@@ -174,14 +174,21 @@ class Optimum(Answer):
         figures = {"profiler": figure}
         if pair or len(free) > 1:
             x, y = pair or sorted(sorted(free, key=lambda factor: -spans[factor.name])[:2], key=problem.study.factors.index)
-            grid = [_range(factor, best[factor.name], 2 * STEPS) for factor in (x, y)]
-            values = problem.worth(grid_points(x, y, grid, best)).reshape(2 * STEPS, 2 * STEPS)
-            if np.isfinite(values).any() and np.nanmax(values) > np.nanmin(values):
+            # The best settings, too, so that they are on the side of a limit where they belong.
+            grid = [np.union1d(_range(factor, best[factor.name], 2 * STEPS), [best[factor.name]]) for factor in (x, y)]
+            forecasts = problem.forecasts(grid_points(x, y, grid, best))
+            values, margins = (each.reshape(len(grid[0]), len(grid[1])) for each in (problem.desirability(forecasts), problem.margins(forecasts)))
+            kept = values[margins >= -ROUNDING]
+            if len(kept) and np.ptp(kept) > 0.0:
                 at = f", at {said}" if (said := held(problem.study.factors, best, (x, y))) else ""
                 note = f"Star: best settings{at}" + ("; grey: a limit is missed" if problem.limits else "")
-                figures["contour"] = drawn_map((x, y), grid, values, "desirability", f"Desirability over {x.name} and {y.name}{at}", note)
-                figures["contour"].axes[0].set_facecolor(APART)
-                dots(figures["contour"].axes[0], x, y, pandas.DataFrame([best]), "*", 9)
+                shown, caption = np.clip(values, kept.min(), kept.max()), f"Desirability over {x.name} and {y.name}{at}"
+                figures["contour"] = drawn_map((x, y), grid, shown, "desirability", caption, note)
+                axis = figures["contour"].axes[0]
+                if (missed := float(margins.min())) < -ROUNDING:
+                    places = [factor.in_study_unit(each) for factor, each in zip((x, y), grid, strict=True)]
+                    axis.contourf(*places, margins.T, [missed, -ROUNDING], colors=[APART], zorder=2.2)
+                dots(axis, x, y, pandas.DataFrame([best]), "*", 9)
         return figures
 
 
