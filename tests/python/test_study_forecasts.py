@@ -234,6 +234,7 @@ class SensitivityTest(unittest.TestCase):
         found = sensitivity(forecasts.study_of(x, np.sign(x.sum(1) - 0.1)))
         self.assertIn("a threshold or a kink", found.text())
         self.assertIn("a threshold or a kink", " ".join(found.document()["cautions"]))
+        self.assertTrue(found.table["cautions"].str.contains("points that were left out are missed by").all())
         smooth = sensitivity(forecasts.study_of(x, x[:, 0] + 0.5 * x[:, 1]))
         self.assertNotIn("threshold", smooth.text())
 
@@ -306,7 +307,6 @@ class CautionsOfTables(unittest.TestCase):
             self.assertIn("few points: 8 for 7 coefficients", answer.text())
             self.assertTrue(answer.table["cautions"].str.contains("few points; two sets of seeds").all(), answer.table["cautions"].tolist())
         self.assertTrue(found[1].table["cautions"].str.startswith("no curve of A, B, C; ").all())
-        words = runs.assign(pad=np.resize(["p", "q", "r"], 16))[["pad", "replicate", "y"]]
         # Pure chance, whose largest value is nowhere sure, in polynomials and in processes.
         corners = pandas.DataFrame(np.repeat(list(itertools.product((-1.0, 0.0, 1.0), repeat=2)), 3, axis=0), columns=["A", "B"])
         for seed, design in ((6, "central-composite"), (6, "latin-hypercube")):
@@ -318,6 +318,7 @@ class CautionsOfTables(unittest.TestCase):
                 self.assertIn(told, " ".join(answer.cautions))
                 self.assertIn(told, " ".join(answer.document()["cautions"]))
                 self.assertTrue(answer.table["cautions"].str.contains(told).all(), answer.table["cautions"].tolist())
+        words = runs.assign(pad=np.resize(["p", "q", "r"], 16))[["pad", "replicate", "y"]]
         table = quietly(levels, study_of([word("pad", "p", "q", "r")], words)).table
         self.assertTrue(table["cautions"].str.contains("as many coefficients as points").all())
 

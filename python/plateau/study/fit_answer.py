@@ -17,6 +17,7 @@ from plateau.study.data import Answer, Factor, Numbers, Study
 from plateau.study.figure_axes import dots, file_names, set_axis
 from plateau.study.likelihood import SETTLED, Likelihood, Target, products, profile, region
 from plateau.study.measured import Measurement
+from plateau.study.settings import in_short, joined, not_smooth
 from plateau.style import LINES, NARROW, QUIET, WIDE, Figures, in_style, labelled, new
 from plateau.text_tables import listed
 from plateau.units import shown_unit, unit_for, with_minus
@@ -83,11 +84,11 @@ class Fit(Answer):
 
     @cached_property
     def keys(self) -> pandas.DataFrame:
-        """A row for each piece of the interval of each key, with its ends; NaN where there is none, and why in ``cautions``."""
+        """A row for each piece of the interval of each key, with its ends; NaN where there is none, and why in ``cautions``, which are in short."""
         none = {"low": math.nan, "high": math.nan, "open_below": False, "open_above": False}
         rows = [(one.name, one.unit, likely, piece) for one, likely, pieces in self._intervals for piece in pieces or [none]]
         table = pandas.DataFrame([{"key": name, "unit": unit, "most_likely": likely, **piece} for name, unit, likely, piece in rows])
-        return table.assign(cautions=self.outcome.why_no_interval)
+        return table.assign(cautions=joined([self.outcome.why_no_interval, in_short(said.removesuffix(".") for said in self.cautions)]))
 
     @property
     def profiles(self) -> pandas.DataFrame:
@@ -197,8 +198,8 @@ class Fit(Answer):
             places = zip(self.study.factors, check["place"], strict=True)
             where = ", ".join(f"{factor.name} = {factor.shown(float(factor.value(at)), 4)}" for factor, at in places)
             worst = check["of"][int(np.nanargmax(np.abs(check["runs"] - check["forecast"]) / check["deviation"]))]
-            what = f"contradict the forecast, most in {measured[worst].response.name}, and no runs were left to find another place"
-            said.append(f"Runs at the most likely place ({where}) {what}; more runs in [fit] go on from here.")
+            what = f"most in {measured[worst].response.name}, and no runs were left to find another place"
+            said.append(f"Runs at the most likely place contradict the forecast ({where}), {what}; more runs in [fit] go on from here.")
         elif not outcome.checks:
             what = "the forecast there is not checked"
             if outcome.ended != "no runs":
@@ -214,6 +215,10 @@ class Fit(Answer):
             said.append("Two sets of seeds hardly tell what differs between sets, so intervals may be too short: take three or more.")
         for at, one in enumerate(measured):
             name, terms, uncertainty = one.response.name, self._terms.loc[[at]], 1.0 if one.is_series else one.uncertainties[0]
+            processes = [term.process for term in self._likelihood.terms if term.of == at]
+            # Of a series all components together, as far as the measurement can see them.
+            missed = sum(np.square(own.loo[0]).mean() for own in processes) / max(sum(own.means.var() for own in processes), 1e-300)
+            said += [f"{caution}." for caution in not_smooth(float(missed), f"Points of {name}")]
             if terms["seed_to_seed"].max() > uncertainty:
                 scatter = f"Runs with other seeds scatter in {name} by more than the uncertainty of the measurement"
                 said.append(f"{scatter}; if specimens do so, too, add it to the uncertainty, unless a mean of many was measured.")

@@ -13,6 +13,8 @@ from plateau.units import NUMBER, in_si
 
 # Coded values that differ by less are the same, and by less than the second as people type them.
 SAME, ROUNDED = 1e-9, 1e-5
+# Part of the variance that a surrogate may miss at points left out before its smoothness is said to matter.
+MISSED = 0.1
 
 
 def held_values(study: Study, said: Mapping[str, Any] | Sequence[str], where: str, is_curved: bool) -> dict[str, Any]:
@@ -134,6 +136,14 @@ def no_curve(names: list[str]) -> list[str]:
     said = f"no curve of {', '.join(names)}: the runs have two values of {'it' if len(names) == 1 else 'each'}, and between these forecasts "
     said += "follow a straight line, and their intervals do not know by how much the response bends; give a third value in the middle, "
     return [said + 'such as with design = "central-composite", and look with predict --confirm how far off a forecast is']
+
+
+def not_smooth(missed: float, points: str = "points", most: str = "") -> list[str]:
+    """Caution that a surrogate misses so much of the variance at points that were left out; none of a small part. `most` names intervals."""
+    if not missed > MISSED:
+        return []
+    said = f"{points} that were left out are missed by {100 * min(missed, 1.0):.0f} % of the variance: intervals hold for smooth responses, and are "
+    return [said + f"too short{most} if it has a threshold or a kink; narrower ranges or more points tell whether it has one"]
 
 
 def in_short(cautions: Iterable[str]) -> str:

@@ -23,7 +23,7 @@ from plateau.study.data import Answer, Numbers, Response, Study
 from plateau.study.figure_axes import file_names
 from plateau.study.process import Process
 from plateau.study.results import analysed
-from plateau.study.settings import in_short, no_curve, straight_between
+from plateau.study.settings import in_short, no_curve, not_smooth, straight_between
 from plateau.study.surrogate import Surrogate, surrogates
 from plateau.style import LINES, NARROW, QUIET, Figures, in_style, labelled, new, wrapped
 from plateau.text_tables import listed
@@ -37,8 +37,6 @@ EFFECTS = {"mean_size": "mean size μ*", "standard_error": "its error", "mean": 
 PARTS = {"first_order": "alone (first order)", "total": "with interactions (total)"}
 NUMBERS = ["mean_size", "mean", "deviation", "standard_error", "effects"]
 COLUMNS = ["response", "factor", *(f"{name}{end}" for name in PARTS for end in ("", "_low", "_high")), *NUMBERS, "unit", "cautions"]
-# Part of the variance that a surrogate may miss at points left out before its smoothness is said to matter.
-MISSED = 0.1
 
 
 @dataclass(frozen=True, repr=False)
@@ -169,7 +167,7 @@ def sensitivity(study: Study | str | os.PathLike[str], confidence: float = 0.95)
             untold = [factor.name for factor in one.fit.untold]
             bent = [] if one.takes_process else straight
             marks = [["not told by the runs"] * (name in untold) + no_curve([name] if name in bent else []) for name in table["factor"]]
-            short = [in_short([*own, *general, *one.cautions]) for own in marks]
+            short = [in_short([*own, *general, *one.cautions, *not_smooth(one.missed)]) for own in marks]
             tables.append(table.assign(response=one.response.name, unit="1", cautions=short))
             if untold:
                 at = ", ".join(f"{factor.name} = {factor.shown(one.fit.runs[factor.name].iloc[0])}" for factor in one.fit.untold)
@@ -177,9 +175,8 @@ def sensitivity(study: Study | str | os.PathLike[str], confidence: float = 0.95)
                 why = f"the runs have one value of {each}, or change {each} with another factor or the seeds"
                 advice = f"runs that change {each} alone would tell; parts of the others are those at {at}"
                 cautions.append(f"{one.response.name}: no parts of {', '.join(untold)}: {why}; {advice}")
-            said = f"points that were left out are missed by {100 * min(one.missed, 1.0):.0f} % of the variance: intervals hold for smooth"
-            said += " responses; if it has a threshold or a kink, they are too short, those of totals most"
-            cautions += [f"{one.response.name}: {caution}" for caution in [*one.cautions, *([said] if one.missed > MISSED else [])]]
+            rough = not_smooth(one.missed, most=", those of totals most,")
+            cautions += [f"{one.response.name}: {caution}" for caution in [*one.cautions, *rough]]
     whole = pandas.concat(tables, ignore_index=True) if tables else pandas.DataFrame()
     return Sensitivity(opened, whole.reindex(columns=COLUMNS), known, variances, confidence, cautions)
 
