@@ -248,6 +248,36 @@ class Seeds(unittest.TestCase):
             seeds_needed(study_of([number("A", -1.0, 1.0)], pandas.DataFrame({"A": [-1.0, 1.0, -1.0], "y": [1.0, 2.0, 1.5]})))
 
 
+    def test_levels_of_a_pilot_have_their_largest_difference(self) -> None:
+        runs = pandas.DataFrame(list(itertools.product((4.0, 12.0), "abc", (1, 2, 3))), columns=["load", "pad", "replicate"])
+        runs["y"] = np.random.default_rng(2).normal(size=18) + 3.0 * (runs["pad"] == "c")
+        study = study_of([number("load", 4.0, 12.0), word("pad", *"abc")], runs)
+        for half_width, wanted in ((0.5, 0.5), (None, None)):
+            found = seeds_needed(study, half_width)
+            self.assertEqual(found.table["term"].tolist(), ["load", "pad: c less a"])
+            row, means = found.table.iloc[1], runs.pivot_table("y", "replicate", "pad")
+            self.assertTrue((abs((means["c"] - means["a"]).mean()) > (means["c"] - means["b"]).mean()) and row["effect"] > 0.0)
+            self.assertAlmostEqual(row["effect"], (means["c"] - means["a"]).mean(), places=12)
+            self.assertAlmostEqual(row["scatter"], (means["c"] - means["a"]).std(), places=12)
+            self.assertEqual(row["sets"], sets_for(row["scatter"], wanted or row["effect"]))
+            self.assertIn("caution: y: no number of sets for load × pad: an interaction with a factor of three levels or more", found.text())
+            self.assertTrue(found.table["cautions"].str.contains("no number of sets for load × pad").all())
+            self.assertEqual("half of all cases" in found.text(), half_width is None)
+        self.assertIn("half width is the size of each effect of y", seeds_needed(study, {"z": 0.5}).cautions[0])
+        # At 4 one set alone has values: nothing tells the error of the load.
+        few = seeds_needed(study_of(study.factors, runs.assign(y=runs["y"].where((runs["load"] > 5.0) | (runs["replicate"] < 2)))), None)
+        self.assertEqual([caution.split(":")[1] for caution in few.cautions if "no error" in caution], [" no number of sets for load"])
+
+    def test_a_half_width_of_the_effect_leaves_out_none_in_half_of_the_cases(self) -> None:
+        # Powers of the t test, noncentral t: what the caution says.
+        for scatter in (2.0, 5.0):
+            for part, low, high in ((1.0, 0.5, 0.55), (0.5, 0.97, 0.98)):
+                sets = sets_for(scatter, part)
+                limit, shift = stats.t.ppf(0.975, sets - 1), sets**0.5 / scatter
+                power = stats.nct.sf(limit, sets - 1, shift) + stats.nct.cdf(-limit, sets - 1, shift)
+                self.assertTrue(low < power < high, (scatter, part, power))
+
+
 class Missing(unittest.TestCase):
     def test_values_that_are_missing_because_of_their_size_are_said(self) -> None:
         runs = cube(3)
