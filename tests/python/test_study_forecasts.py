@@ -137,6 +137,37 @@ class PredictionTest(unittest.TestCase):
         self.assertAlmostEqual(row["mean_high"] - 5.0, stats.t.ppf(0.975, 3) * (2.0 / 6.0) ** 0.5, places=9)
         self.assertAlmostEqual(row["leverage"], 1.0 / 3.0)
 
+    def test_one_degree_of_freedom_is_that_of_student(self):
+        # Four corners and a plane: the interval of one more run is that of textbooks, with one set of seeds that of the mean, too, for the
+        # residual may be what the plane misses.
+        runs = cube(1, 2).assign(y=[1.0, 2.0, 4.0, 7.0])
+        (row,) = quietly(predict, study_of([span("A"), span("B")], runs), {"A": 0.5, "B": 0.0}, model="main").table.to_dict("records")
+        # The residuals are ±0.5.
+        reach = stats.t.ppf(0.975, 1) * (1.0 + 0.25 + 0.25 * 0.5**2) ** 0.5
+        self.assertAlmostEqual(row["value"], 3.5 + 0.5 * 2.0, places=9)
+        for of in ("mean", "run"):
+            self.assertAlmostEqual(row[f"{of}_high"] - row["value"], reach, places=9)
+            self.assertAlmostEqual(row["value"] - row[f"{of}_low"], reach, places=9)
+
+    def test_one_more_run_is_as_far_away_as_those_that_tell_of_it(self):
+        # Of a mean and one more value: t(n - 1) s sqrt(1 + 1/n), be it of five sets of seeds that differ as a whole, or of runs of one set.
+        of_set = np.array([3.0, -1.0, 0.5, 2.0, -4.0])
+        runs = cube(5, 2)
+        runs["y"] = runs["A"] + of_set[runs["replicate"] - 1] + 1e-4 * np.random.default_rng(1).standard_normal(20)
+        expected = stats.t.ppf(0.975, 4) * of_set.std(ddof=1) * 1.2**0.5
+        twice = pandas.concat([cube(1, 2)] * 2).assign(y=[1.0, 2.0, 4.0, 7.0, 1.5, 3.0, 2.0, 7.0])
+        # Pairs differ by 0.5, 1, 2 and 0.
+        scatter = (0.5 * (0.5**2 + 1.0**2 + 2.0**2) / 4.0) ** 0.5
+        for columns, reach in ((runs, expected), (twice, stats.t.ppf(0.975, 4) * scatter * (1.0 + 1.0 / 8.0) ** 0.5)):
+            (row,) = quietly(predict, study_of([span("A"), span("B")], columns), {"A": 0.0, "B": 0.0}).table.to_dict("records")
+            self.assertAlmostEqual((row["run_high"] - row["run_low"]) / 2.0 / reach, 1.0, places=3)
+
+    def test_few_points_and_sets_that_differ_cover_one_more_run(self):
+        for case in ((1, 1, 0.0), (2, 1, 0.0), (1, 3, 3.0)):
+            means, runs = forecasts.straight_coverage(*case, 200)
+            # Two places of a simulation are alike: a standard error of 1.5 %.
+            self.assertTrue(means > 0.92 and 0.91 < runs < 0.985, (case, means, runs))
+
     def test_extrapolation_is_refused_and_cautioned(self):
         random = np.random.default_rng(0)
         x = random.uniform(-1.0, 1.0, (20, 2))
@@ -347,9 +378,10 @@ class Coverage(unittest.TestCase):
         made, both, said = runpy.run_path(str(HERE / "coverage" / "__main__.py")), np.array([0.95, 0.95]), io.StringIO()
         numbers = {
             "effects": {"simulated": both[None], "levels_simulated": 0.95, "lacks": 0.05},
-            "forecasts": {"process_coverage": both, "surrogate_coverage": ([both, both], [100, 100]), "sensitivity_coverage": both, "seeds_coverage": 0.95},
+            "forecasts": {"process_coverage": both, "surrogate_coverage": ([both, both], [100, 100]), "straight_coverage": both},
             "fit": {"coverage": (0.95, 0.95, 0.0), "budgets": (4, 0, [])},
         }
+        numbers["forecasts"] |= {"sensitivity_coverage": both, "seeds_coverage": 0.95}
         numbers["effects"]["of_runs"] = pandas.DataFrame({"seeds": [2], "over all seeds": 0.95})
         with contextlib.ExitStack() as patched, contextlib.redirect_stdout(said):
             for module, functions in numbers.items():

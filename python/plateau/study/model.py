@@ -407,20 +407,28 @@ class Fitted:
         left = float((known[:, 0] * known[:, 1]).mean())
         if pure.freedom > 0:
             left = max(left - pure.mean * float((1.0 / self.runs["point"].value_counts()).mean()), 0.0)
-        else:
-            left = max(left, self.residual.mean)
-        # With one or two degrees of freedom the quantile would say more of itself than of the errors; `cautions` tells of few points.
-        return left, float(max(freedom, LEAST_FREEDOM))
+            # What is beyond scatter: with one or two degrees of freedom the quantile would say more of itself than of that.
+            return left, float(max(freedom, LEAST_FREEDOM))
+        return max(left, self.residual.mean), float(freedom)
+
+    @cached_property
+    def _run_parts(self) -> list[tuple[float, float]]:
+        """Parts of the variance of runs of one point with other seeds, with their degrees of freedom; none without replicates.
+
+        First that in which sets of seeds differ as a whole, if there are several.
+        """
+        pure, count = self.scatter[0], self.seeds - 1
+        if pure.freedom < 1 or (all_of_it := float(self.within @ self.within)) <= 0:
+            return []
+        freedom = pure.freedom + count
+        of_sets = [(max(all_of_it - pure.sum, 0.0) / freedom, float(count))] if count else []
+        return [*of_sets, (pure.sum / freedom, pure.freedom)]
 
     @cached_property
     def _run_variance(self) -> tuple[float, float]:
         """Variance of runs of one point with other seeds, and its degrees of freedom; NaN without replicates."""
-        pure, count = self.scatter[0], self.seeds - 1
-        if pure.freedom < 1 or (all_of_it := float(self.within @ self.within)) <= 0:
-            return np.nan, np.nan
-        blocks = max(all_of_it - pure.sum, 0.0)
-        parts = blocks**2 / max(count, 1) + pure.sum**2 / pure.freedom
-        return all_of_it / (pure.freedom + count), all_of_it**2 / parts
+        total, freedom = _satterthwaite(*self._run_parts or [(np.nan, np.nan)])
+        return float(total), float(freedom)
 
     @cached_property
     def _point_root(self) -> Numbers:
@@ -448,10 +456,13 @@ class Fitted:
         else:
             share = np.square(rows[:, self.fit.kept] @ self.fit.root).sum(axis=1)
             own = share * (pure.mean if pure.freedom > 0 else 0.0), np.full(len(rows), float(max(pure.freedom, 1)))
-        (missed, freedom), (run, run_freedom) = self._missed, self._run_variance
-        parts = [own, (missed * (1.0 + leverage), np.full(len(rows), freedom))]
-        mean = _satterthwaite(parts)
-        one = mean if np.isnan(run) else _satterthwaite([*parts, (np.full(len(rows), run), np.full(len(rows), run_freedom))])
+        beyond = self._missed[0] * (1.0 + leverage), self._missed[1]
+        mean = one = _satterthwaite(own, beyond)
+        if self._run_parts:
+            # Of what sets differ by (runs, if there is one set) the error of their mean is a part: both are as large or small together.
+            (part, part_freedom), *rest = self._run_parts
+            shared = np.minimum(own[0], part / self.seeds) if rest else own[0]
+            one = _satterthwaite((own[0] - shared, own[1]), (shared + part, part_freedom), *rest, beyond)
         told, names = self.tells(rows), ("mean", "mean_freedom", "run", "run_freedom")
         columns = {name: np.where(told, values, np.nan) for name, values in zip(names, (*mean, *one), strict=True)}
         return pandas.DataFrame({"value": rows @ self.coefficients, **columns, "leverage": leverage}, index=points.index)
@@ -473,10 +484,10 @@ class Fitted:
         return pandas.DataFrame({**columns, "leverage": found["leverage"]}, index=points.index)
 
 
-def _satterthwaite(parts: Sequence[tuple[Numbers, Numbers]]) -> tuple[Numbers, Numbers]:
+def _satterthwaite(*parts: tuple[Any, Any]) -> tuple[Numbers, Numbers]:
     """Sum of variances and its degrees of freedom, after F. E. Satterthwaite, Biometrics Bulletin 2, 110-114 (1946)."""
-    total = np.sum([part for part, _ in parts], axis=0)
-    spread = np.sum([part**2 / freedom for part, freedom in parts], axis=0)
+    total = np.asarray(sum(part for part, _ in parts))
+    spread = np.asarray(sum(part**2 / freedom for part, freedom in parts))
     return total, np.divide(total**2, spread, out=np.full_like(total, np.nan), where=spread > 0)
 
 

@@ -22,7 +22,7 @@ import optimum
 
 SETS = (2, 3, 4, 5)
 SIMULATIONS, OF_LEVELS, OF_UNLIKE, SUBSETS = 1000, 800, 400, 400
-FUNCTIONS, OF_SENSITIVITY, OF_SLOPES, FEW = 200, 20, 40, 20
+FUNCTIONS, OF_STRAIGHT, OF_SENSITIVITY, OF_SLOPES, FEW = 200, 1000, 20, 40, 20
 OF_COMPARISONS, REAL_SUBSETS, SEARCHES = 2000, 100, 12
 EXPERIMENTS, OF_BUDGETS = 80, 15
 # Kind of response, factors, points, sets of seeds.
@@ -38,6 +38,11 @@ RESPONSES = [
     ("product of powers", 2, 12, 3),
     ("comes to an end", 2, 12, 3),
 ]
+# Degrees of freedom, sets of seeds, and by how much these differ.
+STRAIGHT = {
+    "One set of seeds, 1, 2 and 3 degrees of freedom": [(1, 1, 0.0), (2, 1, 0.0), (3, 1, 0.0)],
+    "2, 3 and 5 sets that differ by 3 times the noise": [(1, 2, 3.0), (1, 3, 3.0), (1, 5, 3.0)],
+}
 ROUGH = {"kink": [(2, 10, 2), (4, 20, 2)], "threshold": [(2, 10, 2), (4, 20, 2), (4, 40, 2)]}
 FITS = [
     ("as it should be", {}, {}),
@@ -106,6 +111,11 @@ def of_forecasts():
         return [f"{kind} {'/'.join(map(str, sizes))}", percent(alone, ""), *chosen]
 
     table(["response", "process alone", "polynomial where it wins", "process where it wins"], map(row, RESPONSES))
+    print(f"Straight responses: {OF_STRAIGHT} simulations each\n")
+    for said, cases in STRAIGHT.items():
+        means, runs = np.transpose([forecasts.straight_coverage(*case, OF_STRAIGHT) for case in cases])
+        print(f"{said}: means {span(means)}, runs {span(runs)}.", flush=True)
+    print()
     print(f"Sensitivity: {OF_SENSITIVITY} functions each\n")
     sizes = ROUGH["threshold"]
 

@@ -10,7 +10,7 @@ import itertools
 
 import numpy as np
 import pandas
-from scipy import stats
+from scipy import linalg, stats
 from scipy.stats import qmc
 
 import made_studies
@@ -82,6 +82,23 @@ def surrogate_coverage(kind, factors, points, seeds, functions, number=20261124)
         is_mean, is_run = told["mean_low"].le(truth) & told["mean_high"].ge(truth), told["run_low"].le(run) & told["run_high"].ge(run)
         covered[found.takes_process].append([is_mean.mean(), is_run.mean()])
     return [np.mean(own, axis=0) if own else np.full(2, np.nan) for own in covered], [len(own) for own in covered]
+
+
+def straight_coverage(freedom, seeds, ratio, count, number=20261124):
+    """Shares of intervals of means and of runs that have the truth in them, where main effects and noise are all there is.
+
+    Of eight corners the model leaves so many degrees of freedom; sets of seeds differ by `ratio` times the noise. Places: middle and a corner.
+    """
+    random, covered, corners = np.random.default_rng(number), [], linalg.hadamard(8)[:, 1 : 8 - freedom].astype(float)
+    asked = pandas.DataFrame(np.outer([0.0, 1.0], np.ones(7 - freedom)), columns=[f"x{at + 1}" for at in range(7 - freedom)])
+    x, group, truth = np.repeat(corners, seeds, axis=0), np.tile(np.arange(seeds), 8), asked.sum(axis=1)
+    for _ in range(count):
+        y = x.sum(axis=1) + ratio * random.standard_normal(seeds)[group] + random.standard_normal(len(x))
+        told = surrogates(study_of(x, y, group, "csv"), "main")[0].forecast(asked)
+        run = truth + np.hypot(ratio, 1.0) * random.standard_normal(2)
+        is_mean, is_run = told["mean_low"].le(truth) & told["mean_high"].ge(truth), told["run_low"].le(run) & told["run_high"].ge(run)
+        covered.append([is_mean.mean(), is_run.mean()])
+    return np.mean(covered, axis=0)
 
 
 def seeds_coverage(is_hypercube, seeds, ratio, functions, number=20261124):
