@@ -399,6 +399,29 @@ class Model(unittest.TestCase):
         self.assertEqual(found["y"].summary["middle"], 0.0)
         self.assertEqual(repr(found), found.text().rstrip())
 
+    def test_what_seeds_do_not_change_has_no_test(self) -> None:
+        # The product of three is not in the model, and the same in all sets but for rounding; that of A differs by 0.6.
+        runs = cube(3)
+        a, b, c, sets = (runs[name].to_numpy() for name in ("A", "B", "C", "replicate"))
+        rounded = np.where(sets == 2, np.nextafter(1.7 * (5.0 + a + 0.5 * b + 0.1 * a * b * c), np.inf), 1.7 * (5.0 + a + 0.5 * b + 0.1 * a * b * c))
+        for y, same in ((rounded, ["A", "B", "C", "A × B", "A × C", "B × C"]), (5.0 + a + 0.5 * b + 0.3 * a * (sets - 2), ["B", "C", "A × B"])):
+            with warnings.catch_warnings(action="error", category=PlateauWarning):
+                found = effects(study := study_of([number(name, -1.0, 1.0) for name in "ABC"], runs.assign(y=y)))
+            rows = found.table.set_index("term")
+            self.assertTrue(rows.loc[[*same, "lack of fit"], ["f", "p", "t", "low", "high", "seed_ratio"]].isna().all().all(), rows)
+            self.assertTrue((rows.loc[same, "standard_error"] == 0.0).all())
+            self.assertIn(f"effects that do not differ between sets of seeds have no interval, F and p: {', '.join(same)}", found.text())
+            needed = seeds_needed(study).table.set_index("term").loc[same]
+            self.assertEqual(needed[["scatter", "sets", "sets_safe"]].drop_duplicates().to_numpy().tolist(), [[0.0, 2.0, 2.0]])
+        self.assertAlmostEqual(rows.loc["A", "standard_error"], 0.6 / 3**0.5, places=12)
+        self.assertAlmostEqual(rows.loc["A", "f"], 4.0 / 0.12, places=9)
+        # Effects of which most are 0 tell no error after Lenth, either.
+        self.assertNotIn("Lenth", effects(study_of(study.factors, runs.assign(y=5.0 + 4.3 * a + 3.2 * b + 1.1 * a * b))).text())
+        pads = pandas.DataFrame(list(itertools.product("pqr", (-1.0, 1.0), (1, 2, 3))), columns=["pad", "B", "replicate"])
+        pads["y"] = pads["pad"].map({"p": 0.0, "q": 1.0, "r": 3.0}) + 0.1 * pads["B"] * (pads["pad"] == "r")
+        with self.assertRaisesRegex(InputError, "pad: its levels differ by the same in all sets of seeds"):
+            levels(study_of([word("pad", *"pqr"), number("B", -1.0, 1.0)], pads), model="main")
+
 
 class Levels(unittest.TestCase):
     def test_chance_between_seeds_is_no_warning(self) -> None:

@@ -128,7 +128,9 @@ def _of_factor(fit: Fitted, at: int, names: list[str], control: str | None) -> p
         variances, freedoms = fit.errors(weights / lengths[:, None])
     if np.isnan(freedoms).any():
         raise NothingToFit("nothing tells the error of differences between levels; give [replicates] of seeds")
-    differences, errors = rows @ fit.coefficients, np.sqrt(variances) * lengths
+    if not variances.any():
+        raise NothingToFit("its levels differ by the same in all sets of seeds, so that nothing tells an error")
+    differences, errors = rows @ fit.coefficients, np.where(variances > 0.0, np.sqrt(variances) * lengths, np.nan)
     outside = partial(_range_beyond, len({level for pair in pairs for level in pair}))
     if control is not None:
         outside = partial(_any_beyond, _shared(weights @ weights.T / np.outer(lengths, lengths)))
@@ -156,7 +158,8 @@ def _tail(outside: Callable[[Numbers, Numbers], Numbers], size: float, freedom: 
     squares = freedom**2 / (freedom + size**2) * np.exp(2.0 * logs)
     weights = 2.0 * step * squares * stats.chi2.pdf(squares, freedom)
     places = np.arange(-38.0, 38.0, 0.125)
-    return min(1.0, float(0.125 * stats.norm.pdf(places) @ outside(places[:, None], size * np.sqrt(squares / freedom)) @ weights))
+    # NaN without an error.
+    return min(float(0.125 * stats.norm.pdf(places) @ outside(places[:, None], size * np.sqrt(squares / freedom)) @ weights), 1.0)
 
 
 def _range_beyond(levels: int, highest: Numbers, size: Numbers) -> Numbers:

@@ -175,7 +175,7 @@ class Fitted:
         self.coefficients[self.fit.kept] = self.fit.coefficients(values - self.mean)
         self.coefficients[0] += self.mean
         self.coefficients[np.abs(self.coefficients) <= self.rounding] = 0.0
-        self.residuals = self._unless_rounding(self.fit.residuals(values - self.mean))
+        self.residuals = self.unless_rounding(self.fit.residuals(values - self.mean))
         self.residual_freedom = len(values) - len(self.fit.kept)
         self.residual = Squares(self.residual_freedom, float(self.residuals @ self.residuals) if self.residual_freedom else 0.0)
         self.total = Squares(len(values) - 1, float(np.square(values - self.mean).sum()))
@@ -184,7 +184,8 @@ class Fitted:
         # Columns without those of blocks.
         self.own = [column for column in self.fit.kept if not 1 <= column < self.seeds]
 
-    def _unless_rounding(self, residuals: Numbers) -> Numbers:
+    def unless_rounding(self, residuals: Numbers) -> Numbers:
+        """Residuals, or sums with orthonormal weights; 0 where they are nothing but rounding."""
         return np.zeros_like(residuals) if np.linalg.norm(residuals) <= self.rounding * len(residuals) ** 0.5 else residuals
 
     def _terms(self) -> list[Term]:
@@ -274,7 +275,7 @@ class Fitted:
         blocks = blocks - blocks.groupby(self.runs["point"].to_numpy()).transform("mean")
         # What points leave of blocks is nothing but rounding where each point is in one block only.
         fit = LeastSquares(blocks.where(blocks.abs() > 1e-12, 0.0).to_numpy())
-        left = self._unless_rounding(fit.residuals(self.within))
+        left = self.unless_rounding(fit.residuals(self.within))
         freedom = len(left) - self.point_count - len(fit.kept)
         return Squares(freedom, float(left @ left) if freedom > 0 else 0.0), left
 
@@ -283,7 +284,7 @@ class Fitted:
         """Squares by which means of points differ from the model, their error, F and p; NaN where it cannot be tested."""
         pure, left = self.scatter
         # Their difference, not that of the sums: it may be far smaller than either.
-        missed, freedom = self._unless_rounding(self.residuals - left), self.residual_freedom - pure.freedom
+        missed, freedom = self.unless_rounding(self.residuals - left), self.residual_freedom - pure.freedom
         squares = Squares(freedom, float(missed @ missed) if freedom > 0 else 0.0)
         return squares, *self.beyond(squares, pure, pandas.get_dummies(self.runs["point"]).to_numpy(float))
 
@@ -394,7 +395,9 @@ class Fitted:
             scale = np.sqrt(np.divide(expected, found, out=np.zeros_like(found), where=found > DEPENDENT * expected.sum()))
             covariance = scale[:, None] * (spread @ spread.T) * scale
             if np.trace(covariance) > 0:
-                parts[at] = scale * (by_set @ left)
+                own = by_set @ left
+                # What differs between sets by rounding alone is the same.
+                parts[at] = scale * own if np.linalg.norm(own) > self.rounding * np.abs(weight).sum() else 0.0
                 freedoms[at] = np.trace(covariance) ** 2 / np.square(covariance).sum()
         return parts, freedoms
 

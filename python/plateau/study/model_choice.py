@@ -5,6 +5,7 @@ from typing import Any
 
 import numpy as np
 import numpy.typing as npt
+import pandas
 
 from plateau.errors import InputError
 from plateau.study.data import Response, Study
@@ -182,18 +183,28 @@ def cautions(fit: Fitted) -> list[str]:
         said.append(f"{few}, so that the fit hardly shows what the model misses")
     if fit.seeds == 1 and fit.response.series:
         said.append("one set of seeds: intervals hold for these seeds alone; [replicates] with several tell of others")
-    if fit.seeds > 1 and np.isfinite(fit.error) and (untested := _untested(fit)):
+    if fit.seeds < 2 or np.isnan(fit.error):
+        return said
+    errors = fit.combined(np.eye(len(fit.coefficients)))["standard_error"]
+    if same := _same(fit, errors):
+        said.append(f"effects that do not differ between sets of seeds have no interval, F and p: {', '.join(same)}")
+    if untested := _untested(fit, errors):
         said.append(untested)
-    elif fit.seeds == 2 and np.isfinite(fit.error):
+    elif fit.seeds == 2 and len(same) < len(fit.terms):
         wide = "two sets of seeds leave one degree of freedom for the error, and intervals are wide"
         said.append(f"{wide}; a third makes them about 3.6 times as narrow")
     return said
 
 
-def _untested(fit: Fitted) -> str:
+def _same(fit: Fitted, errors: pandas.Series) -> list[str]:
+    """Labels of the terms whose coefficients are the same in all sets of seeds."""
+    own = [(term, [at for at in fit.own if columns.start <= at < columns.stop]) for term, columns in zip(fit.terms, fit.columns[2:], strict=True)]
+    return [fit.label(term) for term, places in own if places and (errors[places] == 0.0).all()]
+
+
+def _untested(fit: Fitted, errors: pandas.Series) -> str:
     """Caution that effects have no error, for sets of seeds lack points; empty if all have one."""
-    found = fit.combined(np.eye(len(fit.coefficients))[fit.own])
-    without = dict.fromkeys(fit.label(fit.terms[fit.owner(fit.own[at]) - 2]) for at in np.flatnonzero(found["standard_error"].isna()) if at)
+    without = dict.fromkeys(fit.label(fit.terms[fit.owner(at) - 2]) for at in fit.own if at and np.isnan(errors[at]))
     if not without:
         return ""
     missing, places = [], fit.runs.drop_duplicates("point").set_index("point")

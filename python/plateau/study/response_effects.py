@@ -224,7 +224,7 @@ def effect_table(fit: Fitted) -> pandas.DataFrame:
         weights = least.root[places] @ least.basis.T
         # Orthonormal rows whose products with the responses are what the term explains, all others kept (type III).
         directions = np.linalg.qr(weights.T)[0].T if places else weights
-        own = Squares(len(places), float(np.square(directions @ values).sum()))
+        own = Squares(len(places), float(np.square(fit.unless_rounding(directions @ values)).sum()))
         row = told("replicate" if is_blocks else fit.label(term), own, aliases[at], factors=term)
         if len(places) == width > 0 and not untold & set(range(columns.start, columns.stop)):
             if not is_blocks and fit.seeds > 1 and error.sum > 0:
@@ -232,12 +232,15 @@ def effect_table(fit: Fitted) -> pandas.DataFrame:
                 variances, freedoms = fit.errors(directions)
                 error = Squares(float(freedoms.sum()), float(variances.mean() * freedoms.sum()))
                 if error.sum > 0:
-                    rest = Squares(round(fit.residual_freedom - error.freedom), max(fit.residual.sum - error.sum, 0.0))
+                    left, rounding = fit.residual.sum - error.sum, fit.rounding * (len(values) * fit.residual.sum) ** 0.5
+                    rest = Squares(round(fit.residual_freedom - error.freedom), left if left > rounding else 0.0)
                     row["seed_ratio"], row["seed_p"] = f_test(error, rest)
             if error.sum > 0:
                 row["f"], row["p"] = f_test(own, error)
                 if not is_blocks and not fit.differs_alike(directions):
                     error, row["f"], row["p"] = fit.unlike(own, directions)
+            # Without a residual there is none; an effect that does not differ between sets of seeds has an error of 0.
+            if error.sum >= 0 and np.isfinite(fit.error):
                 row["error_freedom"] = float(error.freedom)
         if width == 1 and places:
             column, variance = least.kept[places[0]], float(weights[0] @ weights[0])
@@ -245,10 +248,11 @@ def effect_table(fit: Fitted) -> pandas.DataFrame:
             if not is_blocks:
                 # Of centre points the coefficient is the difference.
                 double, coefficient = 2.0 if term else 1.0, float(fit.coefficients[column])
-                deviation = double * (error.mean * variance) ** 0.5 if "f" in row else np.nan
-                effect, reach = double * coefficient, float(stats.t.ppf(0.5 + 0.5 * fit.confidence, error.freedom)) * deviation
-                row |= {"coefficient": coefficient, "effect": effect, "standard_error": deviation, "t": effect / deviation}
-                row |= {"low": effect - reach, "high": effect + reach}
+                effect, deviation = double * coefficient, double * (error.mean * variance) ** 0.5 if "error_freedom" in row else np.nan
+                row |= {"coefficient": coefficient, "effect": effect, "standard_error": deviation}
+                if "f" in row:
+                    reach = float(stats.t.ppf(0.5 + 0.5 * fit.confidence, error.freedom)) * deviation
+                    row |= {"t": effect / deviation, "low": effect - reach, "high": effect + reach}
         rows.append(row)
     missed, error, f, p = fit.lack_of_fit
     rows.append(told("residual", fit.residual))
@@ -267,7 +271,9 @@ def lenth(table: pandas.DataFrame, confidence: float) -> tuple[float, float, flo
     sizes = table.loc[table["factors"].str.len() > 0, "effect"].dropna().abs().to_numpy(float)
     if len(sizes) < 6 or (first := 1.5 * float(np.median(sizes))) <= 1e-12 * sizes.max():
         return None
-    error, freedom = 1.5 * float(np.median(sizes[sizes < 2.5 * first])), len(sizes) / 3.0
+    if (error := 1.5 * float(np.median(sizes[sizes < 2.5 * first]))) <= 1e-12 * sizes.max():
+        return None
+    freedom = len(sizes) / 3.0
     tails = [0.5 + 0.5 * confidence, 0.5 + 0.5 * confidence ** (1.0 / len(sizes))]
     margin, simultaneous = (float(stats.t.ppf(tail, freedom)) * error for tail in tails)
     return error, margin, simultaneous
