@@ -3,7 +3,9 @@
 use plateau_tests::run_file::{RunFile, StoredStatus, created};
 use plateau_tests::table::{Row, number, relative_error};
 
-use super::{QUANTITIES, WorkingDirectory, document, expect_near, means, measured, number_of, run, with_scene};
+use super::{
+    QUANTITIES, WorkingDirectory, document, expect_near, means, measured, number_of, refusal, run, with_scene,
+};
 
 const EDITS: [(&str, &str); 1] = [("debris = \"local\"", "debris = \"local\"\ntransport_length = \"800 um\"")];
 
@@ -87,8 +89,12 @@ fn runs_with_other_cells_have_samples_of_the_same_surfaces() {
 #[test]
 fn without_a_transport_length_the_cell_is_part_of_the_model() {
     let directory = with_scene(&[]);
+    let reason = "the cell is part of the model of this scene, so the mesh is not varied";
+    // Alone it leaves nothing to run, and that is why.
+    let refused = refusal(&directory, &["scene.toml", "--ladder", "mesh"]);
+    assert!(refused.contains(reason), "{refused}");
     let (text, rows) = measured(&directory, &["--ladder", "time_acceleration,mesh"]);
-    assert!(text.contains("the cell is part of the model of this scene, so the mesh is not varied"), "{text}");
+    assert!(text.contains(reason), "{text}");
     assert!(rows.iter().all(|row| row["ladder"] == "time_acceleration"), "{text}");
 }
 

@@ -75,9 +75,15 @@ pub enum PlanError {
         needs_model: bool,
     },
     #[error(
-        "nothing is coarser than the reference with time_acceleration = {reference}: choose other ladders or a longer duration"
+        "nothing is coarser than the reference with time_acceleration = {reference}: choose other ladders or a longer \
+         duration{}",
+        also(notes)
     )]
-    NothingToRun { reference: f64 },
+    NothingToRun {
+        reference: f64,
+        /// Notes until then, such as why the mesh is not varied.
+        notes: Vec<String>,
+    },
     #[error(
         "the budget of {} is too small: at {} steps/s, as measured, a reference with time_acceleration = {reference} needs a \
          budget of {}; give --budget {} or more{}",
@@ -103,6 +109,10 @@ fn expected(own: f64, needs_model: bool) -> String {
     } else {
         format!("less than the scene's time_acceleration = {own}, or 1")
     }
+}
+
+fn also(notes: &[String]) -> String {
+    notes.iter().flat_map(|note| ["; ", note.as_str()]).collect()
 }
 
 fn or_model(reference: f64, needed: f64) -> String {

@@ -211,7 +211,7 @@ impl Measurement<'_> {
             return match (is_fine(reference), judges(reference)) {
                 (true, true) => Ok(reference),
                 (false, _) => Err(PlanError::NotFiner { reference, own, needs_model }.into()),
-                (true, false) => Err(PlanError::NothingToRun { reference }.into()),
+                (true, false) => Err(PlanError::NothingToRun { reference, notes: self.notes.clone() }.into()),
             };
         }
         let references: Vec<f64> = accelerations.iter().copied().filter(|one| is_fine(*one) && judges(*one)).collect();
@@ -235,7 +235,7 @@ impl Measurement<'_> {
                 }
                 Ok(reference)
             }
-            Err(None) => Err(PlanError::NothingToRun { reference: 1.0 }.into()),
+            Err(None) => Err(PlanError::NothingToRun { reference: 1.0, notes: self.notes.clone() }.into()),
             Err(Some((reference, needed))) => {
                 let speed = 1.0 / self.step_time;
                 Err(PlanError::TooSmall { budget, speed, reference, needed, of_model }.into())
