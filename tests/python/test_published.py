@@ -18,6 +18,13 @@ class Page(unittest.TestCase):
         check = subprocess.run([sys.executable, "-B", str(STUDY / "page.py"), "--check"], capture_output=True, text=True, check=False)
         self.assertEqual(check.returncode, 0, check.stdout + check.stderr)
 
+    def test_the_page_of_a_drive_has_what_load_does_to_friction(self) -> None:
+        drive = (STUDY.parents[2] / "docs/drive.md").read_text()
+        self.assertIn(f"{page.change('factors/effects/coefficient of friction/load')} from 1 to 2 MPa nominal", drive)
+        factors = {factor["name"]: factor["levels"] for factor in tomllib.loads((STUDY / "factors.toml").read_text())["factor"]}
+        # The pin of pair.toml has 1 mm by 2 mm.
+        self.assertEqual(factors["load"], ["2 N", "4 N"])
+
     def test_results_are_of_the_studies_as_they_stand(self) -> None:
         for rule in ("plain", "strength"):
             for name, points in (("skewness", 6), ("factors", 16)):
