@@ -1,13 +1,15 @@
 """The study of the paper (data/studies/riva2019): its measures have closed forms, and documents agree with its results."""
 
+import json
 import re
 import subprocess
 import sys
 import unittest
 from pathlib import Path
+from unittest import mock
 
 import numpy as np
-from checkout import ROOT
+from checkout import ROOT, program
 from package_scenes import InFolder
 
 import plateau
@@ -21,8 +23,12 @@ import make_points  # noqa: E402, where the study is
 import maps  # noqa: E402, where the study is
 import measures  # noqa: E402
 import strength  # noqa: E402, where the study is
+import strength_tables  # noqa: E402, where the study is
 import tables  # noqa: E402, where the study is
 import write_docs  # noqa: E402, where the study is
+
+sys.path.append(str(STUDY.parent / "mesh"))
+import figure  # noqa: E402, where the study is
 
 
 class Measures(unittest.TestCase):
@@ -165,6 +171,23 @@ class Strength(unittest.TestCase):
         self.assertAlmostEqual(found["wear"] * 11.7 * 1e9, 1.0)
         self.assertAlmostEqual(found["emitted"], 3e-6)
 
+    def test_wear_from_0_on_counts_the_time_when_fibres_wear_alone(self) -> None:
+        # Fibres under the whole load, 5e-14 1/Pa, on the first 20 m; then 2 mm³/m to 600 m: by hand.
+        fibres, way = 5e-14 * 11.7, self.series["sliding_distance"]
+        worn = fibres * np.minimum(way, 20.0) + 2e-9 * (way - 20.0).clip(0)
+        found = strength.numbers(self.series | {"worn_whole_pin": worn}, 3000.0)
+        self.assertAlmostEqual(strength_tables.from_the_start(found["first_wear"]) * 11.7 * 1e9 * 600, fibres * 1e9 * 20 + 2.0 * 580)
+
+    def test_levels_are_compared_on_the_same_surfaces(self) -> None:
+        areas = {"1": (2.0, 4.0), "0.1": (2.2, 4.4), "0.01": (2.2, 5.2)}
+        discs = {heights: [{"contact_area_mean": area} for area in of] for heights, of in areas.items()}
+        found = strength.above_the_rough_disc(discs)
+        self.assertAlmostEqual(found["0.1"][0], 0.1)
+        self.assertAlmostEqual(found["0.1"][1], 0.0)
+        # 10 and 30 %; Student's t for one degree of freedom, 12.7062, times 10 %.
+        self.assertAlmostEqual(found["0.01"][0], 0.2)
+        self.assertAlmostEqual(found["0.01"][1], 1.27062, places=4)
+
     def test_claims_are_counted_over_sets(self) -> None:
         keys = ("filled", "disc_secondary", "pin_secondary", "pressure_gini", "contact_area_mean", "run_in", "drift", "drift_error")
         keys += ("wear", "first_wear", "emitted")
@@ -184,6 +207,36 @@ class Mesh(unittest.TestCase):
         for file, _, disc, pin, rows, _, _ in lines:
             self.assertEqual((2768 % int(disc), 2768 // int(disc)), (0, 160 // int(pin)))
             self.assertRegex(file, rf"^surfaces/set-([1-9]|10)-columns-{disc}-rows-{rows}\.h5$")
+
+    def test_a_mesh_with_fewer_sets_is_drawn_by_its_change(self) -> None:
+        """The sets that the finest mesh has lie far above the others, and fall by a tenth."""
+        values = {"25": {"filled": [0.5, 0.01, 10]}, "12.5": {"filled": [0.9, 0.02, 3]}}
+        changes = {"25 to 12.5": {"filled": [-0.1, 0.02, 3]}}
+        [coarser, finest] = figure.course(values, changes, "filled")
+        self.assertEqual(coarser, (25.0, 0.5, 0.01))
+        # Errors of the mean and of the change in squares: 0.9 · 0.01 and 0.5 · 0.02.
+        np.testing.assert_allclose(finest, (12.5, 0.45, (0.009**2 + 0.01**2) ** 0.5))
+
+
+class Templates(unittest.TestCase):
+    def test_numbers_are_compared_and_searched(self) -> None:
+        found = {"one": {"a": [0.3, 9.0], "b, c": [-0.5, 9.0]}, "two": {"a": [0.2, 9.0]}, "three": {"c": [0.4, 9.0]}}
+        with mock.patch.object(tables, "RESULTS", found):
+            texts = {
+                "{{one/a minus two/a|100|.1f}}": "10.0",
+                "{{one/a relative to three/c|-100|.0f}}": "25",
+                "{{largest */*/0|100|.0f}} {{smallest one/*/0|1|.1f}}": "50 0.3",
+            }
+            self.assertEqual({text: write_docs.filled_in(text) for text in texts}, texts)
+
+    def test_shares_are_those_of_a_known_table(self) -> None:
+        # Newcombe, Statistics in Medicine 17 (1998), 857, table I: 15 of 148 leave 0.0624 to 0.1605, 1 of 29 leave 0.0061 to 0.1718.
+        self.assertEqual(write_docs.filled_in("{{wilson 15 148}}, {{wilson 1 29}}"), "6 to 16, 1 to 17")
+
+    def test_runs_are_those_of_the_plan(self) -> None:
+        studies = ("../strength", "counterface", "unknowns", "levels", "steady")
+        planned = [json.loads(program("sweep", "plan", STUDY / f"{study}.toml", "--json"))["runs"] for study in studies]
+        self.assertEqual(write_docs.filled_in(f"{{{{runs of {' '.join(studies)}}}}}"), str(sum(planned)))
 
 
 class RunFiles(InFolder):

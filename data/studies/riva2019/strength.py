@@ -18,8 +18,9 @@ import plateau
 
 HERE = Path(__file__).parent
 RUNS = HERE / "runs"
-#: Time over which wear is taken at the start and at the end, s.
-WHILE = 300.0
+#: Time over which wear is taken at the start and at the end, s. At the start it is from the first sample on: before, resin, which is
+#: set back, does not touch, and nothing but fibres wears.
+WHILE, FIRST = 300.0, 10.0
 #: Load of the reduced ring, N.
 LOAD = 11.7
 
@@ -62,7 +63,7 @@ def numbers(series: dict[str, np.ndarray], end: float, load: float = LOAD) -> Nu
         lost, way = (at(time, series[key], until) - at(time, series[key], since) for key in ("worn_whole_pin", "sliding_distance"))
         return lost / (load * way)
 
-    found = {"first_wear": wear(time[0], WHILE), "wear": wear(end - WHILE, end), "emitted": at(time, series["emitted"], end)}
+    found = {"first_wear": wear(FIRST, WHILE), "wear": wear(end - WHILE, end), "emitted": at(time, series["emitted"], end)}
     return history(series, end) | found
 
 
@@ -85,6 +86,15 @@ def holds(discs: Discs) -> dict[str, list[float]]:
     return found
 
 
+def above_the_rough_disc(discs: Discs) -> dict[str, tuple[float, float]]:
+    """Contact area of each smooth disc over that of the rough one with the same surfaces, less one."""
+    found = {}
+    for heights in ("0.1", "0.01"):
+        mean, half = claims.ratio(discs, "contact_area_mean", heights, "1")
+        found[heights] = (mean - 1, half)
+    return found
+
+
 def means(discs: Discs) -> dict[str, object]:
     """Means with intervals of each disc."""
     return {heights: claims.intervals(runs) for heights, runs in discs.items()}
@@ -93,6 +103,15 @@ def means(discs: Discs) -> dict[str, object]:
 def told(discs: Discs) -> dict[str, object]:
     """Means with intervals of each disc, and what holds."""
     return {"means": means(discs), "holds": holds(discs)}
+
+
+def steady() -> dict[str, object]:
+    """Levels at the end of long runs by the wear rate of the disc's build-up, how far they differ, and the filling set by set."""
+    found = {}
+    for rate, discs in by_value("steady", "wear_rate_of_the_disc_s_build_up", 15000.0).items():
+        filled = {heights: [run["filled"] for run in runs] for heights, runs in discs.items()}
+        found[rate] = told(discs) | {"above_the_rough_disc": above_the_rough_disc(discs), "filled": filled}
+    return found
 
 
 def unknowns() -> dict[str, object]:
@@ -126,7 +145,7 @@ def main() -> None:
         "strengths": {value: told(discs) for value, discs in by_value("../strength", "strength", END).items()},
         "late": {value: told(discs) for value, discs in by_value("../strength", "strength", LONG_END).items()},
         "counterface": {value: told(discs) for value, discs in by_value("counterface", "strength", END).items()},
-        "steady": {value: means(discs) for value, discs in by_value("steady", "wear_rate_of_the_disc_s_build_up", 15000.0).items()},
+        "steady": steady(),
         "levels": {value: means(discs) for value, discs in by_value("levels", "state", 30000.0).items()},
         "unknowns": unknowns(),
         "full": {name: on_the_paper_s_mesh(name) for name in ("length", "strength")},

@@ -5,6 +5,8 @@ from collections.abc import Iterable
 from pathlib import Path
 
 from discs import NAMES
+from make_points import DEFAULT
+from strength import FIRST, WHILE
 from tables import ASKED, RESULTS, head, row, shown, value, with_interval
 
 HERE = Path(__file__).parent
@@ -67,6 +69,18 @@ def table_means(part: str, *keys: str) -> str:
     return text + row("± at most", *(shown(one, form) for one, (*_, form) in zip(half, asked, strict=True)))
 
 
+def from_the_start(first_wear: float) -> float:
+    """Specific wear of the pin from 0 s on, 1/Pa, from that which begins with the first sample: until then only fibres wear."""
+    fibres = float(DEFAULT["wear rate"].split()[0])
+    return (fibres * FIRST + first_wear * (WHILE - FIRST)) / WHILE
+
+
+def wear_from_the_start(strength: str, heights: str) -> str:
+    """The same of a strength, in MPa, and a disc, 1e-13 1/Pa, and the wear at the end."""
+    of = value(f"strength/strengths/{float(strength) * 1e6}/means/{heights}")
+    return " to ".join(shown(wear * 1e13, ".2f") for wear in (from_the_start(of["first_wear"][0]), of["wear"][0]))
+
+
 def table_strength_claims() -> str:
     """In how many sets of surfaces each claim holds with each strength; below the table those that hold in as many with every strength."""
     counted = {words: [of["holds"][claim][0] for of in strengths().values()] for claim, words in CLAIMS.items()}
@@ -86,16 +100,14 @@ def table_strength_claims() -> str:
 
 def table_levels() -> str:
     """Contact area at the end of long runs, by the wear rate of the disc's build-up."""
-    text = head("area of the last tenth, mm²; filled, %", *NAMES.values())
-
-    def cells(discs: dict[str, dict]) -> list[str]:
-        return [f"{with_interval(discs[of]['contact_area_mean'], 1e6, '.2f')}; {with_interval(discs[of]['filled'], 100, '.1f')}" for of in NAMES]
-
-    for discs in value("strength/levels").values():
-        text += row("plain rule", *cells(discs))
-    for rate, discs in sorted(value("strength/steady").items(), key=lambda one: float(one[0])):
-        text += row(f"5 MPa, wear at {shown(float(rate), 'g')} 1/Pa", *cells(discs))
-    return text
+    text = head("wear, 1/Pa", "area of the last tenth, mm²", "filled, %")
+    found = {"plain rule": discs for discs in value("strength/levels").values()}
+    found |= {shown(float(rate), "g"): of["means"] for rate, of in sorted(value("strength/steady").items(), key=lambda one: float(one[0]))}
+    quantities = (("contact_area_mean", 1e6, ".2f"), ("filled", 100, ".1f"))
+    for name, discs in found.items():
+        text += row(name, *(", ".join(shown(discs[of][key][0] * factor, form) for of in NAMES) for key, factor, form in quantities))
+    widest = (max(discs[of][key][1] for discs in found.values() for of in NAMES) * factor for key, factor, _ in quantities)
+    return text + row("± at most", *(shown(one, form) for one, (*_, form) in zip(widest, quantities, strict=True)))
 
 
 def table_unknowns() -> str:

@@ -1,9 +1,14 @@
 """The tables of the documents, from results.json."""
 
 import json
+import math
 import tomllib
+from collections.abc import Iterator
+from fnmatch import fnmatchcase
 from pathlib import Path
+from typing import Any
 
+import measures
 import numpy as np
 from discs import NAMES, SCENES
 from make_points import DEFAULT
@@ -22,6 +27,47 @@ def value(path: str) -> object:
     for key in path.split("/"):
         found = found[int(key)] if isinstance(found, list) else found[key]
     return found
+
+
+def every(pattern: str) -> list[float]:
+    """Sizes of all numbers at paths of keys such as `rows/*/filled/0`."""
+    found: list[Any] = [RESULTS]
+    for key in pattern.split("/"):
+        found = [entry for one in found for name, entry in entries(one) if fnmatchcase(str(name), key)]
+    if not found:
+        raise KeyError(pattern)
+    return [abs(number) for number in found]
+
+
+def entries(of: Any) -> Iterator[tuple[Any, Any]]:
+    """What a dictionary or a list holds, each with its key or number."""
+    return iter(of.items() if isinstance(of, dict) else enumerate(of))
+
+
+def compared(path: str) -> float:
+    """`PATH minus PATH`, or `PATH relative to PATH`, which is the ratio less one; of means without their intervals."""
+    how = " minus " if " minus " in path else " relative to "
+    one, other = (found[0] if isinstance(found, list) else found for found in map(value, path.split(how)))
+    return one - other if how == " minus " else one / other - 1
+
+
+def runs_of(*studies: str) -> int:
+    """Number of runs of some studies, by their files: points times replicates."""
+    found = 0
+    for name in studies:
+        study = tomllib.loads((HERE / f"{name}.toml").read_text())
+        if study["design"] == "csv":
+            lines = (HERE / study["file"]).read_text().splitlines()
+            points = sum(not line.startswith("#") for line in lines) - 1
+        else:
+            points = math.prod(len(factor["levels"]) for factor in study["factor"])
+        found += points * len(study["replicates"]["seeds"])
+    return found
+
+
+def share_left(hits: str, of: str) -> str:
+    """The 95 % interval of a share of which so many of so many were seen, %."""
+    return " to ".join(shown(100 * end, ".0f") for end in measures.wilson(int(hits), int(of)))
 
 
 def shown(number: float, form: str) -> str:

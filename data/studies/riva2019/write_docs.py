@@ -6,6 +6,8 @@ usage: write_docs.py [--check]: with --check only says whether they agree, as ex
 Templates have `{{path}}`, `{{path|format}}` and `{{path|factor|format}}`: a path in results.json, a factor and a Python
 format; with `*` in the path for the three discs, one after the other. `{{table NAME ARGUMENT...}}` is one of tables.py, friction_tables.py or strength_tables.py, `{{m runs}}` the
 time acceleration of a part of the study; `{{change LENGTH HEIGHTS HALVING QUANTITY}}` is one of the mesh, `{{ratios LENGTH QUANTITY}}` those of the rough disc to the smoothest; `{{last tenth HEIGHTS END}}` is the mean contact area of a run at m = 1 over the last tenth of the time to its end, mm².
+`{{PATH minus PATH|...}}` and `{{PATH relative to PATH|...}}` compare two; `{{largest PATTERN|...}}` and `{{smallest PATTERN|...}}` are of the sizes of all numbers at paths with `*`.
+`{{wilson HITS OF}}` is an interval of a share, `{{runs of STUDY...}}` a number of runs, `{{wear from 0 STRENGTH HEIGHTS}}` wear of the first 300 s and of the last.
 """
 
 import re
@@ -16,7 +18,7 @@ import friction_tables
 import strength_tables
 import tables
 from discs import NAMES
-from tables import last_tenth, m_of, told, value
+from tables import compared, every, last_tenth, m_of, runs_of, share_left, shown, told, value
 
 HERE = Path(__file__).parent
 ROOT = HERE.parents[2]
@@ -27,6 +29,11 @@ def one_of(path: str, factor: float, form: str | None) -> str:
     """What a template has a path for."""
     if form is None:
         return str(value(path))
+    if " minus " in path or " relative to " in path:
+        return shown(compared(path) * factor, form)
+    for word, of in {"largest ": max, "smallest ": min}.items():
+        if path.startswith(word):
+            return shown(of(every(path.removeprefix(word))) * factor, form)
     if "*" in path:
         return ", ".join(told(value(path.replace("*", heights)), factor, form) for heights in NAMES)
     return told(value(path), factor, form)
@@ -47,6 +54,12 @@ def filled_in(template: str) -> str:
             return strength_tables.change(*what.removeprefix("change ").split(maxsplit=2))
         if what.startswith("ratios "):
             return strength_tables.ratios(*what.removeprefix("ratios ").split())
+        if what.startswith("wilson "):
+            return share_left(*what.removeprefix("wilson ").split())
+        if what.startswith("runs of "):
+            return str(runs_of(*what.removeprefix("runs of ").split()))
+        if what.startswith("wear from 0 "):
+            return strength_tables.wear_from_the_start(*what.removeprefix("wear from 0 ").split())
         if what.startswith("last tenth "):
             heights, end = what.removeprefix("last tenth ").split()
             return last_tenth(heights, float(end))
