@@ -102,14 +102,14 @@ class Search(unittest.TestCase):
         given = study_of([span("A"), span("B")], LIMITS_MEET, "central-composite", responses=RESPONSES)
         given.runs["gain"] *= 1e-9
         limits = {"limit": ["cost<=3.1", "risk<=2.2"]}
-        wide = {"minimize": ["cost", "risk"], "importance": ["gain=2"]}
+        wide = {"minimize": ["cost", "risk"], "importance": "gain=2"}
         for goal, options, place, desirability in [
             ("gain", limits, [0.04053128181175647, 0.1633281024590958], 0.566368089556722),
             ("gain=4 mm3..6 mm3", wide, [0.3701921521886353, 0.10798442362379701], 0.5249308802607406),
             ("gain", {"hold": ["A=0.2", "B=-0.1"]}, [0.2, -0.1], 0.5393462077544413),
         ]:
             with self.subTest(goal):
-                found = optimize(given, maximize=[goal], **options)
+                found = optimize(given, maximize=goal, **options)
                 np.testing.assert_allclose(found.settings["value"].to_numpy(float), place, atol=2e-6)
                 self.assertAlmostEqual(found.desirability, desirability, delta=1e-8)
                 self.assertEqual([limit["holds_back"] for limit in found.document()["limits"]], [True] * len(options.get("limit", [])))

@@ -358,7 +358,8 @@ def _value(option: str, text: str, said: str, response: Response) -> float:
 def wanted(
     study: Study, given: dict[str, Sequence[str]], limits: Sequence[str], limit_on: str, importance: Sequence[str]
 ) -> tuple[list[Goal], list[Limit]]:
-    """Goals and limits of the words."""
+    """Goals and limits of the words; one text is a sequence of one."""
+    *every, limits, importance = ([texts] if isinstance(texts, str) else texts for texts in (*given.values(), limits, importance))
     responses = {response.name: response for response in study.responses}
     goals: dict[str, Goal] = {}
 
@@ -368,7 +369,7 @@ def wanted(
             raise InputError(f'"{name}": no run has this response')
         return float(values.min()), float(values.max())
 
-    for aim, text in ((aim, text) for aim, texts in given.items() for text in texts):
+    for aim, text in ((aim, text) for aim, texts in zip(given, every, strict=True) for text in texts):
         name, _, said = named(list(responses), text, ["="])
         values = [_value(f"--{aim}", text, value, responses[name]) for value in said.split("..")] if said else []
         low, high = observed(name)

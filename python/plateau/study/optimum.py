@@ -203,15 +203,15 @@ def optimize(
     Parameters
     ----------
     study : path or Study
-    maximize, minimize : sequence of str
+    maximize, minimize : str or sequence of str
         Responses, each ``NAME`` or ``NAME=LOW..HIGH`` with the values at which it is worth nothing and everything; else those of the runs.
-    target : sequence of str
+    target : str or sequence of str
         ``NAME=VALUE`` or ``NAME=LOW..VALUE..HIGH``.
-    limit : sequence of str
+    limit : str or sequence of str
         ``NAME<=VALUE`` or ``NAME>=VALUE``.
     limit_on : {"mean", "means", "runs"}
         Value that has to keep the limits: the expected mean, the interval of means, or that of one more run.
-    importance : sequence of str
+    importance : str or sequence of str
         ``NAME=NUMBER``: how much a goal counts, 1 unless given.
     hold : dict or sequence of str
         ``FACTOR=VALUE``.
