@@ -159,10 +159,10 @@ def with_error(found: list[float] | None, factor: float, form: str) -> str:
     return with_interval(found[:2], factor, form) if found else ""
 
 
-def change(length: str, heights: str, what: str) -> str:
+def change(length: str, heights: str, *what: str) -> str:
     """A change by a halving of the cell, such as `50 to 25 filled`, with its sign."""
-    halving, key = what.rsplit(maxsplit=1)
-    found = value(f"mesh/changes/{length}/{heights}/{halving}/{key}")
+    *halving, key = what
+    found = value(f"mesh/changes/{length}/{heights}/{' '.join(halving)}/{key}")
     return f"{shown(100 * found[0], '+.1f')} ± {shown(100 * found[1], '.1f')} %"
 
 

@@ -12,6 +12,7 @@ time acceleration of a part of the study; `{{change LENGTH HEIGHTS HALVING QUANT
 
 import re
 import sys
+from collections.abc import Callable
 from pathlib import Path
 
 import friction_tables
@@ -23,6 +24,18 @@ from tables import compared, every, last_tenth, m_of, runs_of, share_left, shown
 HERE = Path(__file__).parent
 ROOT = HERE.parents[2]
 MARKS = "<!-- found by data/studies/riva2019 -->\n", "<!-- end of what was found -->\n"
+
+
+#: Words of templates, each with the function that takes what stands behind it.
+WORDS: dict[str, Callable[..., object]] = {
+    "m ": m_of,
+    "change ": strength_tables.change,
+    "ratios ": strength_tables.ratios,
+    "wilson ": share_left,
+    "runs of ": runs_of,
+    "wear from 0 ": strength_tables.wear_from_the_start,
+    "last tenth ": lambda heights, end: last_tenth(heights, float(end)),
+}
 
 
 def one_of(path: str, factor: float, form: str | None) -> str:
@@ -48,21 +61,9 @@ def filled_in(template: str) -> str:
             name, *arguments = what.removeprefix("table ").split()
             module = next(of for of in (friction_tables, strength_tables, tables) if hasattr(of, f"table_{name}"))
             return getattr(module, f"table_{name}")(*arguments).rstrip("\n")
-        if what.startswith("m "):
-            return m_of(what.removeprefix("m "))
-        if what.startswith("change "):
-            return strength_tables.change(*what.removeprefix("change ").split(maxsplit=2))
-        if what.startswith("ratios "):
-            return strength_tables.ratios(*what.removeprefix("ratios ").split())
-        if what.startswith("wilson "):
-            return share_left(*what.removeprefix("wilson ").split())
-        if what.startswith("runs of "):
-            return str(runs_of(*what.removeprefix("runs of ").split()))
-        if what.startswith("wear from 0 "):
-            return strength_tables.wear_from_the_start(*what.removeprefix("wear from 0 ").split())
-        if what.startswith("last tenth "):
-            heights, end = what.removeprefix("last tenth ").split()
-            return last_tenth(heights, float(end))
+        for word, of in WORDS.items():
+            if what.startswith(word):
+                return str(of(*what.removeprefix(word).split()))
         path, *rest = what.split("|")
         try:
             return one_of(path, float(rest[0]) if len(rest) == 2 else 1.0, rest[-1] if rest else None)

@@ -17,6 +17,7 @@ from plateau.study.data import Answer, Factor, Numbers, Study
 from plateau.study.figure_axes import dots, file_names, set_axis
 from plateau.study.likelihood import SETTLED, Likelihood, Target, products, profile, region
 from plateau.study.measured import Measurement
+from plateau.study.process import missed_by
 from plateau.study.settings import in_short, joined, not_smooth
 from plateau.style import LINES, NARROW, QUIET, WIDE, Figures, in_style, labelled, new
 from plateau.text_tables import listed
@@ -215,10 +216,9 @@ class Fit(Answer):
             said.append("Two sets of seeds hardly tell what differs between sets, so intervals may be too short: take three or more.")
         for at, one in enumerate(measured):
             name, terms, uncertainty = one.response.name, self._terms.loc[[at]], 1.0 if one.is_series else one.uncertainties[0]
-            processes = [term.process for term in self._likelihood.terms if term.of == at]
             # Of a series all components together, as far as the measurement can see them.
-            missed = sum(np.square(own.loo[0]).mean() for own in processes) / max(sum(own.means.var() for own in processes), 1e-300)
-            said += [f"{caution}." for caution in not_smooth(float(missed), f"Points of {name}")]
+            missed = missed_by([term.process for term in self._likelihood.terms if term.of == at])
+            said += [f"{caution}." for caution in not_smooth(missed, f"Points of {name}")]
             if terms["seed_to_seed"].max() > uncertainty:
                 scatter = f"Runs with other seeds scatter in {name} by more than the uncertainty of the measurement"
                 said.append(f"{scatter}; if specimens do so, too, add it to the uncertainty, unless a mean of many was measured.")

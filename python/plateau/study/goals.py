@@ -17,7 +17,7 @@ from scipy import optimize, stats
 from plateau.errors import InputError
 from plateau.study.data import Factor, Numbers, Response, Study
 from plateau.study.model import is_same
-from plateau.study.settings import axis_of, beyond_of, ends_of, held_values, reach_of
+from plateau.study.settings import axis_of, beyond_of, each_of, ends_of, held_values, reach_of
 from plateau.study.surrogate import Surrogate, surrogates
 from plateau.units import quantity
 
@@ -358,8 +358,7 @@ def _value(option: str, text: str, said: str, response: Response) -> float:
 def wanted(
     study: Study, given: dict[str, Sequence[str]], limits: Sequence[str], limit_on: str, importance: Sequence[str]
 ) -> tuple[list[Goal], list[Limit]]:
-    """Goals and limits of the words; one text is a sequence of one."""
-    *every, limits, importance = ([texts] if isinstance(texts, str) else texts for texts in (*given.values(), limits, importance))
+    """Goals and limits of the words."""
     responses = {response.name: response for response in study.responses}
     goals: dict[str, Goal] = {}
 
@@ -369,7 +368,7 @@ def wanted(
             raise InputError(f'"{name}": no run has this response')
         return float(values.min()), float(values.max())
 
-    for aim, text in ((aim, text) for aim, texts in zip(given, every, strict=True) for text in texts):
+    for aim, text in ((aim, text) for aim, texts in given.items() for text in each_of(texts)):
         name, _, said = named(list(responses), text, ["="])
         values = [_value(f"--{aim}", text, value, responses[name]) for value in said.split("..")] if said else []
         low, high = observed(name)
@@ -391,13 +390,13 @@ def wanted(
         goals[name] = Goal(name, aim, tuple(values[::-1] if aim == "minimize" else values), is_of_runs=not said)
     if not goals:
         raise InputError("no goal: give --maximize, --minimize or --target with a response")
-    for text in importance:
+    for text in each_of(importance):
         name, _, said = named(list(goals), text, ["="])
         if not 0.01 <= (power := quantity(said, "1", needs_unit=False)) <= 100.0:
             raise InputError(f'--importance "{text}": expected a number between 0.01 and 100')
         goals[name] = replace(goals[name], importance=power)
     found = []
-    for text in limits:
+    for text in each_of(limits):
         name, sign, said = named(list(responses), text, ["<=", ">="])
         low, high = observed(name)
         found.append(Limit(name, sign == ">=", _value("--limit", text, said, responses[name]), limit_on, high - low if high > low else 1.0))

@@ -104,9 +104,7 @@ def levels(study: Study | str | os.PathLike[str], control: str | None = None, mo
 def _of_factor(fit: Fitted, at: int, names: list[str], control: str | None) -> pandas.DataFrame:
     """Differences of one factor; `NothingToFit` if the runs tell none, or no error."""
     coding = fit.codings[at]
-    # The others are averaged: their contrasts are 0.
-    numbers = [one.numbers(pandas.Series(one.classes)) if one is coding else np.zeros((len(names), one.width)) for one in fit.codings]
-    means = fit.products(numbers)
+    means = fit.averaged(pandas.DataFrame({coding.factor.name: coding.classes}))
     pairs = [(one, other) for other, one in itertools.combinations(range(len(names)), 2)]
     if control is not None:
         pairs = [(one, names.index(control)) for one in range(len(names)) if names[one] != control]

@@ -250,6 +250,11 @@ class Fitted:
         """Rows of the model matrix, averaged over blocks, at points: a column for each factor, SI units or words."""
         return self.products([coding.numbers(points[coding.factor.name]) for coding in self.codings])
 
+    def averaged(self, places: pandas.DataFrame) -> Numbers:
+        """Rows of the model matrix at values of some factors, over all levels of the others and their middles: their contrasts are 0."""
+        named = [(one, one.factor.name) for one in self.codings]
+        return self.products([one.numbers(places[name]) if name in places else np.zeros((len(places), one.width)) for one, name in named])
+
     def products(self, numbers: Sequence[Numbers]) -> Numbers:
         """Rows of the model matrix, averaged over blocks, of the numbers of all factors."""
         count = len(numbers[0]) if numbers else len(self.values)

@@ -119,7 +119,7 @@ def _misfit(fit: Fitted) -> tuple[dict[str, Any] | None, Fitted | None]:
 def _other(fit: Fitted, model: str) -> Fitted | None:
     """Another model of the same response; None if it cannot be fitted or leaves no error."""
     try:
-        other = fitted(fit.study, fit.response, model, fit.confidence, bool(fit.centre))
+        other = _with(fit, model)
     except InputError:
         return None
     # Squares that the runs do not allow are no advice.
@@ -127,14 +127,14 @@ def _other(fit: Fitted, model: str) -> Fitted | None:
     return other if is_told and not (model == "quadratic" and no_squares(other)) else None
 
 
-def _main(fit: Fitted) -> Fitted:
-    """The smallest model of the same response."""
-    return fitted(fit.study, fit.response, "main", fit.confidence, bool(fit.centre))
+def _with(fit: Fitted, model: str) -> Fitted:
+    """The fit of a model to the same response."""
+    return fit if model == fit.model else fitted(fit.study, fit.response, model, fit.confidence, bool(fit.centre))
 
 
 def replicates_advice(fit: Fitted) -> str:
     """Advice on what gives the effects of a saturated model an error."""
-    smaller = ", or the smaller --model main" if _main(fit).residual_freedom > 0 else ""
+    smaller = ", or the smaller --model main" if _with(fit, "main").residual_freedom > 0 else ""
     return f"give [replicates] of seeds, such as those of the disc{smaller}"
 
 
@@ -176,7 +176,7 @@ def cautions(fit: Fitted) -> list[str]:
         how = ": points differ from the model by more than replicates from each other" if missed["by_replicates"] else ""
         said.append(f"lack of fit{how} ({p}); {better}")
     if (freedom := fit.point_count - len(fit.own)) <= 0:
-        smaller = " or --model main" if (main := _main(fit)).point_count > len(main.own) else ""
+        smaller = " or --model main" if (main := _with(fit, "main")).point_count > len(main.own) else ""
         said.append(f"as many coefficients as points: runs cannot show what the model misses; more points{smaller} would")
     elif freedom < LEAST_FREEDOM:
         few = f"few points: {fit.point_count} for {len(fit.own)} coefficients"

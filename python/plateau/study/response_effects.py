@@ -120,8 +120,7 @@ class ResponseEffects:
                 coded = np.linspace(-1.0, 1.0, 5 if places or not steps else steps)
             places.append(list(coding.classes or coding.factor.value(coded)))
         cells = pandas.DataFrame(list(itertools.product(*places)), columns=list(factors))
-        numbers = [one.numbers(cells[name]) if name in factors else np.zeros((len(cells), one.width)) for name, one in codings.items()]
-        found = fit.combined(rows := fit.products(numbers))
+        found = fit.combined(rows := fit.averaged(cells))
         reach = stats.t.ppf(0.5 + 0.5 * fit.confidence, found["freedom"]) * found["standard_error"]
         values = found["value"].where(pandas.Series(fit.tells(rows)))
         there = [fit.values[np.logical_and.reduce([is_same(fit.runs[name], row[name]) for name in factors])] for _, row in cells.iterrows()]

@@ -25,6 +25,7 @@ from plateau.run_accessor import TOTALS
 from plateau.scenes import scene_of
 from plateau.study.data import Answer, Numbers, Response, Study
 from plateau.study.runs import finished, write_study
+from plateau.study.settings import each_of
 from plateau.style import NARROW, QUIET, Figures, in_style, labelled, look, new, wrapped
 from plateau.text_tables import listed
 from plateau.toml_text import toml_of
@@ -430,7 +431,7 @@ def of_scenes(
     path = Path(directory) / "study.toml"
     if path.exists() and not force:
         raise InputError(f"{path} exists: take another folder, or force=True to write its files anew")
-    asked = [response_of("", one) for one in ([responses] if isinstance(responses, str) else responses)]
+    asked = [response_of("", one) for one in each_of(responses)]
     study: dict[str, Any] = {"title": str(values[0]["title"]), "base": "scene.toml", "directory": ".", "file": "points.csv"}
     study |= {"factor": [{"name": key, "key": key} for key in factors], "response": asked}
     texts = [{key: str(one[key]).lower() if isinstance(one[key], bool) else str(one[key]) for key in factors} for one in values]

@@ -133,13 +133,13 @@ def _sizes(fit: Fitted, table: pandas.DataFrame) -> list[dict[Any, Any]]:
 
 def _largest(fit: Fitted, at: int) -> dict[str, Any]:
     """The largest difference between two levels of a factor, over all levels of the others; nothing if the runs tell none, or no error."""
-    levels = pandas.Series(fit.codings[at].classes)
-    means = fit.products([one.numbers(levels) if one is fit.codings[at] else np.zeros((len(levels), one.width)) for one in fit.codings])
+    factor, levels = fit.codings[at].factor, pandas.Series(fit.codings[at].classes)
+    means = fit.averaged(levels.to_frame(factor.name))
     pairs = [(one, other) for other, one in itertools.combinations(np.flatnonzero(fit.tells(means)).tolist(), 2)]
     found = fit.combined(np.array([means[one] - means[other] for one, other in pairs]).reshape(len(pairs), means.shape[1]))
     if not (sizes := found["value"].abs().where(found["standard_error"].notna())).notna().any():
         return {}
-    one, other = (fit.codings[at].factor.text(levels[level]) for level in pairs[int(sizes.idxmax())])
+    one, other = (factor.text(levels[level]) for level in pairs[int(sizes.idxmax())])
     value, deviation, freedom = found.loc[int(sizes.idxmax())]
     return {"term": f"{fit.label((at,))}: {one} less {other}", "effect": value, "standard_error": deviation, "error_freedom": freedom}
 

@@ -146,6 +146,11 @@ def not_smooth(missed: float, points: str = "points", most: str = "") -> list[st
     return [said + f"too short{most} if it has a threshold or a kink; narrower ranges or more points tell whether it has one"]
 
 
+def each_of(texts: str | Sequence[str]) -> Sequence[str]:
+    """Texts; one alone is a sequence of one."""
+    return [texts] if isinstance(texts, str) else texts
+
+
 def in_short(cautions: Iterable[str]) -> str:
     """Cautions as tables have them: what they begin with."""
     return joined(caution.split(":")[0].split(" (")[0] for caution in cautions)

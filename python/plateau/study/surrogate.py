@@ -11,7 +11,7 @@ from plateau.errors import InputError
 from plateau.study.data import Factor, Numbers, Response, Study
 from plateau.study.model import Fitted, NothingToFit, f_test
 from plateau.study.model_choice import cautions, fitted, of_missing
-from plateau.study.process import Process
+from plateau.study.process import Process, missed_by
 from plateau.units import unit_of, with_digits
 
 WORDS = {"main": "main effects", "interactions": "main effects and interactions", "full": "interactions of all orders"}
@@ -88,7 +88,7 @@ class Surrogate:
         """Caution that what forecasts differ by may be scatter: the model is not significant, or the process foretells no better than the mean."""
         if (process := self._taken) is not None:
             # Of means of points, which scatter less than runs.
-            missed = float(np.square(process.loo[0]).mean() / process.means.var())
+            missed = missed_by([process])
             is_chance, how = not missed < 1.0, f"points that were left out are missed by {100 * missed:.0f} % of their variance"
         else:
             p = f_test(self.fit.explained, self.fit.residual)[1] if self.fit else np.nan
