@@ -11,11 +11,10 @@ use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand};
 use clap_complete::Shell;
 use plateau_core::engine::kernel::InstructionSet;
-use plateau_core::simulation::Engine;
+use plateau_core::simulation::{Engine, Execution};
 use plateau_io::scene::schema::choices;
 use plateau_io::text::{odd_character, shown_on_one_line};
 use plateau_io::units::{self, Dimension};
-use plateau_run::ExecutionOptions;
 use plateau_run::accuracy::{COMPARED, Ladder};
 use plateau_run::execution::cores;
 
@@ -262,8 +261,9 @@ pub struct ExecutionArguments {
 
 impl ExecutionArguments {
     /// As the library takes them.
-    pub fn options(&self) -> ExecutionOptions {
-        ExecutionOptions { engine: self.engine, instructions: self.isa, pin: self.pin }
+    pub fn execution(&self) -> Execution {
+        let usual = Execution::default();
+        Execution { engine: self.engine, instructions: self.isa.unwrap_or(usual.instructions), pin: self.pin, ..usual }
     }
 }
 

@@ -2,9 +2,10 @@
 
 use std::path::PathBuf;
 
+use plateau_core::simulation::Execution;
 use plateau_io::number;
 use plateau_run::sweep::{self, Sweep, SweepOptions};
-use plateau_run::{ExecutionOptions, Job, RunOptions, StartMode, execution};
+use plateau_run::{Job, RunOptions, StartMode, execution};
 use pyo3::prelude::*;
 
 use crate::background::{MessageObserver, Messages, in_background};
@@ -35,7 +36,7 @@ pub fn run(
                 "extend" => StartMode::Extend,
                 _ => StartMode::New,
             },
-            execution: ExecutionOptions { engine: engine_of(engine)?, ..ExecutionOptions::default() },
+            execution: Execution { engine: engine_of(engine)?, ..Execution::default() },
             program: program(),
         };
         let mut job = Job::start().map_err(Failure::failed)?;

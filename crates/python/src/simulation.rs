@@ -8,9 +8,9 @@ use std::time::Instant;
 
 use plateau_core::model::memory::Heights;
 use plateau_core::observe::{ABSENT, Map, MapValues, quantities};
-use plateau_core::simulation::{self, Engine, SimulationError};
+use plateau_core::simulation::{self, Engine, Execution, SimulationError};
 use plateau_io::{plausibility, scene as scenes, surface};
-use plateau_run::{Assembly, ExecutionOptions, Observer, adapted, execution, stiffness_warning};
+use plateau_run::{Assembly, Observer, adapted, execution, stiffness_warning};
 use pyo3::buffer::PyBuffer;
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
@@ -58,8 +58,8 @@ impl Inner {
         let loaded = surface::load(&scene).map_err(Failure::input)?;
         loaded.warnings().for_each(|warning| observer.warning(&warning));
         plausibility::of_surfaces(&scene, &loaded).iter().for_each(|warning| observer.warning(warning));
-        let options = ExecutionOptions { engine, ..ExecutionOptions::default() };
-        let execution = execution::decide(&scene, 1, &options, &loaded.surfaces, &mut observer)?;
+        let asked = Execution { engine, ..Execution::default() };
+        let execution = execution::decide(&scene, 1, asked, &loaded.surfaces, &mut observer)?;
         let assembly = Assembly::new(&scene, loaded.surfaces, execution)?;
         Ok(Self { scene, assembly, inputs: loaded.inputs, failed: None })
     }

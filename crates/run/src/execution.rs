@@ -3,13 +3,12 @@
 use std::fs;
 use std::time::{Duration, Instant};
 
-use plateau_core::engine::kernel::InstructionSet;
 use plateau_core::model::state::InitialSurfaces;
 use plateau_core::simulation::{Engine, Execution, Simulation, SimulationError};
 use plateau_io::scene::{Scene, Workers};
 
 use crate::error::InputError;
-use crate::options::{ExecutionOptions, Observer};
+use crate::options::Observer;
 
 pub use plateau_io::process::host;
 
@@ -31,32 +30,30 @@ const TRIAL: Duration = Duration::from_millis(25);
 /// Steps before a trial's clock starts: threads start, caches fill, and the first displacement is searched from afar.
 const WARM_UP_STEPS: u64 = 200;
 
-/// Decides how a scene is carried out by `ranks` processes together, and says what is worth knowing about it. Where
-/// there are several, each of them is one worker.
+/// Decides how a scene is carried out by `ranks` processes together, with engine, instructions and pinning as `asked`, and says
+/// what is worth knowing about it. Where there are several, each of them is one worker.
 pub fn decide(
     scene: &Scene,
     ranks: usize,
-    options: &ExecutionOptions,
+    asked: Execution,
     surfaces: &InitialSurfaces,
     observer: &mut dyn Observer,
 ) -> Result<Execution, SimulationError> {
     let workers = scene.workers;
-    let instructions = options.instructions.unwrap_or_else(InstructionSet::best);
-    let engine = options.engine.of(&scene.parameters);
+    let engine = asked.engine.of(&scene.parameters);
     if engine == Engine::Plain {
         if ranks > 1 {
             return Err(SimulationError::PlainOnRanks { ranks });
         }
-        if engine != options.engine {
+        if engine != asked.engine {
             observer.note(&"pooled debris: the plain model takes the steps, cell by cell, on one worker");
         }
         if workers != Workers::Count(1) {
             observer.warning(&"the plain model runs on one worker: numerics.workers and --workers have no effect");
         }
-        return Ok(Execution { engine, instructions, ..Execution::default() });
+        return Ok(Execution { engine, workers: 1, pin: false, ..asked });
     }
-    let execution =
-        Execution { instructions, pin: options.pin, decomposition: scene.decomposition, ..Execution::default() };
+    let execution = Execution { decomposition: scene.decomposition, ..asked };
     if ranks > 1 {
         return Ok(Execution { workers: ranks, ..execution });
     }
@@ -78,14 +75,14 @@ pub fn decide(
 ///
 /// # Errors
 /// [`InputError::Refused`] otherwise.
-pub(crate) fn check_ranks(scene: &Scene, ranks: usize, options: &ExecutionOptions) -> Result<(), InputError> {
+pub(crate) fn check_ranks(scene: &Scene, ranks: usize, is_pinned: bool) -> Result<(), InputError> {
     let refused = match scene.workers {
         _ if ranks == 1 => return Ok(()),
         Workers::Count(workers) if workers > 1 => format!(
             "numerics.workers or --workers is {workers}, expected 1 on {ranks} ranks, which share the ring, one worker each: leave it \
              out, and start as many ranks as there are to be workers, as in mpirun -n {workers}"
         ),
-        _ if options.pin => format!(
+        _ if is_pinned => format!(
             "--pin is for the threads of one process, and there are {ranks} ranks: leave it out, and let the launcher pin them, as in \
              mpirun --bind-to core"
         ),

@@ -40,7 +40,7 @@ pub mod sweep;
 pub use assembly::{Assembly, Sink, adapted};
 pub use error::{InputError, Progress, RunError, RunFailure, Stopped, lacks_resources, signal_in_words};
 pub use job::Job;
-pub use options::{ExecutionOptions, Observer, Program, RunOptions, StartMode};
+pub use options::{Observer, Program, RunOptions, StartMode};
 pub use recorder::{idle_warning, input_files, stiffness_warning};
 pub use run::run;
 pub use summary::{PartsSummary, RunSummary};

@@ -3,9 +3,8 @@
 use std::fmt::Display;
 use std::path::PathBuf;
 
-use plateau_core::engine::kernel::InstructionSet;
 use plateau_core::observe::Sample;
-use plateau_core::simulation::{Engine, Simulation};
+use plateau_core::simulation::{Execution, Simulation};
 
 /// Options of a run besides its scene.
 #[derive(Debug, Clone, Default)]
@@ -16,8 +15,8 @@ pub struct RunOptions {
     pub replace: bool,
     /// Start of the run: it begins or goes on.
     pub mode: StartMode,
-    /// Execution of the run.
-    pub execution: ExecutionOptions,
+    /// Execution that is asked for; workers and decomposition are those of the scene.
+    pub execution: Execution,
     /// Program that makes the run.
     pub program: Program,
 }
@@ -39,17 +38,6 @@ impl StartMode {
     pub(crate) fn resumes(self) -> bool {
         self != Self::New
     }
-}
-
-/// Execution of a run. Nothing of it shows in the results, but that the two engines round differently.
-#[derive(Debug, Clone, Copy, Default)]
-pub struct ExecutionOptions {
-    /// Engine that takes the steps.
-    pub engine: Engine,
-    /// Instruction set of the kernels; the widest that the processor has unless given.
-    pub instructions: Option<InstructionSet>,
-    /// Tells whether each worker stays on a core of its own.
-    pub pin: bool,
 }
 
 /// The program that makes a run, as run files and checkpoints name it. Only the same program goes on from its checkpoints.

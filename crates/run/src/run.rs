@@ -74,7 +74,7 @@ impl Prepared {
         job: &mut Job,
         observer: &mut dyn Observer,
     ) -> Result<Self, RunError> {
-        check_ranks(&scene, job.ranks(), &options.execution)?;
+        check_ranks(&scene, job.ranks(), options.execution.pin)?;
         let path = options.output.clone().unwrap_or_else(|| scene.output.file.clone());
         // What a link points to is what is written, and its checkpoints lie beside it.
         let path = if path.is_symlink() { path.canonicalize().unwrap_or(path) } else { path };
@@ -96,7 +96,7 @@ impl Prepared {
         warn_of_scene(&mut scene, implausible, observer);
         let Loaded { surfaces, inputs, report, .. } = loaded;
         report.iter().for_each(|step| observer.detail(step));
-        let execution = decide(&scene, job.ranks(), &options.execution, &surfaces, observer)?;
+        let execution = decide(&scene, job.ranks(), options.execution, &surfaces, observer)?;
         let on_job = |parameters, surfaces, execution| job.simulation(parameters, surfaces, execution);
         let assembly = Assembly::made_by(on_job, &scene, surfaces, execution)?;
         assembly.idle().into_iter().for_each(|idle| observer.warning(&idle_warning(idle)));
@@ -128,7 +128,7 @@ impl Prepared {
         }
         let checkpointer = Checkpointer::new(&path, identity, scene.output.checkpoint_every, state.as_ref());
 
-        let (start, before) = (Instant::now(), assembly.simulation.course().steps);
+        let began = (Instant::now(), assembly.simulation.course().steps);
         observer.starts("", assembly.schedule.end_time());
         let (agreement, recorded) = (Agreement::default(), Recorded::new(&scene.parameters));
         let is_stiff = is_stiff(&scene.parameters, scene.parameters.first_stiffness_number());
@@ -145,30 +145,11 @@ impl Prepared {
         let report = close(result, writer, &assembly, &path)?;
         checkpointer.write(&mut assembly, true, Some(Synced::already()), observer)?;
         checkpointer.wait(observer);
-        let made = RunFile::open(&path).map_err(RunFailure::Read)?;
-        let contact_area = made.contact_area().map_err(RunFailure::Read)?;
-        let disc_temperatures = made.values("disc_temperature").map_err(RunFailure::Read)?;
-        drop(made);
         let implausible = recorded.warnings(&scene);
         warn_of_scene(&mut scene, implausible, observer);
         let last = checkpointer.last_sample.clone().unwrap_or_default();
-        let course = assembly.simulation.course();
-        let wall_time = start.elapsed().as_secs_f64();
-        let chosen = assembly.chosen_acceleration();
-        let (surfaces, temperatures) = (header.surfaces, disc_temperatures);
-        let summary = RunSummary::new(
-            &scene,
-            surfaces,
-            path,
-            &last,
-            contact_area,
-            temperatures,
-            chosen,
-            course,
-            report,
-            before,
-            wall_time,
-        );
+        let summary = RunSummary::new(&scene, header.surfaces, path, &last, &assembly, report, began);
+        let summary = summary.map_err(RunFailure::Read)?;
         summary.inexact_load().iter().for_each(|warning| observer.warning(warning));
         // Why there was no scout from the start is said already.
         let idle = assembly.idle().filter(|_| assembly.chooses_acceleration());

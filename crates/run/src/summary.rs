@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;
+use std::time::Instant;
 
 use plateau_core::acceleration::Chosen;
 use plateau_core::model::accounts::AccountsReport;
@@ -9,11 +10,12 @@ use plateau_core::observe::Sample;
 use plateau_core::observe::extra::{Extra, OF_BRAKES};
 use plateau_core::observe::running_in::{Drift, NotDefined};
 use plateau_core::observe::window_mean::WindowMean;
-use plateau_core::simulation::Course;
 use plateau_io::memory;
-use plateau_io::run_file::{ContactArea, NoDrift, WriterReport};
+use plateau_io::run_file::{NoDrift, ReadError, RunFile, WriterReport};
 use plateau_io::scene::{Scene, Warning};
 use serde::Serialize;
+
+use crate::assembly::Assembly;
 
 /// Results of a finished run. Quantities of the contact are those of the last step unless said otherwise.
 #[derive(Debug, Serialize)]
@@ -158,22 +160,20 @@ fn of_brake(extras: &[&Extra], last: &Sample) -> BTreeMap<&'static str, f64> {
 }
 
 impl RunSummary {
-    /// Puts together what was done for the surfaces and what the run file, the last sample, the simulation and the writer tell; `before`
-    /// are the steps of earlier processes.
-    #[expect(clippy::too_many_arguments, reason = "each from somewhere else")]
+    /// Puts together what was done for the surfaces and what the run file, the last sample, the simulation and the writer tell; this
+    /// process `began` at such a time and step.
     pub(crate) fn new(
         scene: &Scene,
         surfaces: Vec<String>,
         file: PathBuf,
         last: &Sample,
-        ended: ContactArea,
-        disc_temperatures: Option<Vec<f64>>,
-        chosen: Option<Chosen>,
-        course: Course,
+        assembly: &Assembly,
         report: WriterReport,
-        before: u64,
-        wall_time: f64,
-    ) -> Self {
+        began: (Instant, u64),
+    ) -> Result<Self, ReadError> {
+        let made = RunFile::open(&file)?;
+        let (ended, disc_temperatures) = (made.contact_area()?, made.values("disc_temperature")?);
+        let (course, wall_time) = (assembly.simulation.course(), began.0.elapsed().as_secs_f64());
         // With a cycle, the distance at the end counts also what of the last pause's angle no step has turned.
         let distance = scene.parameters.angle_turned(last.step, last.time) * scene.parameters.mesh.mean_radius();
         // Of a braking torque the load is known from the steps alone.
@@ -181,7 +181,7 @@ impl RunSummary {
             Some(friction) if scene.parameters.by_torque => friction.load_work,
             _ => scene.parameters.mean_load(last.step) * distance,
         };
-        Self {
+        Ok(Self {
             title: scene.title.clone(),
             surfaces,
             file,
@@ -189,7 +189,7 @@ impl RunSummary {
             steps: last.step,
             time: last.time,
             wall_time,
-            steps_per_second: (course.steps - before) as f64 / wall_time,
+            steps_per_second: (course.steps - began.1) as f64 / wall_time,
             load_evaluations_per_step: 1.0 + course.extra_readings as f64 / course.steps as f64,
             writer_wait: report.waited.as_secs_f64(),
             peak_memory: memory::peak(),
@@ -199,7 +199,7 @@ impl RunSummary {
             contact_area_drift: ended.drift.ok(),
             running_in_time: ended.running_in.ok(),
             running_in: (ended.drift, ended.running_in),
-            time_acceleration: chosen,
+            time_acceleration: assembly.chosen_acceleration(),
             contact_ratio: last.contact_ratio,
             mean_pressure: last.mean_pressure,
             max_pressure: last.max_pressure,
@@ -219,7 +219,7 @@ impl RunSummary {
             load_tolerance: scene.load_tolerance,
             balance_residual: last.balance_residual,
             warnings: scene.warnings.clone(),
-        }
+        })
     }
 
     /// Says where the load balance was not as exact as the scene asks for.

@@ -56,8 +56,8 @@ fn measure_into(
 ) -> Result<(), Failure> {
     let places = places(arguments, &scene, &loaded.inputs)?;
     let start_time = now();
-    let options = arguments.execution.options();
-    let execution = decide(&scene, 1, &options, &loaded.surfaces, &mut Messages).map_err(Failure::run)?;
+    let asked = arguments.execution.execution();
+    let execution = decide(&scene, 1, asked, &loaded.surfaces, &mut Messages).map_err(Failure::run)?;
     let mut ladders = if arguments.ladders.is_empty() { USUAL.to_vec() } else { arguments.ladders.clone() };
     ladders.sort_unstable();
     ladders.dedup();

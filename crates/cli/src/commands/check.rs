@@ -50,8 +50,8 @@ pub fn check(arguments: &CheckArguments) -> Result<(), Failure> {
         message::warning(idle_warning(Idle::Smooth(0.0)));
         scene.adaptive = None;
     }
-    let options = arguments.execution.options();
-    let decided = decide(&scene, 1, &options, &surfaces, &mut Messages).map_err(Failure::run)?;
+    let asked = arguments.execution.execution();
+    let decided = decide(&scene, 1, asked, &surfaces, &mut Messages).map_err(Failure::run)?;
     let mut simulation =
         Simulation::with_execution(scene.parameters.clone(), surfaces, decided).map_err(Failure::input)?;
     let seconds_per_step = time_per_step(&mut simulation, scene.steps, TRIAL).map_err(Failure::run)?;

@@ -35,7 +35,7 @@ fn run_scene(arguments: &RunArguments, job: &mut Job) -> Result<(), Failure> {
         output: arguments.output.clone(),
         replace: arguments.force,
         mode,
-        execution: arguments.execution.options(),
+        execution: arguments.execution.execution(),
         program: program::this(),
     };
     make(scene, &options, arguments.scene.json, job, terminal)

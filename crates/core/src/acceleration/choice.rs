@@ -26,6 +26,8 @@ const SHORTEST_WINDOW: f64 = 5.0;
 const WINDOWS: f64 = 50.0;
 /// Simulated revolutions that a window has at least: the contact area varies round the ring.
 const REVOLUTIONS_PER_WINDOW: f64 = 3.0;
+/// Windows over which the mean square of the error fades.
+const WINDOWS_OF_SQUARE: f64 = 3.0;
 /// Stiffness number of the scout that the explicit rule may reach: above 1 it overshoots.
 const LARGEST_STIFFNESS_NUMBER: f64 = 0.5;
 /// Fraction of the tolerance that is aimed at, 1: the error is only estimated.
@@ -212,7 +214,7 @@ impl Choice {
     /// `difference`, relative to it, and chooses anew.
     pub fn note(&mut self, difference: f64, elapsed: f64, time: f64) {
         self.difference.add(difference, elapsed / self.window);
-        self.square.add(self.difference.value().powi(2), elapsed / (REVOLUTIONS_PER_WINDOW * self.window));
+        self.square.add(self.difference.value().powi(2), elapsed / (WINDOWS_OF_SQUARE * self.window));
         self.integrate(time);
         let aim = AIM * self.tolerance;
         let left = (aim * aim - self.carried * self.carried).max(0.0).sqrt().max(LEAST_SHARE * aim);
