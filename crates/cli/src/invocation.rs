@@ -9,7 +9,7 @@ use clap::CommandFactory as _;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 
 use crate::arguments::Arguments;
-use crate::failure::Failure;
+use crate::failure::{Failure, report};
 use crate::output::printed;
 
 /// Set by the script `plateau` to its own name: the program itself is elsewhere.
@@ -54,7 +54,7 @@ pub fn answered(mut answer: clap::Error) -> ExitCode {
     if !answer.use_stderr() || answer.kind() == ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand {
         return match printed(answer.print()) {
             Ok(()) => ExitCode::from(answer.exit_code() as u8),
-            Err(failure) => failure.report(),
+            Err(failure) => report(failure),
         };
     }
     if let Some(tip) = tip(&answer) {
@@ -62,7 +62,7 @@ pub fn answered(mut answer: clap::Error) -> ExitCode {
         answer.insert(ContextKind::Suggested, ContextValue::StyledStrs(vec![tip.into()]));
     }
     let message = in_plain_words(&answer.to_string());
-    Failure::input(message.trim_start_matches("error: ").trim_end()).report()
+    report(Failure::input(message.trim_start_matches("error: ").trim_end()))
 }
 
 /// Message of the standard library on a text that is no number, as one says it who does not know programming.

@@ -18,14 +18,14 @@ use plateau_io::process::report_file_size_limit;
 
 use arguments::{Arguments, Command, HandedArguments, SweepCommand};
 use commands::{accuracy, check, new, reference, repair, run, runs, surface, sweep, verify, watch};
-use failure::Failure;
+use failure::{Failure, report};
 use hand_over::hand_over;
 
 fn main() -> ExitCode {
     program::fit_environment();
     terminal::Interrupt::pass_over_saves();
     if let Err(failure) = program::refuse_little_memory() {
-        return failure.report();
+        return report(failure);
     }
     program::catch_panics(answer)
 }
@@ -36,13 +36,13 @@ fn other_program() -> Option<ExitCode> {
     let word = arguments.next().filter(|word| hand_over::is_word(word))?.into_string().ok()?;
     let is_own = word == "help" || Arguments::command().find_subcommand(&word).is_some();
     let handed = !is_own && hand_over::answering(&word).is_some();
-    handed.then(|| hand_over(&word, arguments).map_or_else(Failure::report, |()| ExitCode::SUCCESS))
+    handed.then(|| hand_over(&word, arguments).map_or_else(report, |()| ExitCode::SUCCESS))
 }
 
 /// Reads the command line and does what it asks for.
 fn answer() -> ExitCode {
     if let Err(failure) = arguments::refuse_odd_characters(std::env::args_os()) {
-        return failure.report();
+        return report(failure);
     }
     let arguments = match Arguments::try_parse() {
         Ok(arguments) => arguments,
@@ -52,7 +52,7 @@ fn answer() -> ExitCode {
     let _ = report_file_size_limit();
     match perform(arguments) {
         Ok(()) => ExitCode::SUCCESS,
-        Err(failure) => failure.report(),
+        Err(failure) => report(failure),
     }
 }
 

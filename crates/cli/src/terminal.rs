@@ -1,5 +1,6 @@
 //! A run on the terminal: messages and a progress bar on standard error, and signals.
 
+use std::cell::RefCell;
 use std::fmt::Display;
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
@@ -16,7 +17,7 @@ use plateau_run::{Observer, signal_in_words};
 use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM, SIGUSR1, SIGXCPU};
 use signal_hook::low_level::exit;
 
-use crate::failure::Failure;
+use crate::failure::{Failure, say};
 use crate::{invocation, message};
 
 /// Parts of the bar.
@@ -82,22 +83,6 @@ impl Progress {
 pub struct Messages;
 
 impl Observer for Messages {
-    fn warning(&mut self, message: &dyn Display) {
-        message::warning(message);
-    }
-
-    fn note(&mut self, message: &dyn Display) {
-        message::note(message);
-    }
-
-    fn detail(&mut self, message: &dyn Display) {
-        if message::is_verbose() {
-            message::note(message);
-        }
-    }
-}
-
-impl SweepObserver for Messages {
     fn warning(&self, message: &dyn Display) {
         message::warning(message);
     }
@@ -106,6 +91,14 @@ impl SweepObserver for Messages {
         message::note(message);
     }
 
+    fn detail(&self, message: &dyn Display) {
+        if message::is_verbose() {
+            message::note(message);
+        }
+    }
+}
+
+impl SweepObserver for Messages {
     fn retry_advice(&self, study: &Study) -> String {
         let argument = |path: &Path| invocation::argument(&path.to_string_lossy());
         let elsewhere = match study.is_elsewhere {
@@ -121,16 +114,21 @@ impl SweepObserver for Messages {
 pub struct Terminal {
     interrupt: Interrupt,
     /// Guard that is there until something is written.
-    preparation: Option<Preparation>,
+    preparation: RefCell<Option<Preparation>>,
     /// Tells whether there is a progress bar.
     visible: bool,
-    progress: Option<Progress>,
+    progress: RefCell<Option<Progress>>,
 }
 
 impl Terminal {
     /// Notes signals from now on; another process of the job shows the progress unless this one does.
     pub fn listen(visible: bool) -> io::Result<Self> {
-        Ok(Self { interrupt: Interrupt::listen()?, preparation: None, visible, progress: None })
+        Ok(Self {
+            interrupt: Interrupt::listen()?,
+            preparation: RefCell::default(),
+            visible,
+            progress: RefCell::default(),
+        })
     }
 
     /// Listens as [`listen`](Self::listen) does, and notes SIGUSR1 as a wish for a checkpoint.
@@ -141,45 +139,45 @@ impl Terminal {
     }
 
     /// Lets a signal end the program at once until the run is prepared.
-    pub fn end_while_preparing(&mut self) {
-        self.preparation = Some(self.interrupt.end_at_once(self.visible));
+    pub fn end_while_preparing(&self) {
+        *self.preparation.borrow_mut() = Some(self.interrupt.end_at_once(self.visible));
     }
 }
 
 impl Observer for Terminal {
-    fn warning(&mut self, message: &dyn Display) {
+    fn warning(&self, message: &dyn Display) {
         Messages.warning(message);
     }
 
-    fn note(&mut self, message: &dyn Display) {
+    fn note(&self, message: &dyn Display) {
         Messages.note(message);
     }
 
-    fn detail(&mut self, message: &dyn Display) {
+    fn detail(&self, message: &dyn Display) {
         Messages.detail(message);
     }
 
-    fn prepared(&mut self) {
-        self.preparation = None;
+    fn prepared(&self) {
+        drop(self.preparation.take());
     }
 
-    fn starts(&mut self, name: &str, duration: f64) {
-        self.progress = Some(Progress::new(duration, name, self.visible));
+    fn starts(&self, name: &str, duration: f64) {
+        *self.progress.borrow_mut() = Some(Progress::new(duration, name, self.visible));
     }
 
-    fn progress(&mut self, simulation: &Simulation) {
-        self.progress.iter_mut().for_each(|progress| progress.show(simulation));
+    fn progress(&self, simulation: &Simulation) {
+        self.progress.borrow_mut().iter_mut().for_each(|progress| progress.show(simulation));
     }
 
-    fn ends(&mut self) {
+    fn ends(&self) {
         self.progress.take().iter().for_each(|progress| progress.bar.finish_and_clear());
     }
 
-    fn asked_to_stop(&mut self) -> Option<u8> {
+    fn asked_to_stop(&self) -> Option<u8> {
         self.interrupt.signal()
     }
 
-    fn asked_to_save(&mut self) -> bool {
+    fn asked_to_save(&self) -> bool {
         self.interrupt.save()
     }
 }
@@ -229,8 +227,8 @@ impl Interrupt {
                 if let Some(signal) = noted(&signal) {
                     let message = || format!("stopped by {} before the first step", signal_in_words(signal));
                     let stopped = Failure::stopped(signal, speaks.then(message));
-                    stopped.say();
-                    exit(stopped.status().into());
+                    say(&stopped);
+                    exit(stopped.status.into());
                 }
                 drop(goes_on);
                 thread::sleep(LOOK);

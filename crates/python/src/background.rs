@@ -15,7 +15,7 @@ use plateau_run::Observer;
 use plateau_run::sweep::SweepObserver;
 use pyo3::prelude::*;
 
-use crate::failure::Failure;
+use crate::failure::{Failure, Raise as _};
 
 /// Time between two looks at signals.
 const LOOK: Duration = Duration::from_millis(50);
@@ -34,19 +34,6 @@ pub struct Messages {
 }
 
 impl Messages {
-    fn warn(&self, message: &dyn Display) {
-        self.warnings.lock().unwrap_or_else(PoisonError::into_inner).push(message.to_string());
-    }
-
-    fn signal(&self) -> Option<u8> {
-        self.is_asked_to_stop.load(Ordering::Relaxed).then_some(INTERRUPT)
-    }
-
-    /// Sets the end of what [`Observer::progress`] tells.
-    pub fn set_end(&self, end: f64) {
-        self.progress[1].store(end.to_bits(), Ordering::Relaxed);
-    }
-
     /// Hands on warnings, to a function of Python that takes a word and a text, and progress as three numbers.
     fn deliver(&self, tell: &Bound<'_, PyAny>) -> PyResult<()> {
         for message in mem::take(&mut *self.warnings.lock().unwrap_or_else(PoisonError::into_inner)) {
@@ -60,32 +47,25 @@ impl Messages {
     }
 }
 
-/// Observer of a run that writes into messages.
-pub struct MessageObserver<'a>(pub &'a Messages);
-
-impl Observer for MessageObserver<'_> {
-    fn warning(&mut self, message: &dyn Display) {
-        self.0.warn(message);
+impl Observer for Messages {
+    fn warning(&self, message: &dyn Display) {
+        self.warnings.lock().unwrap_or_else(PoisonError::into_inner).push(message.to_string());
     }
 
-    fn starts(&mut self, _name: &str, duration: f64) {
-        self.0.set_end(duration);
+    fn starts(&self, _name: &str, end: f64) {
+        self.progress[1].store(end.to_bits(), Ordering::Relaxed);
     }
 
-    fn progress(&mut self, simulation: &Simulation) {
-        self.0.progress[0].store(simulation.time().to_bits(), Ordering::Relaxed);
+    fn progress(&self, simulation: &Simulation) {
+        self.progress[0].store(simulation.time().to_bits(), Ordering::Relaxed);
     }
 
-    fn asked_to_stop(&mut self) -> Option<u8> {
-        self.0.signal()
+    fn asked_to_stop(&self) -> Option<u8> {
+        self.is_asked_to_stop.load(Ordering::Relaxed).then_some(INTERRUPT)
     }
 }
 
 impl SweepObserver for Messages {
-    fn warning(&self, message: &dyn Display) {
-        self.warn(message);
-    }
-
     fn steps(&self, count: u64) {
         let add = |bits| Some((f64::from_bits(bits) + count as f64).to_bits());
         let _ = self.progress[0].fetch_update(Ordering::Relaxed, Ordering::Relaxed, add);
@@ -94,10 +74,6 @@ impl SweepObserver for Messages {
     fn run_ended(&self, failed: bool) {
         self.ended[0].fetch_add(1, Ordering::Relaxed);
         self.ended[1].fetch_add(failed.into(), Ordering::Relaxed);
-    }
-
-    fn asked_to_stop(&self) -> Option<u8> {
-        self.signal()
     }
 
     fn retry_advice(&self, study: &Study) -> String {
@@ -131,12 +107,12 @@ pub fn in_background<T: Send>(
     let mut raised = None;
     let done = thread::scope(|scope| {
         let job = || {
-            let pool = rayon::ThreadPoolBuilder::new().build().map_err(Failure::failed);
+            let pool = rayon::ThreadPoolBuilder::new().build().map_err(Failure::run);
             let done = pool.and_then(|pool| pool.install(|| work(&messages)));
             caller.unpark();
             done
         };
-        let thread = thread::Builder::new().name("plateau".into()).spawn_scoped(scope, job).map_err(Failure::failed)?;
+        let thread = thread::Builder::new().name("plateau".into()).spawn_scoped(scope, job).map_err(Failure::run)?;
         while !thread.is_finished() {
             py.detach(|| thread::park_timeout(LOOK));
             if raised.is_none() {

@@ -5,10 +5,10 @@ use std::path::PathBuf;
 use plateau_core::simulation::Execution;
 use plateau_io::number;
 use plateau_run::sweep::{self, Sweep, SweepOptions};
-use plateau_run::{Job, RunOptions, StartMode, execution};
+use plateau_run::{Job, Observer as _, RunOptions, StartMode, execution};
 use pyo3::prelude::*;
 
-use crate::background::{MessageObserver, Messages, in_background};
+use crate::background::{Messages, in_background};
 use crate::failure::Failure;
 use crate::scene::Scene;
 use crate::simulation::engine_of;
@@ -39,10 +39,10 @@ pub fn run(
             execution: Execution { engine: engine_of(engine)?, ..Execution::default() },
             program: program(),
         };
-        let mut job = Job::start().map_err(Failure::failed)?;
-        let done = plateau_run::run(scene, &options, &mut job, &mut MessageObserver(messages))?;
+        let mut job = Job::start().map_err(Failure::run)?;
+        let done = plateau_run::run(scene, &options, &mut job, messages)?;
         job.finish();
-        done.map(|summary| serde_json::to_string(&summary).map_err(Failure::failed)).transpose()
+        done.map(|summary| serde_json::to_string(&summary).map_err(Failure::run)).transpose()
     };
     in_background(py, tell, &[&about], work)
 }
@@ -63,26 +63,24 @@ pub fn make_runs(
 ) -> PyResult<()> {
     let about = study.to_string_lossy().into_owned();
     let work = |messages: &Messages| {
-        let plan = sweep::load(&study, directory.as_deref())?;
+        let plan = sweep::load(&study, directory.as_deref()).map_err(Failure::input)?;
         let workers = workers.unwrap_or(1);
         let jobs = jobs.unwrap_or_else(|| (execution::cores() / workers).max(1));
         let options = SweepOptions { retry, keep_files, part: None, jobs, workers, most_failures, program: program() };
-        let mut job = Job::start().map_err(Failure::failed)?;
+        let mut job = Job::start().map_err(Failure::run)?;
         let sweep = Sweep::prepare(&plan, options, &job, messages)?;
-        messages.set_end(sweep.steps() as f64);
+        messages.starts("", sweep.steps() as f64);
         let summary = sweep.run(&mut job, messages)?;
         job.finish();
         if let Some(signal) = summary.signal {
-            return Err(Failure::stopped(
-                signal,
-                format_args!("{} runs are left, the same call goes on", summary.left),
-            ));
+            let message = format!("{} runs are left, the same call goes on", summary.left);
+            return Err(Failure::stopped(signal, Some(message)));
         }
         match summary.failed + summary.failed_elsewhere + summary.failed_before {
             0 => Ok(()),
             failed => {
                 let runs = number::count(summary.runs, "run");
-                Err(Failure::failed(format_args!(
+                Err(Failure::run(format_args!(
                     "{failed} of {runs} failed; `plateau sweep collect` lists their errors, --retry makes them again"
                 )))
             }

@@ -6,7 +6,7 @@ use plateau_io::plausibility;
 use plateau_io::scene::{self, schema};
 use pyo3::prelude::*;
 
-use crate::failure::Failure;
+use crate::failure::{Failure, Raise as _};
 
 /// A scene, read, checked and resolved.
 #[pyclass(frozen, module = "plateau._native")]

@@ -15,8 +15,8 @@ use pyo3::buffer::PyBuffer;
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
 
-use crate::background::{MessageObserver, Messages, in_background};
-use crate::failure::Failure;
+use crate::background::{Messages, in_background};
+use crate::failure::{Failure, Raise as _};
 use crate::scene::Scene;
 use crate::state::State;
 
@@ -53,13 +53,12 @@ impl Inner {
                 "numerics.time_acceleration: a simulation that is taken step by step does not choose it, give a number";
             return Err(Failure::input(message));
         }
-        let mut observer = MessageObserver(messages);
-        stiffness_warning(&scene.parameters).iter().for_each(|warning| observer.warning(warning));
+        stiffness_warning(&scene.parameters).iter().for_each(|warning| messages.warning(warning));
         let loaded = surface::load(&scene).map_err(Failure::input)?;
-        loaded.warnings().for_each(|warning| observer.warning(&warning));
-        plausibility::of_surfaces(&scene, &loaded).iter().for_each(|warning| observer.warning(warning));
+        loaded.warnings().for_each(|warning| messages.warning(&warning));
+        plausibility::of_surfaces(&scene, &loaded).iter().for_each(|warning| messages.warning(warning));
         let asked = Execution { engine, ..Execution::default() };
-        let execution = execution::decide(&scene, 1, asked, &loaded.surfaces, &mut observer)?;
+        let execution = execution::decide(&scene, 1, asked, &loaded.surfaces, messages)?;
         let assembly = Assembly::new(&scene, loaded.surfaces, execution)?;
         Ok(Self { scene, assembly, inputs: loaded.inputs, failed: None })
     }
@@ -119,9 +118,9 @@ impl Simulation {
     /// Gives the simulation to `work`, unless another thread or process has it.
     fn with<T>(&self, py: Python<'_>, work: impl FnOnce(&mut Inner) -> Result<T, Failure>) -> PyResult<T> {
         let mut guard = self.lock().map_err(|failure| failure.raise(py, &[]))?;
-        let inner = guard.as_mut().ok_or_else(|| Failure::failed("the simulation has ended").raise(py, &[]))?;
+        let inner = guard.as_mut().ok_or_else(|| Failure::run("the simulation has ended").raise(py, &[]))?;
         if let Some(error) = &inner.failed {
-            return Err(Failure::failed(format_args!("the simulation failed: {error}")).raise(py, &[]));
+            return Err(Failure::run(format_args!("the simulation failed: {error}")).raise(py, &[]));
         }
         work(inner).map_err(|failure| failure.raise(py, &[]))
     }
@@ -266,7 +265,10 @@ impl Simulation {
     fn sample<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let (sample, quantities) = self.with(py, |inner| {
             let extras = inner.scene.extras(false);
-            Ok((py.detach(|| inner.assembly.last_sample())?, quantities(&extras).collect::<Vec<_>>()))
+            Ok((
+                py.detach(|| inner.assembly.last_sample()).map_err(not_reported)?,
+                quantities(&extras).collect::<Vec<_>>(),
+            ))
         })?;
         let row = PyDict::new(py);
         row.set_item("step", sample.step)?;
@@ -314,6 +316,16 @@ pub fn engine_of(name: &str) -> Result<Engine, Failure> {
     found.ok_or_else(|| Failure::input(format!("engine {name:?}: expected \"fast\" or \"plain\"")))
 }
 
+/// Failure to report a step, in words of Python where it was not watched.
+fn not_reported(error: SimulationError) -> Failure {
+    match error {
+        SimulationError::NotWatched { step } => {
+            Failure::input(format!("the pressures of step {step} were not kept: advance with watch=True"))
+        }
+        error => error.into(),
+    }
+}
+
 /// Bytes of a field, column by column: doubles, or of statuses and bases one byte each.
 fn bytes(simulation: &mut simulation::Simulation, name: &str) -> Result<Vec<u8>, Failure> {
     if name == "pin_base" {
@@ -323,7 +335,7 @@ fn bytes(simulation: &mut simulation::Simulation, name: &str) -> Result<Vec<u8>,
     }
     let map = Map::ALL.into_iter().find(|map| map.name() == name);
     let map = map.ok_or_else(|| Failure::input(format!("there is no field {name}")))?;
-    let found = simulation.snapshot(&[map])?.maps.into_iter().next();
+    let found = simulation.snapshot(&[map]).map_err(not_reported)?.maps.into_iter().next();
     Ok(match found.map(|(_, values)| values) {
         Some(MapValues::Float(values)) => values.iter().flat_map(|value| value.to_ne_bytes()).collect(),
         Some(MapValues::Status(statuses)) => statuses,

@@ -41,7 +41,7 @@ impl State {
             let shown = path.display();
             return Err(Failure::input(format!("{shown} is there and no state of a simulation: take another name")));
         }
-        checkpoint::keep(path, self).map_err(|error| Failure::failed(format_args!("{}: {error}", path.display())))
+        checkpoint::keep(path, self).map_err(|error| Failure::run(format_args!("{}: {error}", path.display())))
     }
 
     /// Reads one that this program wrote.

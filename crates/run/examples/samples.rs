@@ -13,11 +13,11 @@ use plateau_run::{Job, Observer, RunOptions, run};
 struct Printer;
 
 impl Observer for Printer {
-    fn warning(&mut self, message: &dyn Display) {
+    fn warning(&self, message: &dyn Display) {
         eprintln!("warning: {message}");
     }
 
-    fn sample(&mut self, sample: &Sample) {
+    fn sample(&self, sample: &Sample) {
         println!("{:8.3} s  {:6.3} mm2", sample.time, sample.contact_area_mean * 1e6);
     }
 }
@@ -28,7 +28,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     // Without a second argument the scene names the run file.
     let options = RunOptions { output: arguments.next(), replace: true, ..RunOptions::default() };
     let mut job = Job::start()?;
-    if let Some(summary) = run(scene::load(&path, &[])?, &options, &mut job, &mut Printer)? {
+    if let Some(summary) = run(scene::load(&path, &[])?, &options, &mut job, &Printer)? {
         println!("{} has {} steps, made in {:.1} s", summary.file.display(), summary.steps, summary.wall_time);
     }
     job.finish();

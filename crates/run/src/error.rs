@@ -193,7 +193,7 @@ impl From<RunFileError> for RunError {
 const LACKS: [i32; 4] = [11, 12, 23, 24];
 
 /// Tells whether an error is, or comes from, a lack of the system: no thread, no memory, no file handle. Then the input is not wrong.
-pub fn lacks_resources(error: &(dyn StdError + 'static)) -> bool {
+fn lacks_resources(error: &(dyn StdError + 'static)) -> bool {
     let number = |error: &(dyn StdError + 'static)| match error.downcast_ref::<ReadError>() {
         Some(ReadError::System(_, _, number)) => *number,
         _ => error.downcast_ref::<io::Error>().and_then(io::Error::raw_os_error),
@@ -219,35 +219,87 @@ pub fn lacks_resources(error: &(dyn StdError + 'static)) -> bool {
     false
 }
 
-/// Failure of the runs of a study, which tells a wrong input from a failed run.
+/// Reason why something cannot be done, with the exit status of the program, which tells whose fault it is.
 #[derive(Debug, Error)]
-pub enum SweepError {
-    /// The study cannot be used: everything that is wrong with it.
-    #[error(transparent)]
-    Study(#[from] StudyError),
-    /// An input is wrong: a scene, a file that it names, the folder of the results.
-    #[error("{0}")]
-    Input(String),
-    /// Runs failed, their results could not be kept, or the system lacks what they take.
-    #[error("{0}")]
-    Failed(String),
+#[error("{}", message.as_deref().unwrap_or_default())]
+pub struct Failure {
+    /// One of the statuses below; of a run that a signal stopped, with the number of that added.
+    pub status: u8,
+    /// Message; none where a signal stopped a process that wrote nothing.
+    pub message: Option<String>,
 }
 
-impl SweepError {
-    /// A wrong input; or a failure, where the error says, or comes from one that says, that the system lacks what it takes to look at
+impl Failure {
+    /// Status of a run that failed.
+    pub const RUN: u8 = 1;
+    /// Status where an input is wrong.
+    pub const INPUT: u8 = 2;
+    /// Status of a run that a signal stopped, as shells have it.
+    pub const STOPPED: u8 = 128;
+
+    /// A wrong input; or a failed run, where the error says, or comes from one that says, that the system lacks what it takes to look at
     /// the input.
-    pub(crate) fn input(error: impl StdError + 'static) -> Self {
-        let message = error.to_string();
-        Self::because(&error, message)
+    pub fn input(error: impl Into<Box<dyn StdError>>) -> Self {
+        let error = error.into();
+        Self::because(&*error, &error)
     }
 
     /// Fails as [`input`](Self::input) does, with a message of its own.
-    pub(crate) fn because(error: &(dyn StdError + 'static), message: impl fmt::Display) -> Self {
-        let message = message.to_string();
-        if lacks_resources(error) { Self::Failed(message) } else { Self::Input(message) }
+    pub fn because(error: &(dyn StdError + 'static), message: impl fmt::Display) -> Self {
+        let status = if lacks_resources(error) { Self::RUN } else { Self::INPUT };
+        Self { status, message: Some(message.to_string()) }
     }
 
-    pub(crate) fn failed(error: impl fmt::Display) -> Self {
-        Self::Failed(error.to_string())
+    /// A failed run.
+    pub fn run(error: impl fmt::Display) -> Self {
+        Self { status: Self::RUN, message: Some(error.to_string()) }
+    }
+
+    /// A file that cannot be used, and why.
+    pub fn of_file(path: &Path, reason: impl fmt::Display) -> Self {
+        Self::input(format!("{}: {reason}", path.display()))
+    }
+
+    /// A signal stopped the run; with the state that is left of it, which a process that wrote nothing does not know.
+    pub fn stopped(signal: u8, message: Option<String>) -> Self {
+        Self { status: Self::STOPPED.saturating_add(signal), message }
+    }
+
+    /// The same failure, with what holds nevertheless.
+    #[must_use]
+    pub fn but(self, what: impl fmt::Display) -> Self {
+        match self.message {
+            Some(message) if self.status < Self::STOPPED => {
+                Self { message: Some(format!("{message}; {what}")), ..self }
+            }
+            message => Self { message, ..self },
+        }
+    }
+}
+
+impl From<RunError> for Failure {
+    fn from(error: RunError) -> Self {
+        match error {
+            RunError::Input(error) => Self::input(error),
+            RunError::Failed(failure) => Self::run(failure),
+            RunError::Stopped(stopped) => {
+                let message = (stopped.progress != Progress::Elsewhere).then(|| stopped.to_string());
+                Self::stopped(stopped.signal, message)
+            }
+        }
+    }
+}
+
+impl From<SimulationError> for Failure {
+    /// Failure of a step, or of what was given between two steps.
+    fn from(error: SimulationError) -> Self {
+        match error {
+            SimulationError::Contact { .. }
+            | SimulationError::NoFriction { .. }
+            | SimulationError::NotFinite { .. }
+            | SimulationError::Worker { .. }
+            | SimulationError::Threads { .. } => Self::run(error),
+            _ => Self::input(error),
+        }
     }
 }

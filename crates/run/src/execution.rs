@@ -37,7 +37,7 @@ pub fn decide(
     ranks: usize,
     asked: Execution,
     surfaces: &InitialSurfaces,
-    observer: &mut dyn Observer,
+    observer: &dyn Observer,
 ) -> Result<Execution, SimulationError> {
     let workers = scene.workers;
     let engine = asked.engine.of(&scene.parameters);
@@ -102,7 +102,7 @@ fn fastest(
     cores: usize,
     scene: &Scene,
     surfaces: &InitialSurfaces,
-    observer: &mut dyn Observer,
+    observer: &dyn Observer,
 ) -> Result<Execution, SimulationError> {
     let mut candidates: Vec<usize> = (0..).map(|power| 1 << power).take_while(|workers| *workers < cores).collect();
     candidates.push(cores);

@@ -6,7 +6,7 @@
 //!
 //! let scene = plateau_io::scene::load("data/scenes/quick.toml".as_ref(), &[])?;
 //! // `()` observes nothing.
-//! let summary = run(scene, &RunOptions::default(), &mut Job::start()?, &mut ())?;
+//! let summary = run(scene, &RunOptions::default(), &mut Job::start()?, &())?;
 //! if let Some(summary) = summary {
 //!     println!("{} of the pin touches", summary.contact_ratio);
 //! }
@@ -16,7 +16,7 @@
 //! | content | module |
 //! |---|---|
 //! | a run from its scene to its file, and its results | [`run()`], [`RunSummary`] |
-//! | options of a run, its observer, its failures | [`RunOptions`], [`Observer`], [`RunError`] |
+//! | options of a run, its observer, its failures | [`RunOptions`], [`Observer`], [`RunError`], [`Failure`] |
 //! | simulation, scout and schedule of a scene, put together once for all who run one | [`Assembly`] |
 //! | the time loop, and what takes its samples and maps | [`Assembly::run_to_end`], [`Sink`] |
 //! | machine, number of workers, instruction set | [`execution`] |
@@ -38,7 +38,7 @@ mod summary;
 pub mod sweep;
 
 pub use assembly::{Assembly, Sink, adapted};
-pub use error::{InputError, Progress, RunError, RunFailure, Stopped, lacks_resources, signal_in_words};
+pub use error::{Failure, InputError, Progress, RunError, RunFailure, Stopped, signal_in_words};
 pub use job::Job;
 pub use options::{Observer, Program, RunOptions, StartMode};
 pub use recorder::{idle_warning, input_files, stiffness_warning};

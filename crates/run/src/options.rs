@@ -106,44 +106,45 @@ pub struct Part {
     pub count: usize,
 }
 
-/// Follows a run. Every method has an answer already: an observer says only what it cares for, `()` cares for nothing.
+/// Follows a run, or the runs of a study. Every method has an answer already: an observer says only what it cares for, `()` cares for
+/// nothing.
 ///
 /// In a job of several processes each has an observer of its own. All are told the same, and it suffices that one of them
 /// asks for something.
 pub trait Observer {
     /// Told what deserves attention though the run goes on.
-    fn warning(&mut self, _message: &dyn Display) {}
+    fn warning(&self, _message: &dyn Display) {}
 
     /// Told what is worth knowing.
-    fn note(&mut self, _message: &dyn Display) {}
+    fn note(&self, _message: &dyn Display) {}
 
     /// Told how a surface was made ready, one step a line; for those who want to see it.
-    fn detail(&mut self, _message: &dyn Display) {}
+    fn detail(&self, _message: &dyn Display) {}
 
     /// Called when all that the run needs is read and made, and nothing is written: until now whoever wants to stop it may end the process.
-    fn prepared(&mut self) {}
+    fn prepared(&self) {}
 
     /// Called when steps begin, to be taken until this physical time (s); `name` tells a run from others of the same scene, else it is
     /// empty.
-    fn starts(&mut self, _name: &str, _duration: f64) {}
+    fn starts(&self, _name: &str, _duration: f64) {}
 
     /// Called about ten times a second between two steps.
-    fn progress(&mut self, _simulation: &Simulation) {}
+    fn progress(&self, _simulation: &Simulation) {}
 
     /// Called when a sample was taken; it is on its way to the run file.
-    fn sample(&mut self, _sample: &Sample) {}
+    fn sample(&self, _sample: &Sample) {}
 
-    /// Called when the last step was taken, or the run ends before.
-    fn ends(&mut self) {}
+    /// Called when the last step was taken, or the run ends before; of a study when no more runs are made.
+    fn ends(&self) {}
 
     /// The number of the signal that asks the run to stop, if one does. Looked at as often as [`progress`](Self::progress) is
     /// called; a run that has a file leaves a checkpoint.
-    fn asked_to_stop(&mut self) -> Option<u8> {
+    fn asked_to_stop(&self) -> Option<u8> {
         None
     }
 
     /// Tells whether a checkpoint was asked for since the last time.
-    fn asked_to_save(&mut self) -> bool {
+    fn asked_to_save(&self) -> bool {
         false
     }
 }

@@ -78,7 +78,7 @@ pub struct Recorder<'a> {
     /// Writer of the run file; none in a process that does not lead.
     pub writer: Option<RunWriter>,
     /// Observer, which is told of every sample and asked whether to go on.
-    pub observer: &'a mut dyn Observer,
+    pub observer: &'a dyn Observer,
     /// The processes that take the steps together.
     pub job: &'a mut Job,
     /// Checkpointer, which writes the state now and then.
@@ -240,7 +240,7 @@ impl Checkpointer {
         assembly: &mut Assembly,
         finished: bool,
         synced: Option<Synced>,
-        observer: &mut dyn Observer,
+        observer: &dyn Observer,
     ) -> Result<(), SimulationError> {
         self.last = Instant::now();
         let simulation = assembly.checkpoint()?;
@@ -272,7 +272,7 @@ impl Checkpointer {
     }
 
     /// Waits until the checkpoint that is being written is on the disk; says so if it cannot be.
-    pub fn wait(&mut self, observer: &mut dyn Observer) {
+    pub fn wait(&mut self, observer: &dyn Observer) {
         match self.writing.take().map(JoinHandle::join) {
             Some(Ok(Err(error))) => warn(observer, &error),
             Some(Err(_)) => warn(observer, &io::Error::other("its thread panicked")),
@@ -289,7 +289,7 @@ impl Drop for Checkpointer {
     }
 }
 
-fn warn(observer: &mut dyn Observer, error: &io::Error) {
+fn warn(observer: &dyn Observer, error: &io::Error) {
     observer.warning(&format_args!(
         "cannot write a checkpoint: {error}; the run file is not touched by that, the last checkpoint still holds"
     ));

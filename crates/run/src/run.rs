@@ -31,7 +31,7 @@ pub fn run(
     scene: Scene,
     options: &RunOptions,
     job: &mut Job,
-    observer: &mut dyn Observer,
+    observer: &dyn Observer,
 ) -> Result<Option<RunSummary>, RunError> {
     let prepared = Prepared::new(scene, options, job, observer)?;
     stop_if_asked(observer, job)?;
@@ -68,12 +68,7 @@ struct Prepared {
 }
 
 impl Prepared {
-    fn new(
-        mut scene: Scene,
-        options: &RunOptions,
-        job: &mut Job,
-        observer: &mut dyn Observer,
-    ) -> Result<Self, RunError> {
+    fn new(mut scene: Scene, options: &RunOptions, job: &mut Job, observer: &dyn Observer) -> Result<Self, RunError> {
         check_ranks(&scene, job.ranks(), options.execution.pin)?;
         let path = options.output.clone().unwrap_or_else(|| scene.output.file.clone());
         // What a link points to is what is written, and its checkpoints lie beside it.
@@ -118,7 +113,7 @@ impl Prepared {
         writer: Option<RunWriter>,
         state: Option<RunState>,
         job: &mut Job,
-        observer: &mut dyn Observer,
+        observer: &dyn Observer,
     ) -> Result<Option<RunSummary>, RunError> {
         let Self { mut scene, path, mut assembly, header, identity } = self;
         if let Some(state) = &state {
@@ -134,7 +129,7 @@ impl Prepared {
         let is_stiff = is_stiff(&scene.parameters, scene.parameters.first_stiffness_number());
         let mut recorder = Recorder { writer, observer, job, checkpointer, agreement, recorded, is_stiff };
         let result = assembly.run_to_end(&mut recorder);
-        let Recorder { writer, observer, mut checkpointer, recorded, .. } = recorder;
+        let Recorder { writer, mut checkpointer, recorded, .. } = recorder;
         observer.ends();
         checkpointer.wait(observer);
         let Some(writer) = writer else {
@@ -211,7 +206,7 @@ fn without_file(interruption: Interruption) -> RunError {
 }
 
 /// Ends what is not a run yet when any process of the job is asked to stop.
-fn stop_if_asked(observer: &mut dyn Observer, job: &mut Job) -> Result<(), RunError> {
+fn stop_if_asked(observer: &dyn Observer, job: &mut Job) -> Result<(), RunError> {
     let own = Agreement { signal: observer.asked_to_stop(), ..Agreement::default() };
     let Some(signal) = job.agree(own)?.signal else { return Ok(()) };
     let progress = if job.leads() { Progress::NotStarted } else { Progress::Elsewhere };
@@ -219,7 +214,7 @@ fn stop_if_asked(observer: &mut dyn Observer, job: &mut Job) -> Result<(), RunEr
 }
 
 /// Says what else the scene can hardly mean, and keeps it with what was said of it before.
-fn warn_of_scene(scene: &mut Scene, warnings: Vec<Warning>, observer: &mut dyn Observer) {
+fn warn_of_scene(scene: &mut Scene, warnings: Vec<Warning>, observer: &dyn Observer) {
     warnings.iter().for_each(|warning| observer.warning(warning));
     scene.warnings.extend(warnings);
 }

@@ -50,7 +50,7 @@ pub struct Start {
 impl Request<'_> {
     /// Claims the run file, then makes it, or finds out what to go on from and goes on with it; nothing where all is done
     /// already, which is said. All processes of a job do this together.
-    pub fn start(&self, job: &mut Job, observer: &mut dyn Observer) -> Result<Option<Start>, RunError> {
+    pub fn start(&self, job: &mut Job, observer: &dyn Observer) -> Result<Option<Start>, RunError> {
         let Self { path, header, identity, options, .. } = *self;
         let claim = if job.leads() { Some(Claim::of(path)?) } else { None };
         // No process looks at what is there before that is done.
@@ -150,7 +150,7 @@ impl Request<'_> {
         &self,
         states: &mut [RunState],
         samples: usize,
-        observer: &mut dyn Observer,
+        observer: &dyn Observer,
     ) -> Result<(Option<RunWriter>, usize), RunError> {
         let Self { path, header, options, .. } = *self;
         if !states.is_empty() {
@@ -185,7 +185,7 @@ impl Request<'_> {
         &self,
         states: &[RunState],
         claim: Option<&Claim>,
-        observer: &mut dyn Observer,
+        observer: &dyn Observer,
     ) -> Result<Option<There>, InputError> {
         let Self { path, identity, options, .. } = *self;
         if !path.exists() {
@@ -314,7 +314,7 @@ pub fn states(
     mesh: &Mesh,
     identity: &RunIdentity,
     extends: bool,
-    observer: &mut dyn Observer,
+    observer: &dyn Observer,
 ) -> Result<Vec<RunState>, InputError> {
     let (mut states, mut trouble) = (Vec::new(), Vec::new());
     for path in checkpoint::paths(run_file) {
@@ -401,7 +401,7 @@ pub fn writer(
     path: &Path,
     header: &Header,
     states: &mut [RunState],
-    observer: &mut dyn Observer,
+    observer: &dyn Observer,
 ) -> Result<(RunWriter, usize), RunError> {
     if !path.exists() {
         // Else every checkpoint would say so.

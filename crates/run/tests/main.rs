@@ -3,6 +3,7 @@
 mod generations;
 mod sweep;
 
+use std::cell::RefCell;
 use std::fmt::Display;
 use std::path::Path;
 
@@ -16,22 +17,22 @@ use plateau_run::{Assembly, InputError, Job, Observer, Progress, RunError, RunOp
 /// Notes what a run says, and stops it after so many samples.
 #[derive(Default)]
 struct Notes {
-    said: Vec<String>,
-    samples: Vec<Sample>,
+    said: RefCell<Vec<String>>,
+    samples: RefCell<Vec<Sample>>,
     stop_after: Option<usize>,
 }
 
 impl Observer for Notes {
-    fn note(&mut self, message: &dyn Display) {
-        self.said.push(message.to_string());
+    fn note(&self, message: &dyn Display) {
+        self.said.borrow_mut().push(message.to_string());
     }
 
-    fn sample(&mut self, sample: &Sample) {
-        self.samples.push(sample.clone());
+    fn sample(&self, sample: &Sample) {
+        self.samples.borrow_mut().push(sample.clone());
     }
 
-    fn asked_to_stop(&mut self) -> Option<u8> {
-        self.stop_after.filter(|samples| self.samples.len() >= *samples).map(|_| 2)
+    fn asked_to_stop(&self) -> Option<u8> {
+        self.stop_after.filter(|samples| self.samples.borrow().len() >= *samples).map(|_| 2)
     }
 }
 
@@ -57,10 +58,10 @@ fn contact_areas(file: &Path) -> Vec<f64> {
 fn an_observer_is_told_every_sample_that_is_in_the_file() {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("run.h5");
-    let mut notes = Notes::default();
-    let summary = run(quick(), &options(&file, StartMode::New), &mut job(), &mut notes).unwrap().unwrap();
-    assert_eq!((summary.steps, notes.samples.len()), (quick().steps, 300));
-    let areas: Vec<f64> = notes.samples.iter().map(|sample| sample.contact_area).collect();
+    let notes = Notes::default();
+    let summary = run(quick(), &options(&file, StartMode::New), &mut job(), &notes).unwrap().unwrap();
+    assert_eq!((summary.steps, notes.samples.borrow().len()), (quick().steps, 300));
+    let areas: Vec<f64> = notes.samples.borrow().iter().map(|sample| sample.contact_area).collect();
     assert_eq!(contact_areas(&file), areas);
     assert_eq!(summary.contact_area, areas[299]);
 }
@@ -69,22 +70,22 @@ fn an_observer_is_told_every_sample_that_is_in_the_file() {
 fn a_run_that_was_stopped_goes_on_to_the_same_samples() {
     let folder = tempfile::tempdir().unwrap();
     let [whole, stopped] = ["whole.h5", "stopped.h5"].map(|name| folder.path().join(name));
-    run(quick(), &options(&whole, StartMode::New), &mut job(), &mut ()).unwrap();
-    let mut notes = Notes { stop_after: Some(20), ..Notes::default() };
-    let Err(RunError::Stopped(stop)) = run(quick(), &options(&stopped, StartMode::New), &mut job(), &mut notes) else {
+    run(quick(), &options(&whole, StartMode::New), &mut job(), &()).unwrap();
+    let notes = Notes { stop_after: Some(20), ..Notes::default() };
+    let Err(RunError::Stopped(stop)) = run(quick(), &options(&stopped, StartMode::New), &mut job(), &notes) else {
         panic!("not stopped")
     };
     let Progress::Saved { steps, samples, .. } = stop.progress else { panic!("{stop}") };
     assert!(stop.signal == 2 && (20..300).contains(&samples) && (1..quick().steps).contains(&steps), "{stop:?}");
-    let mut notes = Notes::default();
-    let summary = run(quick(), &options(&stopped, StartMode::Resume), &mut job(), &mut notes).unwrap().unwrap();
-    assert!(notes.said[0].starts_with(&format!("goes on from step {steps}, ")), "{:?}", notes.said);
-    assert_eq!((summary.steps, notes.samples.len()), (quick().steps, 300 - samples));
+    let notes = Notes::default();
+    let summary = run(quick(), &options(&stopped, StartMode::Resume), &mut job(), &notes).unwrap().unwrap();
+    assert!(notes.said.borrow()[0].starts_with(&format!("goes on from step {steps}, ")), "{:?}", notes.said);
+    assert_eq!((summary.steps, notes.samples.borrow().len()), (quick().steps, 300 - samples));
     assert_eq!(contact_areas(&stopped), contact_areas(&whole));
     // Now there is nothing left to do, and that is said.
-    let mut notes = Notes::default();
-    assert!(run(quick(), &options(&stopped, StartMode::Resume), &mut job(), &mut notes).unwrap().is_none());
-    assert!(notes.said[0].contains("is finished"), "{:?}", notes.said);
+    let notes = Notes::default();
+    assert!(run(quick(), &options(&stopped, StartMode::Resume), &mut job(), &notes).unwrap().is_none());
+    assert!(notes.said.borrow()[0].contains("is finished"), "{:?}", notes.said);
 }
 
 #[test]
@@ -92,7 +93,7 @@ fn a_file_that_is_there_is_a_wrong_input_and_stays() {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("run.h5");
     std::fs::write(&file, "mine").unwrap();
-    let refused = run(quick(), &options(&file, StartMode::New), &mut job(), &mut ());
+    let refused = run(quick(), &options(&file, StartMode::New), &mut job(), &());
     assert!(matches!(refused, Err(RunError::Input(InputError::RunFile(_)))), "{refused:?}");
     assert_eq!(std::fs::read_to_string(&file).unwrap(), "mine");
 }
@@ -114,7 +115,7 @@ impl Sink for Areas {
 fn a_run_without_a_file_has_the_same_samples() {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("run.h5");
-    run(quick(), &options(&file, StartMode::New), &mut job(), &mut ()).unwrap();
+    run(quick(), &options(&file, StartMode::New), &mut job(), &()).unwrap();
     let scene = quick();
     let surfaces = surface::load(&scene).unwrap().surfaces;
     let mut areas = Areas::default();

@@ -4,8 +4,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use plateau_run::Job;
-use plateau_run::sweep::{self, Sweep, SweepError, SweepObserver, SweepOptions, SweepSummary};
+use plateau_run::sweep::{self, Sweep, SweepObserver, SweepOptions, SweepSummary};
+use plateau_run::{Failure, Job, Observer};
 
 /// Counts runs that ended, and stops all after so many.
 struct Counter {
@@ -23,7 +23,9 @@ impl SweepObserver for Counter {
     fn run_ended(&self, _failed: bool) {
         self.ended.fetch_add(1, Ordering::Relaxed);
     }
+}
 
+impl Observer for Counter {
     fn asked_to_stop(&self) -> Option<u8> {
         (self.ended.load(Ordering::Relaxed) >= self.stop_after).then_some(2)
     }
@@ -43,8 +45,8 @@ fn study(folder: &Path, levels: &str) -> PathBuf {
     path
 }
 
-fn make(path: &Path, observer: &dyn SweepObserver) -> Result<SweepSummary, SweepError> {
-    let plan = sweep::load(path, None)?;
+fn make(path: &Path, observer: &dyn SweepObserver) -> Result<SweepSummary, Failure> {
+    let plan = sweep::load(path, None).map_err(Failure::input)?;
     let mut job = Job::start().unwrap();
     Sweep::prepare(&plan, SweepOptions::default(), &job, observer)?.run(&mut job, observer)
 }
@@ -70,6 +72,6 @@ fn a_scene_that_cannot_be_built_is_a_wrong_input_and_nothing_is_made() {
     let folder = tempfile::tempdir().unwrap();
     let path = study(folder.path(), "\"20 N\", \"30 s\"");
     let said = make(&path, &()).unwrap_err();
-    assert!(matches!(said, SweepError::Study(_) | SweepError::Input(_)), "{said:?}");
+    assert_eq!(said.status, Failure::INPUT, "{said}");
     assert!(!folder.path().join("loads").exists());
 }

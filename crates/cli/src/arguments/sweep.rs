@@ -7,7 +7,7 @@ use plateau_io::study::plan::Plan;
 use plateau_run::sweep::{self, Part};
 
 use crate::arguments::{CoresArguments, HandedArguments};
-use crate::failure::Failure;
+use crate::failure::{Failure, of_study};
 
 /// What to do with a study.
 #[derive(Debug, Subcommand)]
@@ -65,7 +65,7 @@ pub struct StudyArguments {
 impl StudyArguments {
     /// Reads the study and makes its design.
     pub fn load(&self) -> Result<Plan, Failure> {
-        sweep::load(&self.study, self.directory.as_deref()).map_err(Failure::of_sweep)
+        sweep::load(&self.study, self.directory.as_deref()).map_err(of_study)
     }
 }
 

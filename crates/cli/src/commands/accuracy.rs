@@ -18,7 +18,7 @@ use serde_json::{Map, Value, json};
 
 use crate::arguments::AccuracyArguments;
 use crate::commands::run::{load_scene, sets};
-use crate::failure::Failure;
+use crate::failure::{Failure, of_scene};
 use crate::output::{columns, csv_table, list, print, table};
 use crate::terminal::{Messages, Terminal};
 use crate::{hand_over, message, output, program};
@@ -57,7 +57,7 @@ fn measure_into(
     let places = places(arguments, &scene, &loaded.inputs)?;
     let start_time = now();
     let asked = arguments.execution.execution();
-    let execution = decide(&scene, 1, asked, &loaded.surfaces, &mut Messages).map_err(Failure::run)?;
+    let execution = decide(&scene, 1, asked, &loaded.surfaces, &Messages).map_err(Failure::run)?;
     let mut ladders = if arguments.ladders.is_empty() { USUAL.to_vec() } else { arguments.ladders.clone() };
     ladders.sort_unstable();
     ladders.dedup();
@@ -83,8 +83,8 @@ fn measure_into(
         reference,
         program: program::this(),
     };
-    let mut terminal = Terminal::listen(true).map_err(Failure::run)?;
-    let Found { report, stopped } = measure(wish, &loaded.surfaces, execution, &mut terminal).map_err(failure)?;
+    let terminal = Terminal::listen(true).map_err(Failure::run)?;
+    let Found { report, stopped } = measure(wish, &loaded.surfaces, execution, &terminal).map_err(failure)?;
 
     let state = if stopped.is_none() { "finished" } else { "interrupted" };
     let document = json(&report, making, state);
@@ -138,9 +138,9 @@ fn places(
 /// Chooses the exit status, which tells whose fault it is that errors cannot be measured.
 fn failure(error: AccuracyError) -> Failure {
     match error {
-        AccuracyError::Input(PlanError::Scene(error)) => Failure::of_scene(error),
+        AccuracyError::Input(PlanError::Scene(error)) => of_scene(error),
         AccuracyError::Input(error) => Failure::input(error),
-        AccuracyError::Run(error) => Failure::of(error),
+        AccuracyError::Run(error) => error.into(),
         AccuracyError::Stopped { signal, .. } => Failure::stopped(signal, Some(error.to_string())),
         AccuracyError::Failed { .. } => Failure::run(error),
     }

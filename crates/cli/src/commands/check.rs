@@ -51,7 +51,7 @@ pub fn check(arguments: &CheckArguments) -> Result<(), Failure> {
         scene.adaptive = None;
     }
     let asked = arguments.execution.execution();
-    let decided = decide(&scene, 1, asked, &surfaces, &mut Messages).map_err(Failure::run)?;
+    let decided = decide(&scene, 1, asked, &surfaces, &Messages).map_err(Failure::run)?;
     let mut simulation =
         Simulation::with_execution(scene.parameters.clone(), surfaces, decided).map_err(Failure::input)?;
     let seconds_per_step = time_per_step(&mut simulation, scene.steps, TRIAL).map_err(Failure::run)?;

@@ -12,7 +12,7 @@ use plateau_io::units::{self, Dimension};
 use plateau_run::{execution, signal_in_words};
 
 use crate::arguments::RepairArguments;
-use crate::failure::Failure;
+use crate::failure::{Failure, say};
 use crate::message;
 use crate::output::print;
 use crate::terminal::Interrupt;
@@ -30,7 +30,7 @@ pub fn repair(arguments: &RepairArguments) -> Result<(), Failure> {
             Ok(line) => print(&line)?,
             Err(failure) => {
                 if let Some(earlier) = last.replace(failure) {
-                    earlier.say();
+                    say(&earlier);
                 }
             }
         }

@@ -8,7 +8,7 @@ use plateau_run::{Job, RunOptions, StartMode};
 
 use crate::arguments::{RunArguments, SceneArguments};
 use crate::commands::runs;
-use crate::failure::{Failure, in_job};
+use crate::failure::{Failure, in_job, of_scene};
 use crate::output::{json, print};
 use crate::terminal::Terminal;
 use crate::{invocation, message, output, program};
@@ -43,7 +43,7 @@ fn run_scene(arguments: &RunArguments, job: &mut Job) -> Result<(), Failure> {
 
 /// A terminal that listens from now on: preparing a large scene takes long enough to be told to stop meanwhile.
 pub fn preparing(job: &Job) -> Result<Terminal, Failure> {
-    let mut terminal = Terminal::listen_for_save(job.leads()).map_err(Failure::run)?;
+    let terminal = Terminal::listen_for_save(job.leads()).map_err(Failure::run)?;
     // Of several processes, too, each ends by itself: nothing is written yet.
     terminal.end_while_preparing();
     Ok(terminal)
@@ -55,9 +55,9 @@ pub fn make(
     options: &RunOptions,
     as_json: bool,
     job: &mut Job,
-    mut terminal: Terminal,
+    terminal: Terminal,
 ) -> Result<(), Failure> {
-    let finished = plateau_run::run(scene, options, job, &mut terminal).map_err(Failure::of)?;
+    let finished = plateau_run::run(scene, options, job, &terminal)?;
     let Some(summary) = finished else { return Ok(()) };
     let text = if as_json { json(&summary)? } else { runs::text(&summary) };
     if message::is_quiet() && !as_json {
@@ -102,7 +102,7 @@ fn refuse_other_format(given: &str, file: &Path) -> Result<(), Failure> {
 
 /// Reads the scene with the changes of the command line; what it can hardly mean goes to standard error.
 pub fn load_scene(arguments: &SceneArguments) -> Result<Scene, Failure> {
-    Ok(warned(scene::load(&arguments.scene, &sets(arguments)).map_err(Failure::of_scene)?))
+    Ok(warned(scene::load(&arguments.scene, &sets(arguments)).map_err(of_scene)?))
 }
 
 /// A scene of which it is said what it can hardly mean.

@@ -64,7 +64,7 @@ pub fn measure(
     mut wish: Wish,
     surfaces: &InitialSurfaces,
     execution: Execution,
-    observer: &mut dyn Observer,
+    observer: &dyn Observer,
 ) -> Result<Found, AccuracyError> {
     let Scene { parameters, duration, .. } = &wish.base.scene;
     let revolution = std::f64::consts::TAU / parameters.angular_velocity;
@@ -119,7 +119,7 @@ struct Measurement<'a> {
     /// Surfaces on the mesh of halved cells, if the cell is varied; those of all runs are samples of them.
     finest: Option<InitialSurfaces>,
     execution: Execution,
-    observer: &'a mut dyn Observer,
+    observer: &'a dyn Observer,
     started: Instant,
     /// Wall time of a step with the scene's cells, s, from a trial or the last long run.
     step_time: f64,

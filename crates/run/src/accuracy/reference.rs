@@ -185,7 +185,7 @@ pub fn make(
     surfaces: InitialSurfaces,
     execution: Execution,
     windows: &Windows,
-    observer: &mut dyn Observer,
+    observer: &dyn Observer,
 ) -> Result<Outcome, Unfinished> {
     let output = OutputSettings {
         file: PathBuf::new(),
@@ -211,7 +211,7 @@ pub fn try_steps(scene: &Scene, surfaces: InitialSurfaces, execution: Execution)
 
 /// Keeps what is compared.
 struct Record<'a> {
-    observer: &'a mut dyn Observer,
+    observer: &'a dyn Observer,
     windows: usize,
     course: Course,
 }

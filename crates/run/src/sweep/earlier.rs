@@ -13,7 +13,7 @@ use plateau_io::temporary::Temporary;
 use plateau_io::{number, text};
 
 use super::resolved::Resolved;
-use crate::error::SweepError;
+use crate::error::Failure;
 use crate::execution;
 use crate::sweep::warnings::SweepObserver;
 
@@ -23,20 +23,20 @@ pub fn journal_folder(study: &Study) -> PathBuf {
 }
 
 /// Refuses a study whose results could not be kept, before a run is made. Makes the folder of the journal.
-pub(super) fn refuse_unwritable(study: &Study) -> Result<(), SweepError> {
+pub(super) fn refuse_unwritable(study: &Study) -> Result<(), Failure> {
     let folder = journal_folder(study);
     let probed = fs::create_dir_all(&folder).and_then(|()| Temporary::create(&folder.join("probe")));
     probed.map(drop).map_err(|error| {
         let (folder, study) = (folder.display(), study.path.display());
         let advice = format_args!("make it writable, or name another folder with `directory` in {study}");
-        SweepError::because(&error, format_args!("cannot write to {folder}: {error}; {advice}"))
+        Failure::because(&error, format_args!("cannot write to {folder}: {error}; {advice}"))
     })
 }
 
 /// The journal of a study, after many small files of it were made few.
-pub fn journal(study: &Study) -> Result<Journal, SweepError> {
+pub fn journal(study: &Study) -> Result<Journal, Failure> {
     let folder = journal_folder(study);
-    let failed = |error| SweepError::Failed(format!("{}: {error}", folder.display()));
+    let failed = |error| Failure::run(format!("{}: {error}", folder.display()));
     // A folder that must not be changed can still be read.
     let _ = merge(&folder, &execution::host());
     Journal::read(&folder).map_err(failed)

@@ -33,7 +33,6 @@ mod shared_surfaces;
 mod under_way;
 mod warnings;
 
-pub use crate::error::SweepError;
 pub use crate::options::{Part, SweepOptions};
 pub use earlier::{journal, journal_folder, say_left_out, say_unkept};
 pub use resolved::{Estimate, Resolved, ResolvedRun, RunLength, note_short_tenths, run_in_words, scene_of_run};

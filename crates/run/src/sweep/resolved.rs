@@ -16,7 +16,7 @@ use plateau_io::study::response::{Question, Response, lacking};
 use plateau_io::{input, number, surface, text};
 use rayon::prelude::*;
 
-use crate::error::SweepError;
+use crate::error::Failure;
 use crate::execution::time_per_step;
 use crate::sweep::warnings::{Found, SceneWarnings, SweepObserver, of_scene, of_surfaces};
 
@@ -123,7 +123,7 @@ impl Resolved {
     }
 
     /// Refuses responses to series that no run records, before any is made, and warns of those that some do not.
-    pub fn refuse_unrecorded(&self, study: &Study, observer: &dyn SweepObserver) -> Result<(), SweepError> {
+    pub fn refuse_unrecorded(&self, study: &Study, observer: &dyn SweepObserver) -> Result<(), Failure> {
         let file = study.path.display();
         let mut refused = Vec::new();
         for (place, (runs, lacking)) in &self.unrecorded {
@@ -137,25 +137,25 @@ impl Resolved {
                 observer.warning(&format_args!("{told}, which {runs} of {all} runs do not have: they give no value"));
             }
         }
-        if refused.is_empty() { Ok(()) } else { Err(SweepError::Input(text::list(refused, "\n"))) }
+        if refused.is_empty() { Ok(()) } else { Err(Failure::input(text::list(refused, "\n"))) }
     }
 
     /// Builds the scene of every run.
-    pub fn of(plan: &Plan) -> Result<Self, SweepError> {
+    pub fn of(plan: &Plan) -> Result<Self, Failure> {
         Self::of_runs(plan, (1..=plan.runs()).collect())
     }
 
     /// Builds the scenes of some runs, by their numbers.
-    pub fn of_runs(plan: &Plan, numbers: Vec<usize>) -> Result<Self, SweepError> {
+    pub fn of_runs(plan: &Plan, numbers: Vec<usize>) -> Result<Self, Failure> {
         refuse_without_scene(plan)?;
         let digests = Digests::default();
         let study = plan.study();
         // What is imported asks no series.
         let asked: Vec<&str> = study.responses.iter().map(|response| response.series.as_str()).collect();
         let resolve = |number: usize| {
-            let scene = plan.scene(&plan.run(number)).map_err(SweepError::input)?;
+            let scene = plan.scene(&plan.run(number)).map_err(Failure::input)?;
             let of = Identity::expected(&scene, &digests).map_err(|(path, error)| {
-                SweepError::because(&error, format_args!("cannot read {}: {error}", path.display()))
+                Failure::because(&error, format_args!("cannot read {}: {error}", path.display()))
             })?;
             let run = ResolvedRun {
                 identity: of.name(),
@@ -172,10 +172,10 @@ impl Resolved {
                 files: scene.files,
             })
         };
-        let all: Vec<(usize, Result<Known, SweepError>)> =
+        let all: Vec<(usize, Result<Known, Failure>)> =
             numbers.into_par_iter().map(|number| (number, resolve(number))).collect();
         let of_all = all.len();
-        let problems: Vec<(usize, &SweepError)> =
+        let problems: Vec<(usize, &Failure)> =
             all.iter().filter_map(|(number, result)| Some((*number, result.as_ref().err()?))).collect();
         if problems.is_empty() {
             let (mut runs, mut files) = (BTreeMap::new(), BTreeSet::from_iter(digests.files()));
@@ -209,8 +209,8 @@ impl Resolved {
         }
         let message = format!("{heading}\n{}", text::list(lines, "\n"));
         // What the system lacks at the moment is no mistake of the study.
-        let is_lack = problems.iter().any(|(_, problem)| matches!(problem, SweepError::Failed(_)));
-        Err(if is_lack { SweepError::Failed(message) } else { SweepError::Input(message) })
+        let is_lack = problems.iter().any(|(_, problem)| problem.status == Failure::RUN);
+        Err(if is_lack { Failure::run(message) } else { Failure::input(message) })
     }
 }
 
@@ -230,14 +230,14 @@ pub fn run_in_words(plan: &Plan, number: usize) -> String {
 }
 
 /// Refuses a study that has no scene to run.
-pub(super) fn refuse_without_scene(plan: &Plan) -> Result<(), SweepError> {
+pub(super) fn refuse_without_scene(plan: &Plan) -> Result<(), Failure> {
     let path = plan.study().path.display();
     match &plan.study().base {
         Some(base) => input::open(base).map(drop).map_err(|error| {
             let problem = format!("{}: cannot read the scene: {error}", base.display());
-            SweepError::because(&error, format_args!("{}: base: {problem}", plan.study().base_place))
+            Failure::because(&error, format_args!("{}: base: {problem}", plan.study().base_place))
         }),
-        None => Err(SweepError::Input(format!(
+        None => Err(Failure::input(format!(
             "{path}: no base scene, so there is nothing to run; `plateau sweep import` takes in its responses"
         ))),
     }
@@ -319,20 +319,20 @@ pub struct Estimate {
 
 impl Estimate {
     /// Looks at some of the runs.
-    pub fn of(plan: &Plan) -> Result<Self, SweepError> {
+    pub fn of(plan: &Plan) -> Result<Self, Failure> {
         refuse_without_scene(plan)?;
         let (mut per_cell, mut warnings) = (0.0_f64, SceneWarnings::default());
         for number in spread(plan.runs(), TIMED) {
             let scene = scene(plan, number)?;
             let start = std::time::Instant::now();
-            let loaded = surface::load(&scene).map_err(SweepError::input)?;
+            let loaded = surface::load(&scene).map_err(Failure::input)?;
             let making = start.elapsed().as_secs_f64();
             warnings.add(of_surfaces(&scene, &loaded));
             let surfaces = loaded.surfaces;
             let execution = Execution { workers: 1, ..Execution::default() };
             let mut simulation =
-                Simulation::with_execution(scene.parameters.clone(), surfaces, execution).map_err(SweepError::input)?;
-            let step = time_per_step(&mut simulation, scene.steps, TRIAL).map_err(SweepError::failed)?;
+                Simulation::with_execution(scene.parameters.clone(), surfaces, execution).map_err(Failure::input)?;
+            let step = time_per_step(&mut simulation, scene.steps, TRIAL).map_err(Failure::run)?;
             // Surfaces are a part of the run that does not grow with its steps.
             let steps = scene.steps.max(1) as f64;
             per_cell = per_cell.max((step + making / steps) / scene.parameters.mesh.pin_cells() as f64);
@@ -353,19 +353,19 @@ impl Estimate {
 /// The scene of a run that somebody asks for by its number.
 ///
 /// # Errors
-/// [`SweepError::Input`] when the study has no such run, or no scene, or that cannot be built.
-pub fn scene_of_run(plan: &Plan, number: usize) -> Result<Scene, SweepError> {
+/// A wrong input when the study has no such run, or no scene, or that cannot be built.
+pub fn scene_of_run(plan: &Plan, number: usize) -> Result<Scene, Failure> {
     refuse_without_scene(plan)?;
     if !(1..=plan.runs()).contains(&number) {
         let (study, runs) = (plan.study().path.display(), plan.runs());
-        return Err(SweepError::Input(format!("{study}: there is no run {number}; its runs are 1 to {runs}")));
+        return Err(Failure::input(format!("{study}: there is no run {number}; its runs are 1 to {runs}")));
     }
     scene(plan, number)
 }
 
 /// The scene of a run.
-fn scene(plan: &Plan, number: usize) -> Result<Scene, SweepError> {
-    let failed = |error| SweepError::Input(format!("{}:\n{error}", run_in_words(plan, number)));
+fn scene(plan: &Plan, number: usize) -> Result<Scene, Failure> {
+    let failed = |error| Failure::input(format!("{}:\n{error}", run_in_words(plan, number)));
     plan.scene(&plan.run(number)).map_err(failed)
 }
 

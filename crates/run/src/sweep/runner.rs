@@ -10,15 +10,16 @@ use std::time::{Duration, Instant};
 use plateau_io::dataset_file::now;
 use plateau_io::memory::AtWork;
 use plateau_io::number;
-use plateau_io::study::Study;
+use plateau_io::scene::{Origin, Problem};
 use plateau_io::study::journal::{Journal, Shard};
 use plateau_io::study::plan::Plan;
 use plateau_io::study::record::{Digests, Identity, Outcome, Record};
 use plateau_io::study::response::NoAnswer;
+use plateau_io::study::{Study, StudyError};
 use plateau_io::text::{self, shown_on_one_line};
 use serde::Serialize;
 
-use crate::error::SweepError;
+use crate::error::Failure;
 use crate::execution;
 use crate::job::{Agreement, Job, PieceEnd};
 use crate::options::SweepOptions;
@@ -82,17 +83,17 @@ pub struct SweepSummary {
 }
 
 /// Reads a study and makes its design. Its results are in that `directory`, if one is given, in place of the one that it names.
-pub fn load(path: &Path, directory: Option<&Path>) -> Result<Plan, SweepError> {
+pub fn load(path: &Path, directory: Option<&Path>) -> Result<Plan, StudyError> {
     let mut study = Study::load(path)?;
     if let Some(directory) = directory {
         if directory.exists() && !directory.is_dir() {
-            let message =
-                format!("{}: this is no folder, expected one for the results of the study", directory.display());
-            return Err(SweepError::Input(message));
+            let (origin, key, system) = (Origin::File(directory.into()), None, None);
+            let message = "this is no folder, expected one for the results of the study".to_owned();
+            return Err(StudyError(vec![Problem { origin, key, message, system }]));
         }
         (study.directory, study.is_elsewhere) = (directory.to_owned(), true);
     }
-    Ok(Plan::new(study)?)
+    Plan::new(study)
 }
 
 impl<'a> Sweep<'a> {
@@ -100,14 +101,14 @@ impl<'a> Sweep<'a> {
     /// processes of a job the first decides.
     ///
     /// # Errors
-    /// [`SweepError::Input`] when scenes cannot be built, responses ask for series that no run records, or results could not be kept;
-    /// [`SweepError::Failed`] when the journal cannot be read. Nothing was made then.
+    /// A wrong input when scenes cannot be built, responses ask for series that no run records, or results could not be kept;
+    /// a failed run when the journal cannot be read. Nothing was made then.
     pub fn prepare(
         plan: &'a Plan,
         options: SweepOptions,
         job: &Job,
         observer: &dyn SweepObserver,
-    ) -> Result<Self, SweepError> {
+    ) -> Result<Self, Failure> {
         let study = plan.study();
         let summary = SweepSummary {
             study: study.title.clone(),
@@ -188,20 +189,20 @@ impl<'a> Sweep<'a> {
 
     /// Makes the runs, together with the other processes of the job if there are any. A run that fails ends by itself; a signal leaves
     /// the state of each run, and the rest to the next sweep.
-    pub fn run(self, job: &mut Job, observer: &dyn SweepObserver) -> Result<SweepSummary, SweepError> {
+    pub fn run(self, job: &mut Job, observer: &dyn SweepObserver) -> Result<SweepSummary, Failure> {
         let Self { plan, options, resolved, journal, summary, pending } = self;
         let jobs = options.jobs.min(pending.len().max(1));
         let start = Instant::now();
         let runner = Runner::new(plan, resolved.as_ref(), journal, &options, observer);
         let shared = job.share(&pending, jobs, options.most_failures, &|number| runner.make(number));
-        let made = runner.end(shared.map_err(SweepError::failed))?;
+        let made = runner.end(shared.map_err(Failure::run))?;
         runner.say_warnings();
-        let (finished, failed) = job.sum(made.finished, made.failed).map_err(SweepError::failed)?;
-        let elsewhere = job.sum(made.finished_elsewhere, made.failed_elsewhere).map_err(SweepError::failed)?;
+        let (finished, failed) = job.sum(made.finished, made.failed).map_err(Failure::run)?;
+        let elsewhere = job.sum(made.finished_elsewhere, made.failed_elsewhere).map_err(Failure::run)?;
         let ended = finished + failed + elsewhere.0 + elsewhere.1;
         let wall_time = start.elapsed().as_secs_f64();
         let own = Agreement { signal: runner.signal(), ..Agreement::default() };
-        let signal = job.agree(own).map_err(SweepError::failed)?.signal;
+        let signal = job.agree(own).map_err(Failure::run)?.signal;
         Ok(SweepSummary {
             finished,
             failed,
@@ -278,7 +279,7 @@ pub struct Runner<'a> {
     /// Questions of the study that runs give no answer to.
     unanswered: Mutex<SceneWarnings>,
     /// Reason why no result can be kept any more.
-    broken: Mutex<Option<SweepError>>,
+    broken: Mutex<Option<Failure>>,
 }
 
 /// Numbers of runs that were made.
@@ -344,7 +345,7 @@ impl<'a> Runner<'a> {
     }
 
     /// Completes the journal and counts what was made.
-    pub fn end(&self, shared: Result<(), SweepError>) -> Result<Made, SweepError> {
+    pub fn end(&self, shared: Result<(), Failure>) -> Result<Made, Failure> {
         self.observer.ends();
         let shard = lock(&self.shard).take();
         let closed = shard.map_or(Ok(()), Shard::close);
@@ -353,10 +354,10 @@ impl<'a> Runner<'a> {
         if let Some(failure) = lock(&self.broken).take() {
             return Err(failure);
         }
-        closed.map_err(|error| SweepError::Failed(format!("cannot complete the journal: {error}")))?;
+        closed.map_err(|error| Failure::run(format!("cannot complete the journal: {error}")))?;
         let changed = lock(&self.changed);
         if !changed.is_empty() && self.signal().is_none() {
-            return Err(SweepError::Failed(format!(
+            return Err(Failure::run(format!(
                 "{}: files that the runs read were changed meanwhile; {} read others than were there at the beginning, and count as what they read: \
                  {}; the same command makes what is missing with the files as they are now",
                 self.plan.study().path.display(),
@@ -496,7 +497,7 @@ impl<'a> Runner<'a> {
 
     /// Ends all runs, for nothing can be kept any more.
     fn break_off(&self, why: std::fmt::Arguments<'_>) -> PieceEnd {
-        *lock(&self.broken) = Some(SweepError::Failed(why.to_string()));
+        *lock(&self.broken) = Some(Failure::run(why.to_string()));
         PieceEnd::Stopped
     }
 

@@ -1,7 +1,7 @@
 //! Warnings of several runs: values of their scenes that can hardly be meant, and questions that they do not answer, each kind said
 //! once, with how many runs it concerns; and who follows the runs of a study.
 
-use std::fmt::{self, Display};
+use std::fmt;
 
 use plateau_io::plausibility;
 use plateau_io::scene::{Scene, Warning};
@@ -9,28 +9,16 @@ use plateau_io::study::Study;
 use plateau_io::study::response::NoAnswer;
 use plateau_io::surface::Loaded;
 
-/// Follows the runs of a study and may stop them; called from several threads at a time. `()` observes nothing.
-pub trait SweepObserver: Sync {
-    /// Told what deserves attention though the runs go on.
-    fn warning(&self, _message: &dyn Display) {}
+use crate::options::Observer;
 
-    /// Told what is worth knowing.
-    fn note(&self, _message: &dyn Display) {}
-
+/// Follows the runs of a study and may stop them; called from several threads at a time. `()` observes nothing. After a signal a run
+/// leaves its state, from which the next sweep continues it.
+pub trait SweepObserver: Observer + Sync {
     /// Told that so many steps of all runs together were taken since the last time.
     fn steps(&self, _count: u64) {}
 
     /// Told that a run ended.
     fn run_ended(&self, _failed: bool) {}
-
-    /// Told that no more runs are made.
-    fn ends(&self) {}
-
-    /// The number of the signal that asks the runs to stop, if one does. Looked at about ten times a second in each run; a run leaves
-    /// its state, from which the next sweep continues it.
-    fn asked_to_stop(&self) -> Option<u8> {
-        None
-    }
 
     /// Advice, in messages, on how runs of a study are made again.
     fn retry_advice(&self, _study: &Study) -> String {

@@ -10,7 +10,7 @@ use plateau_io::scene;
 use plateau_io::surface::{self, Loaded, Measured, WriteError};
 
 use crate::arguments::{SurfaceArguments, SurfaceWord, as_options};
-use crate::failure::Failure;
+use crate::failure::{Failure, of_scene};
 use crate::hand_over::{self, hand_over};
 use crate::message;
 use crate::output;
@@ -143,7 +143,7 @@ fn convert(path: &Path, from: &mut NamedHeights, to: &Path, force: bool) -> Resu
 
 /// Adds what a scene makes of its disc and pin; gives the files that it reads.
 fn prepared(path: &Path, arguments: &SurfaceArguments, data: &mut Data) -> Result<Vec<PathBuf>, Failure> {
-    let scene = scene::load(path, &[]).map_err(Failure::of_scene)?;
+    let scene = scene::load(path, &[]).map_err(of_scene)?;
     for warning in &scene.warnings {
         message::warning(warning);
     }

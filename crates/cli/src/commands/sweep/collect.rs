@@ -78,9 +78,9 @@ fn collected(plan: &Plan) -> Result<Found, Failure> {
         let collected = Collected::new(plan, &numbers, &Journal::default()).map_err(Failure::run)?;
         return Ok(Found { collected, inputs, left_out: Vec::new() });
     }
-    let resolved = Resolved::of(plan).map_err(Failure::of_sweep)?;
+    let resolved = Resolved::of(plan)?;
     note_short_tenths(plan.study(), &resolved.lengths(), &Messages);
-    let (journal, identities) = (journal(plan.study()).map_err(Failure::of_sweep)?, resolved.identities());
+    let (journal, identities) = (journal(plan.study())?, resolved.identities());
     let collected = Collected::new(plan, &identities, &journal).map_err(Failure::run)?;
     let left_out = say_left_out(plan.study(), &resolved, &journal, &Messages);
     say_unkept(plan.study(), &resolved, &journal, false, &Messages);

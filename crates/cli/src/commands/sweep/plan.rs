@@ -26,16 +26,15 @@ pub fn plan(arguments: &PlanArguments) -> Result<(), Failure> {
         |inputs: &[PathBuf]| arguments.csv.as_ref().map_or(Ok(()), |csv| output::check(csv, arguments.force, inputs));
     check(&plan.study().inputs())?;
     let has_scene = plan.study().base.is_some();
-    let estimate = if has_scene { Estimate::of(&plan).map_err(Failure::of_sweep)? } else { Estimate::default() };
+    let estimate = if has_scene { Estimate::of(&plan)? } else { Estimate::default() };
     estimate.warnings.say("runs whose surfaces were made to try", &Messages);
     let jobs = arguments.jobs.map_or_else(cores, |jobs| jobs as usize).min(plan.runs().max(1));
     let (mut ended, mut repeats) = (None, None);
     if plan.runs() <= Resolved::MOST_AT_ONCE && has_scene {
-        let (resolved, journal) =
-            (Resolved::of(&plan).map_err(Failure::of_sweep)?, journal(plan.study()).map_err(Failure::of_sweep)?);
+        let (resolved, journal) = (Resolved::of(&plan)?, journal(plan.study())?);
         say_left_out(plan.study(), &resolved, &journal, &Messages);
         check(&resolved.files.iter().cloned().collect::<Vec<_>>())?;
-        resolved.refuse_unrecorded(plan.study(), &Messages).map_err(Failure::of_sweep)?;
+        resolved.refuse_unrecorded(plan.study(), &Messages)?;
         resolved.warn_of_late_questions(plan.study(), &Messages);
         note_short_tenths(plan.study(), &resolved.lengths(), &Messages);
         resolved.warnings.say("runs", &Messages);

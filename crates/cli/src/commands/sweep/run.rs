@@ -14,10 +14,10 @@ use plateau_io::text::shown_on_one_line;
 use plateau_run::sweep::{
     self, Estimate, Resolved, Sweep, SweepObserver, SweepOptions, SweepSummary, run_in_words, scene_of_run,
 };
-use plateau_run::{Job, RunOptions, signal_in_words};
+use plateau_run::{Job, Observer, RunOptions, signal_in_words};
 
 use crate::arguments::{SlurmArguments, SweepRunArguments, SweepSceneArguments};
-use crate::failure::{Failure, in_job};
+use crate::failure::{Failure, in_job, of_study};
 use crate::output::{print, print_json, table};
 use crate::terminal::{Interrupt, Messages};
 use crate::{commands, invocation, message, output, program};
@@ -33,7 +33,7 @@ pub fn run(arguments: &SweepRunArguments) -> Result<(), Failure> {
 /// Makes one run, as `plateau run` makes that of a scene.
 fn run_alone(arguments: &SweepRunArguments, number: usize, job: &mut Job) -> Result<(), Failure> {
     let plan = arguments.study.load()?;
-    let mut scene = scene_of_run(&plan, number).map_err(Failure::of_sweep)?;
+    let mut scene = scene_of_run(&plan, number)?;
     scene.workers = Workers::Count(arguments.cores.workers());
     let output = arguments.output.clone().unwrap_or_else(|| PathBuf::from(format!("run-{number:04}.h5")));
     output::check(&output, arguments.force, &plan.study().inputs())?;
@@ -49,9 +49,9 @@ fn run_alone(arguments: &SweepRunArguments, number: usize, job: &mut Job) -> Res
 
 /// Prints the scene of one run.
 pub fn scene(arguments: &SweepSceneArguments) -> Result<(), Failure> {
-    let plan = sweep::load(&arguments.study, None).map_err(Failure::of_sweep)?;
+    let plan = sweep::load(&arguments.study, None).map_err(of_study)?;
     let number = arguments.run as usize;
-    let scene = scene_of_run(&plan, number).map_err(Failure::of_sweep)?;
+    let scene = scene_of_run(&plan, number)?;
     let (run, study) = (run_in_words(&plan, number), arguments.study.display().to_string());
     print(&format!("# {} of {}\n\n{}", shown_on_one_line(&run), shown_on_one_line(&study), scene.resolved.trim_start()))
 }
@@ -67,15 +67,15 @@ fn run_study(arguments: &SweepRunArguments, job: &mut Job) -> Result<(), Failure
         most_failures: arguments.max_failures.map(|limit| limit as usize),
         program: program::this(),
     };
-    let sweep = Sweep::prepare(&plan, options, job, &Messages).map_err(Failure::of_sweep)?;
+    let sweep = Sweep::prepare(&plan, options, job, &Messages)?;
     let interrupt = Interrupt::listen().map_err(Failure::run)?;
     // Else a signal that asks runs for a checkpoint would end all of them; these keep theirs by the clock.
     interrupt.listen_for_save().map_err(Failure::run)?;
     if job.ranks() > 1 && arguments.cores.jobs.is_some() && job.leads() {
         message::warning("each rank makes one run at a time: --jobs has no effect");
     }
-    let terminal = Terminal::new(interrupt, sweep.pending().len(), sweep.steps(), job.leads());
-    let summary = sweep.run(job, &terminal).map_err(Failure::of_sweep)?;
+    let progress = RunsProgress::new(interrupt, sweep.pending().len(), sweep.steps(), job.leads());
+    let summary = sweep.run(job, &progress)?;
     if job.leads() {
         print_summary(&summary, arguments)?;
     }
@@ -128,7 +128,7 @@ fn print_summary(summary: &SweepSummary, arguments: &SweepRunArguments) -> Resul
 }
 
 /// Messages, a bar and signals while runs are made.
-struct Terminal {
+struct RunsProgress {
     interrupt: Interrupt,
     /// One bar for all runs, on standard error; silent where that is no terminal.
     bar: ProgressBar,
@@ -137,7 +137,7 @@ struct Terminal {
     failed: AtomicU64,
 }
 
-impl Terminal {
+impl RunsProgress {
     /// For so many runs with so many steps together.
     fn new(interrupt: Interrupt, runs: usize, steps: u64, visible: bool) -> Self {
         let bar = if visible && !message::is_quiet() { ProgressBar::new(steps) } else { ProgressBar::hidden() };
@@ -147,9 +147,9 @@ impl Terminal {
         if !bar.is_hidden() {
             bar.enable_steady_tick(Duration::from_secs(1));
         }
-        let terminal = Self { interrupt, bar, runs, ended: AtomicU64::new(0), failed: AtomicU64::new(0) };
-        terminal.show();
-        terminal
+        let progress = Self { interrupt, bar, runs, ended: AtomicU64::new(0), failed: AtomicU64::new(0) };
+        progress.show();
+        progress
     }
 
     fn show(&self) {
@@ -159,7 +159,7 @@ impl Terminal {
     }
 }
 
-impl SweepObserver for Terminal {
+impl Observer for RunsProgress {
     fn warning(&self, text: &dyn Display) {
         self.bar.suspend(|| message::warning(text));
     }
@@ -168,6 +168,16 @@ impl SweepObserver for Terminal {
         self.bar.suspend(|| message::note(text));
     }
 
+    fn ends(&self) {
+        self.bar.finish_and_clear();
+    }
+
+    fn asked_to_stop(&self) -> Option<u8> {
+        self.interrupt.signal()
+    }
+}
+
+impl SweepObserver for RunsProgress {
     fn steps(&self, count: u64) {
         self.bar.inc(count);
     }
@@ -176,14 +186,6 @@ impl SweepObserver for Terminal {
         self.failed.fetch_add(failed.into(), Ordering::Relaxed);
         self.ended.fetch_add(1, Ordering::Relaxed);
         self.show();
-    }
-
-    fn ends(&self) {
-        self.bar.finish_and_clear();
-    }
-
-    fn asked_to_stop(&self) -> Option<u8> {
-        self.interrupt.signal()
     }
 
     fn retry_advice(&self, study: &Study) -> String {
@@ -211,10 +213,10 @@ pub fn slurm(arguments: &SlurmArguments) -> Result<(), Failure> {
         arguments.study.study.file_stem().map_or_else(|| "study".into(), |stem| stem.to_string_lossy().into_owned());
     let script = arguments.output.clone().unwrap_or_else(|| PathBuf::from(format!("{stem}.sbatch")));
     output::check(&script, arguments.force, &plan.study().inputs())?;
-    let estimate = Estimate::of(&plan).map_err(Failure::of_sweep)?;
+    let estimate = Estimate::of(&plan)?;
     if plan.runs() <= Resolved::MOST_AT_ONCE {
-        let resolved = Resolved::of(&plan).map_err(Failure::of_sweep)?;
-        resolved.refuse_unrecorded(plan.study(), &Messages).map_err(Failure::of_sweep)?;
+        let resolved = Resolved::of(&plan)?;
+        resolved.refuse_unrecorded(plan.study(), &Messages)?;
     }
     let cores = arguments.cores as usize;
     let total = estimate.mean_time * plan.runs() as f64 / cores as f64;
