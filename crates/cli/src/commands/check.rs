@@ -12,6 +12,7 @@ use plateau_core::model::parameters::Parameters;
 use plateau_core::model::state::Base;
 use plateau_core::observe::running_in::pulse_time;
 use plateau_core::observe::window_mean::LEAST_REVOLUTIONS;
+use plateau_core::observe::{EXTRAS, Map};
 use plateau_core::simulation::Simulation;
 use plateau_io::claim::lock_of;
 use plateau_io::run_file::{checkpoint, image_estimate, resolve, size_estimate};
@@ -181,7 +182,7 @@ struct CheckReport {
 }
 
 /// A part of the model or of the output, and what in the scene decides over it.
-#[derive(Debug, Clone, Serialize)]
+#[derive(Debug, Serialize)]
 struct Reasoned {
     part: String,
     reason: String,
@@ -201,32 +202,33 @@ impl CheckReport {
         let (parameters, execution) = (&scene.parameters, simulation.execution());
         let mesh = &parameters.mesh;
         let schedule = scene.schedule();
-        let mut reasoned: Vec<(bool, Reasoned)> = parts
-            .iter()
-            .map(|part| (part.needed, Reasoned { part: part.name.into(), reason: part.reason.into() }))
-            .collect();
-        let workers = Reasoned { part: "several workers".into(), reason: format!("workers = {}", execution.workers) };
-        reasoned.push((execution.workers > 1, workers));
-        reasoned.extend(plateau_core::observe::Map::CHOICES.map(|map| {
+        let (mut needed, mut left_out) = (Vec::new(), Vec::new());
+        let mut part = |is_needed: bool, part: String, reason: String| {
+            (if is_needed { &mut needed } else { &mut left_out }).push(Reasoned { part, reason });
+        };
+        for Part { name, needed, reason } in parts {
+            match *name {
+                ACCELERATION if scene.adaptive.is_some() => {
+                    part(true, ACCELERATION.into(), "the run chooses it, by what a scout before it finds".into());
+                }
+                name => part(*needed, name.into(), (*reason).into()),
+            }
+        }
+        part(execution.workers > 1, "several workers".into(), format!("workers = {}", execution.workers));
+        for map in Map::CHOICES {
             let asked = scene.output.maps.contains(&map);
             let reason = if asked { "output.maps asks for it" } else { "not in output.maps" };
-            (asked, Reasoned { part: format!("map {}", map.name()), reason: reason.into() })
-        }));
-        if scene.adaptive.is_some() {
-            let reason = "the run chooses it, by what a scout before it finds".to_owned();
-            let chosen = (true, Reasoned { part: ACCELERATION.into(), reason });
-            reasoned.iter_mut().filter(|(_, part)| part.part == ACCELERATION).for_each(|part| *part = chosen.clone());
+            part(asked, format!("map {}", map.name()), reason.into());
         }
-        reasoned.extend(plateau_core::observe::EXTRAS.iter().filter_map(|extra| {
+        for (extra, request) in EXTRAS.iter().filter_map(|extra| Some((extra, extra.request.as_ref()?))) {
             let asked = scene.output.extras.contains(extra);
-            let part = format!("{} with every sample", extra.request.as_ref()?.what);
-            Some((asked, Reasoned { part, reason: format!("output.{} = {asked}", extra.name) }))
-        }));
-        let (needed, left_out): (Vec<_>, Vec<_>) = reasoned.into_iter().partition(|(needed, _)| *needed);
+            part(asked, format!("{} with every sample", request.what), format!("output.{} = {asked}", extra.name));
+        }
         let stiffness_number = parameters.first_stiffness_number();
         let largest_factor = parameters.thermal.as_ref().and_then(|thermal| thermal.wear_rate_factor.largest());
         let extras = scene.extras(scene.adaptive.is_some());
         let maps = if scene.output.maps.is_empty() { 0 } else { schedule.maps() };
+        let image = image_estimate(mesh, &scene.output.maps, &extras, schedule.samples(), maps as u64);
         Self {
             title: scene.title.clone(),
             scene: scene.resolved.clone(),
@@ -249,13 +251,7 @@ impl CheckReport {
             maps,
             memory: memory_estimate(scene),
             run_file: size_estimate(mesh, &scene.output.maps, &extras, schedule.samples(), maps as u64),
-            checkpoint: checkpoint::size_estimate(mesh, scene.adaptive.is_some()).saturating_add(image_estimate(
-                mesh,
-                &scene.output.maps,
-                &extras,
-                schedule.samples(),
-                maps as u64,
-            )),
+            checkpoint: checkpoint::size_estimate(mesh, scene.adaptive.is_some()).saturating_add(image),
             workers: execution.workers,
             decomposition: simulation.decomposition(),
             instruction_set: execution.means(),
@@ -267,73 +263,54 @@ impl CheckReport {
                 .map(|factor| parameters.with_wear_rate_factor(factor).stiffness_number()),
             warns_of_stiffness: stiffness_warning(parameters).is_some(),
             warnings: scene.warnings.clone(),
-            needed: needed.into_iter().map(|(_, reasoned)| reasoned).collect(),
-            left_out: left_out.into_iter().map(|(_, reasoned)| reasoned).collect(),
+            needed,
+            left_out,
         }
     }
 
     /// Time that the run will take, in words: the surfaces, which are not made faster by acceleration, and the steps.
     fn time(&self) -> String {
         let steps = number::duration(self.estimated_time - self.preparing_time);
-        let trial = match self.largest_acceleration {
-            None => format!("{steps} for the steps (from a short trial)"),
-            Some(largest) => format!(
-                "{steps} for the steps without acceleration (from a short trial), at best {} times less",
-                number::short(largest)
-            ),
-        };
+        let (without, less) = self.largest_acceleration.map_or_else(Default::default, |largest| {
+            (" without acceleration", format!(", at best {} times less", number::short(largest)))
+        });
         let [all, surfaces] = [self.estimated_time, self.preparing_time].map(number::duration);
-        format!("{all}: {surfaces} for the surfaces (as now), {trial}")
+        format!(
+            "{all}: {surfaces} for the surfaces (as now), {steps} for the steps{without} (from a short trial){less}"
+        )
     }
 
     /// Formats the main rows of the report, or all of them; with the number of warnings that were given.
     fn to_text(&self, all: bool, warnings: usize) -> String {
-        let micrometres = |length: f64| format!("{} um", number::short(length * 1e6));
-        let mesh = format!(
-            "{} rows, {} columns round the ring, {} under the pin: {} disc and {} pin cells of {} by {}",
-            self.rows,
-            self.disc_columns,
-            self.pin_columns,
-            number::grouped((self.rows * self.disc_columns) as u64),
-            number::grouped((self.rows * self.pin_columns) as u64),
-            micrometres(self.cell_height),
-            micrometres(self.cell_width)
-        );
-        let steps = format!(
-            "{}{} of {} s{}: {} revolutions, {} s",
-            if self.largest_acceleration.is_some() { "without acceleration " } else { "" },
-            number::grouped(self.steps),
-            number::short(self.step_time),
-            if self.cycle.is_some() { " in the mean" } else { "" },
-            number::short(self.revolutions),
-            number::short(self.cycle.as_ref().map_or(self.step_time * self.steps as f64, |cycle| cycle.duration))
-        );
-        let told = if warnings == 0 {
-            "none".to_owned()
-        } else {
-            format!("{warnings}, {}", if message::is_quiet() { "which -q keeps back" } else { "on standard error" })
+        let Self { rows, disc_columns, pin_columns, .. } = self;
+        let [disc, pin] = [disc_columns, pin_columns].map(|columns| number::grouped((rows * columns) as u64));
+        let [height, width] = [self.cell_height, self.cell_width].map(|length| number::short(length * 1e6));
+        let cells = format!("{disc} disc and {pin} pin cells of {height} um by {width} um");
+        let mesh = format!("{rows} rows, {disc_columns} columns round the ring, {pin_columns} under the pin: {cells}");
+        let without = if self.largest_acceleration.is_some() { "without acceleration " } else { "" };
+        let mean = if self.cycle.is_some() { " in the mean" } else { "" };
+        let duration = self.cycle.as_ref().map_or(self.step_time * self.steps as f64, |cycle| cycle.duration);
+        let [step, revolutions, duration] = [self.step_time, self.revolutions, duration].map(number::short);
+        let count = number::grouped(self.steps);
+        let steps = format!("{without}{count} of {step} s{mean}: {revolutions} revolutions, {duration} s");
+        let told = match (warnings, message::is_quiet()) {
+            (0, _) => "none".to_owned(),
+            (warnings, true) => format!("{warnings}, which -q keeps back"),
+            (warnings, false) => format!("{warnings}, on standard error"),
         };
         let pressure = if self.cycle.is_some() { "largest nominal pressure" } else { "nominal pressure" };
         let mut rows = vec![("warnings", told), ("mesh", mesh)];
         rows.extend(self.outline.as_ref().map(|outline| ("outline of the pin", outline.text())));
-        rows.push((pressure, {
-            let at_least = if self.by_torque { ", more where friction is not at its largest" } else { "" };
-            format!("{} MPa{at_least}", number::short(self.nominal_pressure * 1e-6))
-        }));
+        let more = if self.by_torque { ", more where friction is not at its largest" } else { "" };
+        rows.push((pressure, format!("{} MPa{more}", number::short(self.nominal_pressure * 1e-6))));
         rows.push(("steps", steps));
         rows.extend(self.cycle.iter().flat_map(CycleReport::rows));
         rows.extend(self.pulse.as_ref().map(|pulse| ("contact area pulses", pulse.text())));
         rows.push(("estimated time", self.time()));
         rows.push(("memory for cells and maps", number::bytes(self.memory)));
         let [file, checkpoint] = [self.run_file, self.checkpoint].map(number::bytes);
-        rows.push((
-            "output",
-            format!(
-                "samples: {}, moments with maps: {}; run file at most {file}, two checkpoints of at most {checkpoint}",
-                number::grouped(self.samples),
-                self.maps
-            ),
-        ));
+        let holds = format!("samples: {}, moments with maps: {}", number::grouped(self.samples), self.maps);
+        rows.push(("output", format!("{holds}; run file at most {file}, two checkpoints of at most {checkpoint}")));
         let Self { workers, decomposition, instruction_set, .. } = self;
         if all || *workers > 1 {
             let of_workers = format!("{workers}, decomposition {decomposition}, instruction set {instruction_set}");
@@ -410,27 +387,16 @@ impl CycleReport {
     /// Returns the rows for the table of the run.
     fn rows(&self) -> Vec<(&'static str, String)> {
         let [fewest, most] = self.steps_per_event.map(number::grouped);
-        let largest = self.largest_acceleration_without_warning;
+        let [active, all, distance] = [self.active_time, self.duration, self.distance].map(number::short);
+        let events = number::count(self.events, "event");
+        let largest = match self.largest_acceleration_without_warning {
+            ..1.0 => "none: the shortest event has less than ten revolutions".to_owned(),
+            largest => number::short(number::not_above(largest, 4)),
+        };
         vec![
-            (
-                "cycle",
-                format!(
-                    "{}: {} s of {} s with load and speed, {} m",
-                    number::count(self.events, "event"),
-                    number::short(self.active_time),
-                    number::short(self.duration),
-                    number::short(self.distance)
-                ),
-            ),
+            ("cycle", format!("{events}: {active} s of {all} s with load and speed, {distance} m")),
             ("steps per event", if fewest == most { fewest } else { format!("{fewest} to {most}") }),
-            (
-                "largest acceleration without a warning",
-                if largest < 1.0 {
-                    "none: the shortest event has less than ten revolutions".to_owned()
-                } else {
-                    number::short(number::not_above(largest, 4))
-                },
-            ),
+            ("largest acceleration without a warning", largest),
         ]
     }
 }
@@ -460,12 +426,8 @@ impl OutlineReport {
 
     /// Describes the pin within its outline.
     fn text(&self) -> String {
-        format!(
-            "a circle of {} mm in diameter: {} cells, {} mm²",
-            number::short(self.diameter * 1e3),
-            number::grouped(self.cells as u64),
-            number::short(self.area * 1e6)
-        )
+        let [diameter, area] = [self.diameter * 1e3, self.area * 1e6].map(number::short);
+        format!("a circle of {diameter} mm in diameter: {} cells, {area} mm²", number::grouped(self.cells as u64))
     }
 }
 

@@ -38,11 +38,8 @@ pub fn warn_of_times(run: &RunFile, at: &[f64]) {
             () if *time > last + BEYOND * last => ("after the last", times.len() - 1),
             () => continue,
         };
-        let (path, time) = (run.path().display(), number::rounded(*time, 4));
-        message::warning(format_args!(
-            "{path}: {time} s is {place} recorded map, that of {} is shown",
-            moment(run, index)
-        ));
+        let (path, time, shown) = (run.path().display(), number::rounded(*time, 4), moment(run, index));
+        message::warning(format_args!("{path}: {time} s is {place} recorded map, that of {shown} is shown"));
     }
 }
 
@@ -101,93 +98,47 @@ pub fn summary(arguments: &SummaryArguments) -> Result<(), Failure> {
 pub fn text(summary: &RunSummary) -> String {
     // Adding 0 makes a negative zero a plain one.
     let percent = |fraction: f64| format!("{:.2} %", (1e4 * fraction).round() / 1e2 + 0.0);
-    let square_millimetres = |area: f64| format!("{:.4} mm²", area * 1e6);
-    let cubic_millimetres = |volume: f64| format!("{} mm³", number::short(volume * 1e9));
-    let megapascal = |pressure: f64| format!("{:.3} MPa", pressure * 1e-6);
-    let of_last_step = format!(
-        "last step {}, {} of the pin",
-        square_millimetres(summary.contact_area),
-        percent(summary.contact_ratio)
-    );
+    let mm3 = |volume: f64| format!("{} mm³", number::short(volume * 1e9));
+    let (area, ratio) = (summary.contact_area * 1e6, percent(summary.contact_ratio));
+    let last_step = format!("last step {area:.4} mm², {ratio} of the pin");
     let contact_area = match &summary.contact_area_last_tenth {
-        Some(window) => format!("{}; {of_last_step}", contact_area(window)),
-        None => of_last_step,
+        Some(window) => format!("{}; {last_step}", contact_area(window)),
+        None => last_step,
     };
-    let steps = if summary.steps == 1 { "step" } else { "steps" };
+    let steps = number::grouped(summary.steps) + if summary.steps == 1 { " step" } else { " steps" };
+    let speed = number::grouped(summary.steps_per_second as u64);
     let mut rows = vec![
-        ("simulated time", format!("{} s in {} {steps}", number::short(summary.time), number::grouped(summary.steps))),
-        (
-            "wall time",
-            format!(
-                "{} ({} steps/s)",
-                number::duration(summary.wall_time),
-                number::grouped(summary.steps_per_second as u64)
-            ),
-        ),
+        ("simulated time", format!("{} s in {steps}", number::short(summary.time))),
+        ("wall time", format!("{} ({speed} steps/s)", number::duration(summary.wall_time))),
         ("waited for the run file", number::duration(summary.writer_wait)),
         ("contact area", contact_area),
     ];
     rows.extend(summary.time_acceleration.as_ref().map(|chosen| ("time acceleration", acceleration(chosen))));
     let (drift, time) = &summary.running_in;
+    let [mean, largest] = [summary.mean_pressure, summary.max_pressure].map(|pressure| pressure * 1e-6);
+    let [on_disc, on_pin] = [summary.disc_secondary, summary.pin_secondary].map(percent);
+    let [worn, emitted] = [summary.worn, summary.emitted].map(mm3);
+    let [whole, off_plateaus] = [summary.worn_whole_pin, summary.worn_pin].map(mm3);
     rows.extend([
         ("running in", running_in(drift, summary.filled_fraction)),
         ("running-in time", running_in_time(time)),
-    ]);
-    rows.extend([
-        (
-            "contact pressure",
-            format!(
-                "last step: mean {}, largest {}",
-                megapascal(summary.mean_pressure),
-                megapascal(summary.max_pressure)
-            ),
-        ),
+        ("contact pressure", format!("last step: mean {mean:.3} MPa, largest {largest:.3} MPa")),
         ("disc filled", percent(summary.filled_fraction)),
-        (
-            "secondary plateaus",
-            format!("{} of the disc, {} of the pin", percent(summary.disc_secondary), percent(summary.pin_secondary)),
-        ),
-        (
-            "worn volume",
-            format!(
-                "{} of the simulated pin and the disc, of which emitted {}",
-                cubic_millimetres(summary.worn),
-                cubic_millimetres(summary.emitted)
-            ),
-        ),
+        ("secondary plateaus", format!("{on_disc} of the disc, {on_pin} of the pin")),
+        ("worn volume", format!("{worn} of the simulated pin and the disc, of which emitted {emitted}")),
+        ("worn off the pin", format!("{whole} of the whole simulated pin, {off_plateaus} of it off plateaus")),
     ]);
-    rows.push((
-        "worn off the pin",
-        format!(
-            "{} of the whole simulated pin, {} of it off plateaus",
-            cubic_millimetres(summary.worn_whole_pin),
-            cubic_millimetres(summary.worn_pin)
-        ),
-    ));
     if let Some(rate) = summary.specific_wear_rate_whole_pin {
         // Build-up on the pin is weighed with it.
-        let lost = cubic_millimetres(summary.lost_pin);
-        rows.push((
-            "lost by the pin",
-            format!(
-                "{lost} as a balance shows it, specific wear rate of the whole pin {rate:.3e} 1/Pa, {:.3e} mm³/(N m)",
-                rate * 1e9
-            ),
-        ));
+        let (lost, per_work) = (mm3(summary.lost_pin), rate * 1e9);
+        let rate = format!("specific wear rate of the whole pin {rate:.3e} 1/Pa, {per_work:.3e} mm³/(N m)");
+        rows.push(("lost by the pin", format!("{lost} as a balance shows it, {rate}")));
     }
     rows.extend(parts(summary));
-    rows.push((
-        "residuals",
-        format!(
-            "load {:.1e} at most, debris balance {:.1e}{}",
-            summary.load_residual,
-            summary.balance_residual,
-            summary.parts.heat_residual.map_or(String::new(), |residual| format!(", heat {residual:.1e}"))
-        ),
-    ));
-    if let Some(bytes) = summary.peak_memory {
-        rows.push(("peak memory", number::bytes(bytes)));
-    }
+    let heat = summary.parts.heat_residual.map_or(String::new(), |residual| format!(", heat {residual:.1e}"));
+    let RunSummary { load_residual, balance_residual, .. } = summary;
+    rows.push(("residuals", format!("load {load_residual:.1e} at most, debris balance {balance_residual:.1e}{heat}")));
+    rows.extend(summary.peak_memory.map(|bytes| ("peak memory", number::bytes(bytes))));
     rows.push(("run file", format!("{} ({})", summary.file.display(), number::bytes(summary.file_size))));
     format!("{}\n{}", table(&summary.title, &rows), list("Surfaces", &summary.surfaces))
 }
@@ -196,11 +147,8 @@ pub fn text(summary: &RunSummary) -> String {
 fn parts(summary: &RunSummary) -> Vec<(&'static str, String)> {
     let (parts, mut rows) = (&summary.parts, Vec::new());
     if let (Some(coefficient), Some(work)) = (parts.friction_coefficient_mean, parts.friction_work) {
-        let over = "mean of the last simulated revolution";
-        rows.push((
-            "friction",
-            format!("coefficient {coefficient:.3} ({over}), work {} J of the simulated pin", number::short(work)),
-        ));
+        let (over, work) = ("mean of the last simulated revolution", number::short(work));
+        rows.push(("friction", format!("coefficient {coefficient:.3} ({over}), work {work} J of the simulated pin")));
     }
     if let (Some(contact), Some(disc), Some(pin)) =
         (parts.contact_temperature, parts.disc_temperature, parts.pin_temperature)
@@ -213,15 +161,10 @@ fn parts(summary: &RunSummary) -> Vec<(&'static str, String)> {
         rows.push(("temperature", text));
     }
     if let (Some(pm10), Some(pm25), Some(number)) = (parts.pm10_mass, parts.pm25_mass, parts.particle_number) {
-        let microgram = |mass: f64| format!("{} µg", number::short(mass * 1e9));
-        let particles = number::short(number);
-        let airborne = format!(
-            "PM10 {}, PM2.5 {}, {particles} particles of the simulated pin, {} mm²",
-            microgram(pm10),
-            microgram(pm25),
-            number::rounded(summary.pin_area * 1e6, 3)
-        );
-        rows.push(("airborne", airborne));
+        let [pm10, pm25, particles] = [pm10 * 1e9, pm25 * 1e9, number].map(number::short);
+        let area = number::rounded(summary.pin_area * 1e6, 3);
+        let particles = format!("{particles} particles of the simulated pin, {area} mm²");
+        rows.push(("airborne", format!("PM10 {pm10} µg, PM2.5 {pm25} µg, {particles}")));
     }
     rows.extend(brake(summary));
     rows
@@ -265,11 +208,8 @@ fn contact_area(window: &WindowMean) -> String {
         _ => format!("mean of the last {width} s"),
     };
     let contact = in_contact(window);
-    let error = if window.standard_error.is_some() {
-        ", ± standard error"
-    } else {
-        ", too few samples or pulses for an error"
-    };
+    let unknown = ", too few samples or pulses for an error";
+    let error = window.standard_error.map_or(unknown, |_| ", ± standard error");
     format!("{mean} mm² ({over}{contact}{error})")
 }
 
@@ -298,14 +238,9 @@ fn running_in(found: &Result<Drift, NoDrift>, filled: f64) -> String {
     };
     // It falls at first, where the highest points of the disc are worn to, and rises as long as the disc fills.
     let fills_on = drift.trend() == Trend::Steady && HARDLY_FILLED.contains(&filled);
-    let caution = if fills_on {
-        format!(
-            "; the disc is filled by {} %, and as it fills on the area may rise",
-            number::rounded(100.0 * filled, 2)
-        )
-    } else {
-        String::new()
-    };
+    let filled = number::rounded(100.0 * filled, 2);
+    let caution = format!("; the disc is filled by {filled} %, and as it fills on the area may rise");
+    let caution = if fills_on { caution } else { String::new() };
     format!("{found}: {sign}{percent} % from {start} … {middle} s to {middle} … {end} s{caution}")
 }
 
@@ -314,39 +249,27 @@ const HARDLY_FILLED: std::ops::Range<f64> = 0.001..0.8;
 
 /// Time at which the contact area had come to its value at the end, in words.
 fn running_in_time(found: &Result<f64, NotDefined>) -> String {
-    match found {
-        Ok(time) => {
-            format!("{} s, to {:.0} % of the contact area at the end", number::rounded(*time, 4), 100.0 * RUN_IN)
-        }
-        Err(reason) => reason.to_string(),
-    }
+    let (percent, time) = (100.0 * RUN_IN, |time: &f64| number::rounded(*time, 4));
+    let told = |found| format!("{} s, to {percent:.0} % of the contact area at the end", time(found));
+    found.as_ref().map_or_else(ToString::to_string, told)
 }
 
 /// Over how much of its part a mean of the contact area is, behind that part; nothing where it is all of it.
 fn in_contact(window: &WindowMean) -> String {
-    window.contact_time.map_or(String::new(), |time| {
-        format!(
-            ", of which {} s in contact: the time in which the pin is lifted, and before the first step, does not count",
-            number::rounded(time, 4)
-        )
-    })
+    let rest = "the time in which the pin is lifted, and before the first step, does not count";
+    let told = |time| format!(", of which {} s in contact: {rest}", number::rounded(time, 4));
+    window.contact_time.map_or_else(String::new, told)
 }
 
 /// Range and last m, the estimated error, and whether that is within the tolerance.
 fn acceleration(chosen: &Chosen) -> String {
     let Chosen { tolerance, smallest, largest, last, estimated_error, met } = chosen;
     let [smallest, largest, last] = [smallest, largest, last].map(|m| number::rounded(*m, 3));
-    let range = if largest == smallest {
-        format!("m = {largest}")
-    } else {
-        format!("m = {smallest} to {largest}, last {last}")
-    };
-    let met = if *met { "met" } else { "not met" };
-    format!(
-        "{range}; estimated error of the contact area {}, tolerance {} {met}",
-        number::percent(*estimated_error),
-        number::percent(*tolerance)
-    )
+    let only = format!("m = {largest}");
+    let range = if largest == smallest { only } else { format!("m = {smallest} to {largest}, last {last}") };
+    let ([error, tolerance], met) =
+        ([estimated_error, tolerance].map(|part| number::percent(*part)), if *met { "met" } else { "not met" });
+    format!("{range}; estimated error of the contact area {error}, tolerance {tolerance} {met}")
 }
 
 #[cfg(test)]
