@@ -19,6 +19,7 @@ use std::process::ExitCode;
 use std::time::Duration;
 
 use clap::{Args, Parser};
+use plateau_io::process;
 use plateau_io::units::{self, Dimension};
 
 use case::{MeshSize, Outcome, Source, mesh_size, of_file};
@@ -98,7 +99,7 @@ impl Options {
 
 /// The numbers asked for, or 1, 2, 4 .. and all cores.
 fn workers(asked: &[u16]) -> Vec<usize> {
-    let cores = table::cores();
+    let cores = process::cores();
     let powers = std::iter::successors(Some(1), |workers| Some(2 * workers)).take_while(|workers| *workers < cores);
     let mut workers: Vec<usize> = asked.iter().map(|workers| usize::from(*workers)).collect();
     if workers.is_empty() {

@@ -3,6 +3,7 @@
 
 use std::{fmt, fs};
 
+use plateau_io::process::{cores, load, processor};
 use serde::Serialize;
 
 use crate::race::{Measurement, Pace, Session, Spread};
@@ -134,28 +135,15 @@ pub struct Machine {
     load: Option<f64>,
 }
 
-/// Threads that can run at once.
-pub fn cores() -> usize {
-    std::thread::available_parallelism().map_or(1, usize::from)
-}
-
 impl Machine {
     /// Describes this machine as it is now.
     pub fn this() -> Self {
-        let first = |path, prefix: &str| {
-            let text = fs::read_to_string(path).ok()?;
-            let value = text.lines().find_map(|line| line.strip_prefix(prefix))?;
-            Some(value.trim_matches([' ', '\t', ':', '"']).to_owned())
-        };
-        let word = |path: &str| fs::read_to_string(path).ok()?.split_whitespace().next().map(str::to_owned);
-        let kernel = format!("{} {}", std::env::consts::OS, word("/proc/sys/kernel/osrelease").unwrap_or_default());
-        let distribution = first("/etc/os-release", "PRETTY_NAME=");
-        Self {
-            processor: first("/proc/cpuinfo", "model name").unwrap_or_else(|| std::env::consts::ARCH.into()),
-            cores: cores(),
-            system: distribution.map_or(kernel.clone(), |name| format!("{name}, {kernel}")),
-            load: word("/proc/loadavg").and_then(|load| load.parse().ok()),
-        }
+        let read = |path: &str| fs::read_to_string(path).unwrap_or_default();
+        let (release, version) = (read("/etc/os-release"), read("/proc/sys/kernel/osrelease"));
+        let name = release.lines().find_map(|line| line.strip_prefix("PRETTY_NAME="));
+        let kernel = format!("{} {}", std::env::consts::OS, version.trim());
+        let system = name.map_or(kernel.clone(), |name| format!("{}, {kernel}", name.trim_matches('"')));
+        Self { processor: processor(), cores: cores(), system, load: load() }
     }
 }
 

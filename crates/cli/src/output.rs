@@ -7,7 +7,7 @@ use std::io::{self, ErrorKind, Write as _};
 use std::path::{Path, PathBuf};
 
 use plateau_io::input;
-use plateau_io::temporary::Temporary;
+use plateau_io::temporary::{Temporary, folder};
 use plateau_io::text::{cell, is_plain, shown};
 use serde::Serialize;
 
@@ -20,7 +20,7 @@ pub fn check(path: &Path, force: bool, inputs: &[PathBuf]) -> Result<(), Failure
     if path.as_os_str().as_encoded_bytes().ends_with(b"/") {
         return Err(Failure::input(format!("cannot write {shown}: it names a folder; name a file")));
     }
-    let directory = directory(path);
+    let directory = folder(path);
     if !directory.is_dir() {
         let directory = directory.display();
         return Err(Failure::input(format!("cannot write {shown}: {directory} is not a directory; make it first")));
@@ -80,16 +80,10 @@ pub fn make_directory(path: &Path) -> Result<(), Failure> {
 
 /// Fails because no file can be made where one was asked for.
 fn unwritable(path: &Path, error: &io::Error) -> Failure {
-    let directory = directory(path).display();
-    let path = path.display();
+    let (directory, path) = (folder(path).display(), path.display());
     let message =
         format_args!("cannot write {path}: {error}; make the directory {directory} writable, or name a file elsewhere");
     Failure::because(error, message)
-}
-
-/// The folder in which a path is.
-pub fn directory(path: &Path) -> &Path {
-    path.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."))
 }
 
 fn exists(path: &Path) -> Failure {

@@ -1,4 +1,4 @@
-//! Machines and processes: known again, and told from others of the same name or number.
+//! Machines and processes: known again, and told from others of the same name or number; and what is known of this machine.
 //!
 //! A name says little: machines that are copied from one image, those that are called localhost, and containers that are started
 //! again elsewhere share it. So a machine is known again after it was started anew only by its hardware. A process is told from later ones
@@ -77,6 +77,23 @@ pub fn host() -> String {
         .filter(|name| !name.is_empty())
         .or_else(|| std::env::var("HOSTNAME").ok())
         .unwrap_or_else(|| "unknown".into())
+}
+
+/// Name of the processor.
+pub fn processor() -> String {
+    let text = fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
+    let line = text.lines().find_map(|line| line.strip_prefix("model name"));
+    line.map_or(std::env::consts::ARCH, |name| name.trim_matches([' ', '\t', ':'])).to_owned()
+}
+
+/// Cores that this process may use.
+pub fn cores() -> usize {
+    std::thread::available_parallelism().map_or(1, usize::from)
+}
+
+/// Reads the number of threads that wanted to run, mean over the last minute; none where the system does not tell.
+pub fn load() -> Option<f64> {
+    first_line(Path::new("/proc/loadavg")).split_whitespace().next()?.parse().ok()
 }
 
 /// One word for each network device, made of its address and of the number of the installed system (machine-id(5), which asks

@@ -1,6 +1,5 @@
 //! Execution of a run: machine, cores, workers, instruction set. None of it shows in the results.
 
-use std::fs;
 use std::time::{Duration, Instant};
 
 use plateau_core::model::state::InitialSurfaces;
@@ -10,19 +9,7 @@ use plateau_io::scene::{Scene, Workers};
 use crate::error::InputError;
 use crate::options::Observer;
 
-pub use plateau_io::process::host;
-
-/// Name of the processor.
-pub fn processor() -> String {
-    let text = fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
-    let line = text.lines().find_map(|line| line.strip_prefix("model name"));
-    line.map_or(std::env::consts::ARCH, |name| name.trim_matches([' ', '\t', ':'])).to_owned()
-}
-
-/// Reads the number of threads that wanted to run, mean over the last minute; none where the system does not tell.
-pub(crate) fn load() -> Option<f64> {
-    fs::read_to_string("/proc/loadavg").ok()?.split_whitespace().next()?.parse().ok()
-}
+pub use plateau_io::process::{cores, host, processor};
 
 /// Time for which each number of workers is tried.
 const TRIAL: Duration = Duration::from_millis(25);
@@ -89,11 +76,6 @@ pub(crate) fn check_ranks(scene: &Scene, ranks: usize, is_pinned: bool) -> Resul
         _ => return Ok(()),
     };
     Err(InputError::Refused(refused))
-}
-
-/// Cores that this process may use.
-pub fn cores() -> usize {
-    std::thread::available_parallelism().map_or(1, usize::from)
 }
 
 /// Tries 1, 2, 4, … workers, and as many as there are cores, on the first steps of the run.

@@ -330,11 +330,11 @@ struct ClearLay {
 /// The lay of a patch, if the Python package is here and tells a clear one.
 fn lay(measured: &Measured, form: Level) -> Option<ClearLay> {
     hand_over::answering(WORD)?;
-    let mut levelled = measured.clone();
+    let mut levelled = Measured { body: None, ..measured.clone() };
     level(&mut levelled.heights, levelled.rows, form, false);
     let folder = hand_over::temporary_folder().ok()?;
     let mut data = Data::new(folder.path());
-    data.add_levelled("", "", None, &levelled, form).ok()?;
+    data.add_levelled("", "", &levelled, form).ok()?;
     let told: Value = serde_json::from_str(&hand_over::described(data.finish().ok()?, true).ok()?).ok()?;
     // As `plateau surface` has them.
     let (ratio, aspect_ratio) = match (told["Str"].as_f64(), told["Str_below"].as_f64()) {

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use thiserror::Error;
 
 use super::RunFileError;
-use crate::temporary::Temporary;
+use crate::temporary::{Temporary, folder};
 
 /// An output path and the temporary file beside it that becomes the output once it is set up.
 pub(super) struct Output {
@@ -75,12 +75,11 @@ pub fn resolve(path: &Path, overwrite: bool) -> Result<PathBuf, RunFileError> {
             "the output {shown} is a folder or another thing that is not a regular file, and is not replaced; name a file with -o FILE"
         ))
     };
-    let (Some(parent), Some(name)) = (path.parent(), path.file_name()) else { return Err(not_a_file()) };
+    let (parent, Some(name)) = (folder(path), path.file_name()) else { return Err(not_a_file()) };
     let names_a_folder = path.as_os_str().as_encoded_bytes().ends_with(b"/");
     if names_a_folder || fs::metadata(path).is_ok_and(|there| !there.is_file()) {
         return Err(not_a_file());
     }
-    let parent = if parent.as_os_str().is_empty() { Path::new(".") } else { parent };
     if !parent.is_dir() {
         let directory = parent.display();
         return Err(RunFileError::Refused(format!(

@@ -428,49 +428,33 @@ fn add_dissipation(settings: &Settings, brake: Option<&Brake>, parameters: &mut 
     parameters.thermal =
         if settings.has_table("thermal") { Some(Arc::new(thermal(settings, share, turns)?)) } else { None };
     parameters.emission = if settings.has_table("emission") { Some(emission(settings)?) } else { None };
-    let problem = |key: &str, message: &str| Err(settings.problem(key, message));
-    if parameters.thermal.is_some() && parameters.friction.is_none() {
-        return problem(
-            "thermal.ambient",
-            "heat comes of friction, and there is no [friction]: give it, or leave [thermal] out",
-        );
-    }
-    if parameters.by_torque {
-        let key = ["operation.braking_torque", "operation.cycle.points", "operation.cycle.file"]
-            .into_iter()
-            .find(|key| settings.get(key).is_some())
-            .unwrap_or("operation.braking_torque");
-        match parameters.friction {
-            None => {
-                return problem(
-                    key,
-                    "a braking torque comes of friction, and there is no [friction]: give it, or give a load",
-                );
-            }
-            Some(friction) if friction.maximum.is_infinite() => {
-                return problem(
-                    key,
-                    "before the first step friction is at its ceiling, and friction.maximum is not given: give it, 0.6 for example",
-                );
-            }
-            Some(_) => {}
+    let (has_heat, has_friction) = (parameters.thermal.is_some(), parameters.friction.is_some());
+    let is_boundless = parameters.friction.is_some_and(|friction| friction.maximum.is_infinite());
+    let torques = ["operation.braking_torque", "operation.cycle.points", "operation.cycle.file"];
+    let torque = torques.into_iter().find(|key| settings.get(key).is_some()).unwrap_or(torques[0]);
+    let [factor, temperature] = ["emission.number_factor", "output.contact_temperature"];
+    let is_reported = settings.get(temperature).is_some() && settings.bool(temperature)?;
+    let (key, message) = match () {
+        () if has_heat && !has_friction => {
+            ("thermal.ambient", "heat comes of friction, and there is no [friction]: give it, or leave [thermal] out")
         }
-    }
-    if parameters.thermal.is_none() {
-        if settings.get("emission.number_factor").is_some() {
-            return problem(
-                "emission.number_factor",
-                "there is no [thermal], so the temperature of the contact is not known: give it, or leave this key out",
-            );
+        () if parameters.by_torque && !has_friction => {
+            (torque, "a braking torque comes of friction, and there is no [friction]: give it, or give a load")
         }
-        if settings.get("output.contact_temperature").is_some() && settings.bool("output.contact_temperature")? {
-            return problem(
-                "output.contact_temperature",
-                "there is no [thermal], so no temperature is reckoned: give it, or leave this key out",
-            );
+        () if parameters.by_torque && is_boundless => (
+            torque,
+            "before the first step friction is at its ceiling, and friction.maximum is not given: give it, 0.6 for example",
+        ),
+        () if !has_heat && settings.get(factor).is_some() => (
+            factor,
+            "there is no [thermal], so the temperature of the contact is not known: give it, or leave this key out",
+        ),
+        () if !has_heat && is_reported => {
+            (temperature, "there is no [thermal], so no temperature is reckoned: give it, or leave this key out")
         }
-    }
-    Ok(())
+        () => return Ok(()),
+    };
+    Err(settings.problem(key, message))
 }
 
 fn friction(settings: &Settings) -> Result<Friction, Problem> {

@@ -31,7 +31,7 @@ pub struct CollectedRun {
     /// one, whose result it has.
     pub first: usize,
     /// End of the run, if it has ended.
-    pub state: State,
+    pub state: RunStatus,
     /// Answers to the questions of the study, in their order; NaN where there is none.
     pub responses: Vec<f64>,
     /// Reason why a finished run gives no answer to a question, with its place.
@@ -49,7 +49,7 @@ pub struct CollectedRun {
 
 /// End of a run.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub enum State {
+pub enum RunStatus {
     /// All steps were taken.
     Finished,
     /// Run that failed, for this reason.
@@ -58,7 +58,7 @@ pub enum State {
     Missing,
 }
 
-impl State {
+impl RunStatus {
     /// Name of the state, one word.
     pub fn name(&self) -> &'static str {
         match self {
@@ -88,7 +88,7 @@ impl Collected {
             let mut collected = CollectedRun {
                 run: plan.run(number),
                 first,
-                state: State::Missing,
+                state: RunStatus::Missing,
                 responses: vec![f64::NAN; responses.len()],
                 errors: vec![f64::NAN; responses.len()],
                 unanswered: Vec::new(),
@@ -99,10 +99,10 @@ impl Collected {
             };
             if let Some(entry) = &collected.entry {
                 collected.wall_time = entry.wall_time;
-                collected.state = entry.failure.clone().map_or(State::Finished, State::Failed);
+                collected.state = entry.failure.clone().map_or(RunStatus::Finished, RunStatus::Failed);
                 let series = series(entry)?;
-                if series.is_none() && collected.state == State::Finished {
-                    collected.state = State::Failed(NO_SERIES.to_owned());
+                if series.is_none() && collected.state == RunStatus::Finished {
+                    collected.state = RunStatus::Failed(NO_SERIES.to_owned());
                 }
                 if let Some(series) = series {
                     collected.time = series.time().to_vec();
@@ -169,8 +169,8 @@ pub fn table(plan: &Plan, collected: &Collected) -> Vec<Vec<String>> {
     ];
     // The last column; its name is nobody else's.
     let error = column("error", "", "", &|run| match &run.state {
-        State::Failed(error) => error.clone(),
-        State::Finished | State::Missing => String::new(),
+        RunStatus::Failed(error) => error.clone(),
+        RunStatus::Finished | RunStatus::Missing => String::new(),
     });
     for (at, factor) in study.factors.iter().enumerate() {
         let levels: Vec<&Level> = collected.runs.iter().map(|run| &run.run.levels[at]).collect();
@@ -214,7 +214,7 @@ fn stated_unit<'a>(levels: &[&'a Level]) -> Option<&'a str> {
 pub fn finished(path: &Path) -> Option<usize> {
     let place = FIRST.iter().position(|name| *name == "state")?;
     let mut reader = csv::ReaderBuilder::new().flexible(true).from_path(path).ok()?;
-    let has_finished = |row: &csv::ByteRecord| row.get(place) == Some(State::Finished.name().as_bytes());
+    let has_finished = |row: &csv::ByteRecord| row.get(place) == Some(RunStatus::Finished.name().as_bytes());
     Some(reader.byte_records().map_while(Result::ok).filter(has_finished).count())
 }
 

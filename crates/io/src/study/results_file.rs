@@ -26,7 +26,7 @@ use super::factor::{Factor, Level, Values as FactorValues};
 use super::plan::{Plan, Run};
 use super::record::unit_of;
 use super::response::Response;
-use super::results::{CollectError, Collected, CollectedRun, State, error_name, series};
+use super::results::{CollectError, Collected, CollectedRun, RunStatus, error_name, series};
 use crate::dataset_file::{Attribute, Content, Coordinate, Name, Rows, Values, Variable, write_rows};
 use crate::units;
 
@@ -70,7 +70,7 @@ impl Collected {
         let (common, along) = self.samples();
         let first = Values::Integer(self.runs.iter().map(|run| run.first as i64 + 1).collect());
         let error =
-            |run: &CollectedRun| if let State::Failed(error) = &run.state { error.clone() } else { String::new() };
+            |run: &CollectedRun| if let RunStatus::Failed(error) = &run.state { error.clone() } else { String::new() };
         let wall_time = Values::Float(self.runs.iter().map(|run| run.wall_time).collect());
         let order = Values::Integer(order_of(plan));
         let state = texts(|run| run.state.name().into());
@@ -145,7 +145,7 @@ impl Collected {
 
     /// The times of the samples, if they are those of all runs, and the names of all series.
     fn samples(&self) -> (Option<&[f64]>, BTreeSet<&str>) {
-        let mut finished = self.runs.iter().filter(|run| run.state == State::Finished && run.entry.is_some());
+        let mut finished = self.runs.iter().filter(|run| run.state == RunStatus::Finished && run.entry.is_some());
         let series = finished.clone().flat_map(|run| run.series.iter().map(String::as_str)).collect();
         let first = finished.next().map_or(&[][..], |run| &run.time);
         (finished.all(|run| run.time == first).then_some(first), series)
@@ -232,7 +232,7 @@ pub fn is_collected(path: &Path) -> bool {
 pub fn finished(path: &Path) -> Option<usize> {
     let file = hdf5::File::open(path).ok()?;
     let states = file.dataset("state").ok()?.read_raw::<VarLenUnicode>().ok()?;
-    Some(states.iter().filter(|state| state.as_str() == State::Finished.name()).count())
+    Some(states.iter().filter(|state| state.as_str() == RunStatus::Finished.name()).count())
 }
 
 fn coordinate(

@@ -48,7 +48,7 @@ impl Ladder {
 
 /// Place of a run on its ladder.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Step {
+pub struct LadderPoint {
     /// The ladder.
     pub ladder: Ladder,
     /// Time acceleration, tolerance, or part of the heights.
@@ -72,7 +72,7 @@ pub fn steps(
     own_tolerance: Option<f64>,
     reference: f64,
     finer: bool,
-) -> Vec<Step> {
+) -> Vec<LadderPoint> {
     let coarser = |cells: Cells, equal: bool| {
         let values = accelerations.iter().copied().filter(move |m| *m > reference || equal && *m == reference);
         values.map(move |value| (value, cells)).collect::<Vec<_>>()
@@ -85,7 +85,8 @@ pub fn steps(
         Ladder::Mesh | Ladder::Tolerance => Vec::new(),
         Ladder::Perturbation => same(PERTURBATIONS.to_vec(), if finer { Cells::Halved } else { Cells::Own }),
     };
-    let of = |ladder: Ladder| values(ladder).into_iter().map(move |(value, cells)| Step { ladder, value, cells });
+    let of =
+        |ladder: Ladder| values(ladder).into_iter().map(move |(value, cells)| LadderPoint { ladder, value, cells });
     ladders.iter().flat_map(|ladder| of(*ladder)).collect()
 }
 
@@ -124,7 +125,11 @@ pub struct Rung {
 
 impl Rung {
     /// Reads the scene of a step; `reference` is the time acceleration of the reference.
-    pub fn new(base: &Base, Step { ladder, value, cells }: Step, reference: f64) -> Result<Self, SceneError> {
+    pub fn new(
+        base: &Base,
+        LadderPoint { ladder, value, cells }: LadderPoint,
+        reference: f64,
+    ) -> Result<Self, SceneError> {
         let accelerated = |acceleration: f64| format!("numerics.time_acceleration = {acceleration}");
         let columns = cells.columns(&base.scene.parameters.mesh).filter(|_| cells != Cells::Own);
         let mut sets = Vec::new();

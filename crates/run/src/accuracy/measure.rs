@@ -6,11 +6,12 @@ use plateau_core::acceleration::scout::Smoothness;
 use plateau_core::model::state::InitialSurfaces;
 use plateau_core::simulation::Execution;
 use plateau_io::dataset_file::now;
+use plateau_io::process::load;
 use plateau_io::scene::Scene;
 use plateau_io::{number, surface};
 
 use super::error::{AccuracyError, PlanError, Unfinished, enough};
-use super::ladder::{Base, Ladder, Rung, Step, steps, time_accelerations};
+use super::ladder::{Base, Ladder, LadderPoint, Rung, steps, time_accelerations};
 use super::quantity::Course;
 use super::reference::{Provenance, ReadReference, Reference};
 use super::report::{Measured, OwnError, Report, Row};
@@ -142,7 +143,7 @@ impl Measurement<'_> {
             self.notes.push(note.to_owned());
             return None;
         }
-        let step = Step { ladder: Ladder::TimeAcceleration, value: 1.0, cells: Cells::Halved };
+        let step = LadderPoint { ladder: Ladder::TimeAcceleration, value: 1.0, cells: Cells::Halved };
         let Ok(rung) = Rung::new(&self.wish.base, step, 1.0) else {
             let note =
                 "the mesh is not varied: columns cannot be set where it is given in lengths, or the pin is round";
@@ -165,7 +166,8 @@ impl Measurement<'_> {
 
     /// A run with the cells of the reference and this time acceleration.
     fn rung(&self, time_acceleration: f64) -> Result<Rung, PlanError> {
-        let step = Step { ladder: Ladder::TimeAcceleration, value: time_acceleration, cells: self.finest_cells() };
+        let step =
+            LadderPoint { ladder: Ladder::TimeAcceleration, value: time_acceleration, cells: self.finest_cells() };
         Ok(Rung::new(&self.wish.base, step, time_acceleration)?)
     }
 
@@ -417,7 +419,7 @@ impl Measurement<'_> {
     }
 
     fn note_load(&mut self) {
-        if let Some(load) = execution::load().filter(|load| *load > cores() as f64 + 0.5) {
+        if let Some(load) = load().filter(|load| *load > cores() as f64 + 0.5) {
             self.notes.push(format!(
                 "other programs were running, too (load {load} on {} cores): wall times are longer than on a quiet machine",
                 cores()

@@ -13,7 +13,7 @@ use plateau_io::study::Study;
 use plateau_io::temporary::Temporary;
 
 use super::resolved::{RUN_FILES, Resolved};
-use super::under_way::{self, Ended, FileState, UnderWay};
+use super::under_way::{Ended, FileState, SavedState, UnderWay};
 use crate::assembly::Assembly;
 use crate::sweep::warnings::SweepObserver;
 
@@ -81,7 +81,7 @@ impl KeptFile {
     pub fn open(
         path: &Path,
         header: &Header,
-        state: &mut Option<under_way::State>,
+        state: &mut Option<SavedState>,
         under_way: &mut UnderWay<'_>,
     ) -> Result<Self, Ended> {
         let unkept = |error: &dyn std::fmt::Display| Ended::Unkept(error.to_string());
@@ -138,7 +138,7 @@ fn claim(path: &Path) -> Result<Claim, ClaimError> {
 fn resumed(
     path: &Path,
     header: &Header,
-    state: &mut under_way::State,
+    state: &mut SavedState,
     under_way: &mut UnderWay<'_>,
 ) -> Option<(RunWriter, FileState)> {
     let mut file = state.file.take()?;

@@ -20,7 +20,7 @@ use plateau_io::surface::{self, Loaded, SurfaceError};
 use super::kept_file::KeptFile;
 use super::resolved::file_of;
 use super::shared_surfaces::SharedSurfaces;
-use super::under_way::{Ended, State, UnderWay};
+use super::under_way::{Ended, SavedState, UnderWay};
 use super::warnings::{SceneWarnings, SweepObserver, of_surfaces};
 use crate::assembly::{Assembly, Sink};
 use crate::options::SweepOptions;
@@ -92,7 +92,7 @@ impl Request<'_> {
         let execution = Execution { workers: options.workers, ..Execution::default() };
         let pulse_time = pulse_time(&scene.parameters, &surfaces.pin_base);
         let mut assembly = Assembly::new(&scene, surfaces, execution)?;
-        let mut recorder = Recorder::new(self, &scene, under_way);
+        let mut recorder = SeriesRecorder::new(self, &scene, under_way);
         let mut state = recorder.under_way.find(&scene.parameters.mesh, &recorder.program, &recorder.names());
         if let Some(path) = file {
             let header = header(&scene, &assembly, &options.program, &inputs, report);
@@ -153,7 +153,7 @@ impl Request<'_> {
 }
 
 /// Keeps the series that the study wants.
-struct Recorder<'a, 'o> {
+struct SeriesRecorder<'a, 'o> {
     kept: Vec<&'static Quantity>,
     disc_columns: usize,
     /// Time and simulated revolutions, then the series.
@@ -168,7 +168,7 @@ struct Recorder<'a, 'o> {
     is_stopped: bool,
 }
 
-impl<'a, 'o> Recorder<'a, 'o> {
+impl<'a, 'o> SeriesRecorder<'a, 'o> {
     fn new(request: &'a Request<'_>, scene: &Scene, under_way: &'a mut UnderWay<'o>) -> Self {
         let study = request.study;
         let asked: BTreeSet<&str> = study.responses.iter().flat_map(Response::needs).collect();
@@ -205,7 +205,7 @@ impl<'a, 'o> Recorder<'a, 'o> {
     }
 }
 
-impl Sink for Recorder<'_, '_> {
+impl Sink for SeriesRecorder<'_, '_> {
     type Error = Ended;
 
     fn sample(&mut self, sample: Sample) -> Result<(), Ended> {
@@ -233,7 +233,7 @@ impl Sink for Recorder<'_, '_> {
         if self.is_stopped || self.under_way.is_due() {
             let (program, names, columns) = (self.program.clone(), self.names(), self.columns.clone());
             let file = self.file.as_mut().map(KeptFile::state).transpose()?;
-            self.under_way.keep(&State { program, simulation: assembly.checkpoint()?, columns, names, file });
+            self.under_way.keep(&SavedState { program, simulation: assembly.checkpoint()?, columns, names, file });
         }
         if self.is_stopped { Err(Ended::Stopped) } else { Ok(()) }
     }

@@ -69,7 +69,7 @@ pub struct FileState {
 
 /// The state of one run between two steps.
 #[derive(Debug, Serialize, Deserialize)]
-pub struct State {
+pub struct SavedState {
     /// Name, version and revision of the program: another one may lay out states in another way.
     pub program: String,
     /// Engine that takes the steps.
@@ -153,11 +153,11 @@ impl<'a> UnderWay<'a> {
         self.claim = None;
     }
 
-    /// State that was kept of a run on this mesh by the same program, if there is something that holds and has these series.
-    pub fn find(&self, mesh: &Mesh, program: &str, names: &[String]) -> Option<State> {
+    /// SavedState that was kept of a run on this mesh by the same program, if there is something that holds and has these series.
+    pub fn find(&self, mesh: &Mesh, program: &str, names: &[String]) -> Option<SavedState> {
         self.claim.as_ref()?;
         let most = checkpoint::ample_size(mesh);
-        let state: Option<State> = checkpoint::read(&self.path, Some(most)).unwrap_or_else(|error| {
+        let state: Option<SavedState> = checkpoint::read(&self.path, Some(most)).unwrap_or_else(|error| {
             self.observer.warning(&format_args!("{error}: this run begins again"));
             None
         });
@@ -170,7 +170,7 @@ impl<'a> UnderWay<'a> {
     }
 
     /// Keeps the state between two steps; what cannot be kept is done again if need be.
-    pub fn keep(&mut self, state: &State) {
+    pub fn keep(&mut self, state: &SavedState) {
         self.last = Instant::now();
         if self.claim.is_none() {
             return;

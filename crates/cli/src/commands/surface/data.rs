@@ -14,7 +14,7 @@ use plateau_io::surface::{Measured, Patches};
 use serde::Serialize;
 use serde_json::{Value, json};
 
-use super::recorded::{NamedHeights, turn_pin};
+use super::recorded::NamedHeights;
 use crate::failure::Failure;
 use crate::message;
 
@@ -44,11 +44,11 @@ impl Data {
 
     /// Adds the heights of a file, with the form taken out.
     pub fn add_file(&mut self, heights: NamedHeights, form: Level) -> Result<(), Failure> {
-        let NamedHeights { name, map, body, mut measured } = heights;
+        let NamedHeights { name, map, mut measured } = heights;
         // What a run has made of its surfaces is as it is.
-        let is_measured = body.is_none();
+        let is_measured = measured.body.is_none();
         let stand_in = is_measured.then(|| implausible::stand_in(&measured.heights)).flatten();
-        level(&mut measured.heights, measured.rows, form, body == Some(Body::Disc));
+        level(&mut measured.heights, measured.rows, form, measured.body == Some(Body::Disc));
         let Measured { rows, pitch, ref heights, ref mut warnings, .. } = measured;
         let none = || Failure::input(format!("{name}: none of its {} points has a height", heights.len()));
         let rms = HeightParameters::of(heights).ok_or_else(none)?.root_mean_square_height;
@@ -60,19 +60,12 @@ impl Data {
         for warning in warnings {
             message::warning(format_args!("{name}: {warning}"));
         }
-        self.add_levelled(&name, &map, body, &measured, form)
+        self.add_levelled(&name, &map, &measured, form)
     }
 
     /// Adds heights from which the form was taken out.
-    pub fn add_levelled(
-        &mut self,
-        name: &str,
-        map: &str,
-        body: Option<Body>,
-        measured: &Measured,
-        form: Level,
-    ) -> Result<(), Failure> {
-        let Measured { format, columns, rows, pitch, ref heights, ref notes, ref warnings, .. } = *measured;
+    pub fn add_levelled(&mut self, name: &str, map: &str, measured: &Measured, form: Level) -> Result<(), Failure> {
+        let Measured { format, columns, rows, pitch, body, ref heights, ref notes, ref warnings, .. } = *measured;
         let title = Path::new(name).file_name().map_or(name.into(), |file| file.to_string_lossy());
         let grid = Grid { columns, rows, pitch, heights };
         self.surfaces.push(json!({
@@ -94,7 +87,8 @@ impl Data {
         form: Level,
     ) -> Result<(), Failure> {
         let InitialSurfaces { disc_height, mut pin_height, .. } = surfaces;
-        turn_pin(&mut pin_height, mesh);
+        Body::Pin.turn(&mut pin_height);
+        mesh.absent_cells().for_each(|cell| pin_height[cell] = f64::NAN);
         for (body, mut heights, patch) in
             [(Body::Disc, disc_height, patches.disc), (Body::Pin, pin_height, patches.pin)]
         {

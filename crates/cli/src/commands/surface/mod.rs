@@ -8,6 +8,7 @@ use std::path::{Path, PathBuf};
 use plateau_core::surface::{Level, Patch};
 use plateau_io::scene;
 use plateau_io::surface::{self, Loaded, Measured, WriteError};
+use plateau_io::temporary::folder;
 
 use crate::arguments::{SurfaceArguments, SurfaceWord, as_options};
 use crate::failure::{Failure, of_scene};
@@ -41,12 +42,8 @@ pub fn surface(arguments: &SurfaceArguments) -> Result<(), Failure> {
         let mut found = match recorded::of(path, arguments)? {
             Some(found) => found,
             None => {
-                vec![NamedHeights {
-                    name: path.display().to_string(),
-                    map: String::new(),
-                    body: None,
-                    measured: read(path, arguments)?,
-                }]
+                let (name, map) = (path.display().to_string(), String::new());
+                vec![NamedHeights { name, map, measured: read(path, arguments)? }]
             }
         };
         if let Some(to) = &arguments.to {
@@ -100,7 +97,7 @@ fn refuse_impossible(arguments: &SurfaceArguments) -> Result<(), Failure> {
 
 /// Refuses a place that another output has.
 fn refuse_twice(path: &Path, others: &[&PathBuf]) -> Result<(), Failure> {
-    let place = |path: &Path| Some((output::directory(path).canonicalize().ok()?, path.file_name()?.to_owned()));
+    let place = |path: &Path| Some((folder(path).canonicalize().ok()?, path.file_name()?.to_owned()));
     let own = place(path);
     if others.iter().any(|other| *other == path || (own.is_some() && place(other) == own)) {
         return Err(Failure::input(format!("{} is named for two outputs", path.display())));
@@ -125,7 +122,7 @@ fn convert(path: &Path, from: &mut NamedHeights, to: &Path, force: bool) -> Resu
     let heights = std::mem::take(&mut measured.heights);
     let mut patch = Patch { columns: measured.columns, rows: measured.rows, column_pitch, row_pitch, heights };
     // Formats of heights as the model has them.
-    let of_model = from.body.filter(|_| ["npy", "h5"].contains(&output::ending(to).as_str()));
+    let of_model = measured.body.filter(|_| ["npy", "h5"].contains(&output::ending(to).as_str()));
     let turn = |patch: &mut Patch| {
         if let Some(body) = of_model {
             body.turn(&mut patch.heights);

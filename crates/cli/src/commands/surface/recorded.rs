@@ -2,19 +2,17 @@
 
 use std::path::Path;
 
-use plateau_core::model::mesh::Mesh;
-use plateau_core::observe::{Map, MapValues};
-use plateau_core::surface::Body;
+use plateau_core::observe::Map;
 use plateau_io::memory::refuse_beyond;
 use plateau_io::run_file::{ReadError, RunFile, map_path};
-use plateau_io::surface::{Format, Measured};
+use plateau_io::surface::Measured;
+use plateau_io::surface::hdf5::{HEIGHTS, of_map};
 
 use super::super::runs::{moment, nearest, warn_of_times, warn_of_unfinished};
 use crate::arguments::SurfaceArguments;
 use crate::failure::Failure;
 
-/// Maps that are heights; those of them that are described unless `--dataset` names one come first.
-const HEIGHTS: [Map; 4] = [Map::DiscHeight, Map::PinHeight, Map::DiscSubstrate, Map::PinSubstrate];
+/// The first of the maps of heights are described unless `--dataset` names one.
 const USUAL: usize = 2;
 
 /// Heights with the name that they are told by.
@@ -23,8 +21,6 @@ pub struct NamedHeights {
     pub name: String,
     /// Of a map of a run the end of that name: dataset and time.
     pub map: String,
-    /// The body of a map of a run.
-    pub body: Option<Body>,
     /// The heights; those of a map with peaks positive.
     pub measured: Measured,
 }
@@ -92,32 +88,17 @@ pub fn of(path: &Path, arguments: &SurfaceArguments) -> Result<Option<Vec<NamedH
 
 /// A map at one moment.
 fn heights(run: &RunFile, map: Map, index: usize) -> Result<Option<NamedHeights>, Failure> {
-    let mesh = run.mesh();
-    let body = if map.on_disc() { Body::Disc } else { Body::Pin };
-    let cells = body.columns(mesh) * mesh.rows();
+    let (name, cells) = (map_path(map), if map.on_disc() { run.mesh().disc_cells() } else { run.mesh().pin_cells() });
     // As they are stored, as they are read, and as they are described.
     refuse_beyond(3 * size_of::<f64>() as u64 * cells as u64).map_err(|no_room| {
-        let name = map_path(map);
-        Failure::of_file(
-            run.path(),
-            format_args!("to read {name} needs {no_room}; free memory, or allow this process more of it"),
-        )
+        let what = format_args!("to read {name} needs {no_room}; free memory, or allow this process more of it");
+        Failure::of_file(run.path(), what)
     })?;
-    let Some(MapValues::Float(mut heights)) = run.map(map, index).map_err(Failure::input)? else { return Ok(None) };
-    if body == Body::Pin {
-        turn_pin(&mut heights, mesh);
+    let Some(mut measured) = of_map(run, map, index).map_err(Failure::input)? else { return Ok(None) };
+    if let Some(body) = measured.body {
+        body.turn(&mut measured.heights);
     }
-    let pitch = Some([mesh.column_width(), mesh.row_height()]);
-    let notes = vec![format!("recorded by a run at {}", moment(run, index))];
-    let plain = Measured::new(Format::Hdf5, [body.columns(mesh), mesh.rows()], pitch, heights);
-    let measured = Measured { notes, ..plain };
-    let what = format!("{}, {}", map_path(map).replace('/', " "), moment(run, index));
-    let name = format!("{} {what}", run.path().display());
-    Ok(Some(NamedHeights { name, map: what, body: Some(body), measured }))
-}
-
-/// Makes the peaks of the pin's heights of the model positive; what is no cell has no height.
-pub fn turn_pin(heights: &mut [f64], mesh: &Mesh) {
-    Body::Pin.turn(heights);
-    mesh.absent_cells().for_each(|cell| heights[cell] = f64::NAN);
+    measured.notes.push(format!("recorded by a run at {}", moment(run, index)));
+    let map = format!("{}, {}", name.replace('/', " "), moment(run, index));
+    Ok(Some(NamedHeights { name: format!("{} {map}", run.path().display()), map, measured }))
 }

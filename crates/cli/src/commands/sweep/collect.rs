@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use plateau_io::dataset_file::{Attribute, now};
 use plateau_io::study::journal::Journal;
 use plateau_io::study::plan::Plan;
-use plateau_io::study::results::{self, Collected, State, is_results_table, table as table_of};
+use plateau_io::study::results::{self, Collected, RunStatus, is_results_table, table as table_of};
 use plateau_io::study::results_file::{finished, is_collected};
 use plateau_io::{input, limits, number, scene};
 use plateau_run::sweep::{Resolved, SceneWarnings, journal, note_short_tenths, of_questions, say_left_out, say_unkept};
@@ -85,7 +85,7 @@ fn collected(plan: &Plan) -> Result<Found, Failure> {
     let left_out = say_left_out(plan.study(), &resolved, &journal, &Messages);
     say_unkept(plan.study(), &resolved, &journal, false, &Messages);
     let mut unanswered = SceneWarnings::default();
-    for run in collected.runs.iter().filter(|run| run.state == State::Finished) {
+    for run in collected.runs.iter().filter(|run| run.state == RunStatus::Finished) {
         unanswered.add(of_questions(plan.study(), &run.unanswered));
     }
     unanswered.say("finished runs", &Messages);
@@ -136,19 +136,15 @@ impl Summary {
         rows.extend(self.files.iter().map(|file| ("written", file.clone())));
         let mut text = table(&self.study, &rows);
         let failed = collected.runs.iter().filter_map(|run| match &run.state {
-            State::Failed(error) => Some(format!("run {}: {error}", run.run.number)),
+            RunStatus::Failed(error) => Some(format!("run {}: {error}", run.run.number)),
             _ => None,
         });
         let lines: Vec<String> = failed.take(LISTED).collect();
         if !lines.is_empty() {
             text.push_str(&list("Failed", &lines));
         }
-        let missing: Vec<String> = collected
-            .runs
-            .iter()
-            .filter(|run| run.state == State::Missing)
-            .map(|run| run.run.number.to_string())
-            .collect();
+        let missing = collected.runs.iter().filter(|run| run.state == RunStatus::Missing);
+        let missing: Vec<String> = missing.map(|run| run.run.number.to_string()).collect();
         if !missing.is_empty() {
             let shown = missing[..missing.len().min(2 * LISTED)].join(", ");
             let more = if missing.len() > 2 * LISTED { ", …" } else { "" };

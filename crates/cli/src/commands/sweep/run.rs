@@ -103,26 +103,17 @@ fn print_summary(summary: &SweepSummary, arguments: &SweepRunArguments) -> Resul
     let task = arguments.task.map(|task| format!("task {} of {}", task.number, task.count));
     let mut rows = vec![("runs of the study", summary.runs.to_string())];
     rows.extend(task.map(|task| ("made here", task)));
-    if summary.repeats > 0 {
-        rows.push(("repeats of others", summary.repeats.to_string()));
-    }
+    rows.extend((summary.repeats > 0).then(|| ("repeats of others", summary.repeats.to_string())));
     rows.push(("finished before", summary.finished_before.to_string()));
     rows.push((
         "finished now",
         format!("{}, {} at a time, in {}", summary.finished, summary.jobs, number::duration(summary.wall_time)),
     ));
-    if summary.finished_elsewhere > 0 {
-        rows.push(("by other processes", format!("{} meanwhile", summary.finished_elsewhere)));
-    }
-    if summary.failed + summary.failed_elsewhere + summary.failed_before > 0 {
-        rows.push((
-            "failed",
-            format!("{} now, {} before", summary.failed + summary.failed_elsewhere, summary.failed_before),
-        ));
-    }
-    if summary.left > 0 {
-        rows.push(("left", summary.left.to_string()));
-    }
+    let (elsewhere, now, before) =
+        (summary.finished_elsewhere, summary.failed + summary.failed_elsewhere, summary.failed_before);
+    rows.extend((elsewhere > 0).then(|| ("by other processes", format!("{elsewhere} meanwhile"))));
+    rows.extend((now + before > 0).then(|| ("failed", format!("{now} now, {before} before"))));
+    rows.extend((summary.left > 0).then(|| ("left", summary.left.to_string())));
     rows.push(("results", summary.results.clone()));
     print(&table(&summary.study, &rows))
 }

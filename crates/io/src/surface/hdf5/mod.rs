@@ -233,7 +233,8 @@ fn bounded_shape(dataset: &Dataset) -> Result<(usize, usize), Hdf5Error> {
     }
 }
 
-const HEIGHTS: [Map; 4] = [Map::DiscHeight, Map::DiscSubstrate, Map::PinHeight, Map::PinSubstrate];
+/// Maps of a run file that are heights.
+pub const HEIGHTS: [Map; 4] = [Map::DiscHeight, Map::PinHeight, Map::DiscSubstrate, Map::PinSubstrate];
 /// Part of a time by which a map may be from it: that of a step is recorded when it ends.
 const SAME_TIME: f64 = 0.01;
 
@@ -270,26 +271,32 @@ fn recorded(path: &Path, dataset: Option<&str>, at: Option<f64>) -> Result<Optio
             near.min_by(|one, other| (times[*one] - at).abs().total_cmp(&(times[*other] - at).abs()))
         }
     };
-    let body = if map.on_disc() { Body::Disc } else { Body::Pin };
-    let (columns, rows) = (body.columns(run.mesh()), run.mesh().rows());
+    let cells = if map.on_disc() { run.mesh().disc_cells() } else { run.mesh().pin_cells() };
     // As they are stored, and as they are read.
-    let needed = 2 * (columns * rows * size_of::<f64>()) as u64;
+    let needed = 2 * (cells * size_of::<f64>()) as u64;
     let too_large = |no_room| Hdf5Error::Memory { dataset: format!("/{}", map_path(map)), no_room };
     refuse_beyond(needed).map_err(too_large)?;
-    let found = index.map(|index| Ok::<_, Hdf5Error>((times[index], run.map(map, index)?))).transpose()?;
-    let Some((time, Some(MapValues::Float(mut heights)))) = found else {
+    let found = index.map(|index| Ok::<_, Hdf5Error>((times[index], of_map(&run, map, index)?))).transpose()?;
+    let Some((time, Some(measured))) = found else {
         let at = at.filter(|_| run.has_map(map)).map(|at| (at, times.to_vec()));
         return Err(Hdf5Error::NoMap { map: map_path(map), at });
     };
-    if body == Body::Pin {
-        run.mesh().absent_cells().for_each(|cell| heights[cell] = f64::NAN);
-    }
     let mut warnings = Vec::new();
     if run.state() != State::Finished {
         warnings.push(format!("its run is not finished, its state is {}", run.state().name()));
     }
-    let pitch = Some([run.mesh().column_width(), run.mesh().row_height()]);
     let notes = vec![format!("dataset /{}", map_path(map)), format!("recorded by a run at {} s", number::plain(time))];
-    let plain = Measured::new(Format::Hdf5, [columns, rows], pitch, heights);
-    Ok(Some(Measured { body: Some(body), instrument: false, notes, warnings, ..plain }))
+    Ok(Some(Measured { notes, warnings, ..measured }))
+}
+
+/// The heights of a map of a run file at one moment, with the model's signs; none where it has no such map.
+pub fn of_map(run: &RunFile, map: Map, index: usize) -> Result<Option<Measured>, ReadError> {
+    let (mesh, body) = (run.mesh(), if map.on_disc() { Body::Disc } else { Body::Pin });
+    let Some(MapValues::Float(mut heights)) = run.map(map, index)? else { return Ok(None) };
+    if body == Body::Pin {
+        mesh.absent_cells().for_each(|cell| heights[cell] = f64::NAN);
+    }
+    let pitch = Some([mesh.column_width(), mesh.row_height()]);
+    let plain = Measured::new(Format::Hdf5, [body.columns(mesh), mesh.rows()], pitch, heights);
+    Ok(Some(Measured { body: Some(body), instrument: false, ..plain }))
 }

@@ -41,7 +41,8 @@ fn steps_are_coarser_than_the_reference() {
 #[test]
 fn a_rung_is_the_scene_with_some_keys_set() {
     let base = base(&["disc.prepare.scale=0.5", "numerics.time_acceleration={ tolerance = 0.1, max = 30 }"]);
-    let rung = |ladder, value, cells, reference| Rung::new(&base, Step { ladder, value, cells }, reference).unwrap();
+    let rung =
+        |ladder, value, cells, reference| Rung::new(&base, LadderPoint { ladder, value, cells }, reference).unwrap();
     let fixed = rung(Ladder::TimeAcceleration, 7.5, Cells::Own, 1.0);
     assert_eq!(fixed.setting(), "time_acceleration = 7.5");
     assert!(fixed.scene.adaptive.is_none() && fixed.scene.parameters.time_acceleration == 7.5);
@@ -59,7 +60,7 @@ fn a_rung_is_the_scene_with_some_keys_set() {
 #[test]
 fn runs_with_a_number_of_steps_are_as_long_as_the_scene() {
     let base = base(&["operation.steps=690"]);
-    let step = |ladder, value| Step { ladder, value, cells: Cells::Own };
+    let step = |ladder, value| LadderPoint { ladder, value, cells: Cells::Own };
     let rung = Rung::new(&base, step(Ladder::TimeAcceleration, 10.0), 1.0).unwrap();
     // The scene has 20.
     assert_eq!((rung.scene.duration, rung.scene.steps), (base.scene.duration, 1380));
