@@ -156,14 +156,9 @@ pub struct ManArguments {
     pub force: bool,
 }
 
-/// A quantity of this dimension, SI.
-fn quantity(text: &str, dimension: Dimension) -> Result<f64, String> {
-    units::parse(text.trim(), dimension)
-}
-
 /// A time of the run, s.
 fn run_time(text: &str) -> Result<f64, String> {
-    let time = quantity(text, Dimension::Time)?;
+    let time = units::parse(text, Dimension::Time)?;
     if time >= 0.0 {
         Ok(time)
     } else {
@@ -171,17 +166,16 @@ fn run_time(text: &str) -> Result<f64, String> {
     }
 }
 
-/// A finite length, m.
+/// A length, m.
 fn length(text: &str) -> Result<f64, String> {
-    let length = quantity(text, Dimension::Length)?;
-    if length.is_finite() { Ok(length) } else { Err("expected a finite length".to_owned()) }
+    units::parse(text, Dimension::Length)
 }
 
 /// Gives a text if it is a quantity of this dimension above 0.
 fn positive(dimension: Dimension) -> impl Fn(&str) -> Result<String, String> + Clone {
     move |text| {
         let value = units::parse(text, dimension)?;
-        if value > 0.0 && value.is_finite() { Ok(text.to_owned()) } else { Err("expected more than 0".to_owned()) }
+        if value > 0.0 { Ok(text.to_owned()) } else { Err("expected more than 0".to_owned()) }
     }
 }
 
@@ -492,8 +486,8 @@ fn tolerance(text: &str) -> Result<f64, &'static str> {
 
 /// A value of `--budget`, s.
 fn budget(text: &str) -> Result<f64, String> {
-    let time = quantity(text, Dimension::Time)?;
-    if time > 0.0 && time.is_finite() { Ok(time) } else { Err("expected more than 0 s".to_owned()) }
+    let time = units::parse(text, Dimension::Time)?;
+    if time > 0.0 { Ok(time) } else { Err("expected more than 0 s".to_owned()) }
 }
 
 #[cfg(test)]

@@ -392,8 +392,14 @@ struct Cutoff {
 const SURFACE_RULES: &[Rule<Beginning>] = &[
     ("disc.prepare.cutoff", |beginning| useless(beginning.disc_cutoff.as_ref())),
     ("pin.prepare.cutoff", |beginning| useless(beginning.pin_cutoff.as_ref())),
-    ("operation.normal_force", pressure_of_the_first_step),
-    ("contact.foundation_height", overlap_of_the_first_step),
+    ("operation.normal_force", |beginning| {
+        let what = "in the first step a mean contact pressure of";
+        too_much_pressure(beginning.contact?.mean_pressure, beginning.softest_plateau, what)
+    }),
+    ("contact.foundation_height", |beginning| {
+        let what = "in the first step an overlap of";
+        too_much_overlap(beginning.contact?.largest_overlap, beginning.foundation_height, what)
+    }),
 ];
 
 /// Values that cannot be meant, now that the surfaces are known, of keys that `scene.warnings` does not name yet.
@@ -435,25 +441,11 @@ fn useless(cutoff: Option<&Cutoff>) -> Option<Finding> {
     })
 }
 
-fn pressure_of_the_first_step(beginning: &Beginning) -> Option<Finding> {
-    let pressure = beginning.contact?.mean_pressure;
-    too_much_pressure(pressure, beginning.softest_plateau, "in the first step a mean contact pressure of")
-}
-
-fn overlap_of_the_first_step(beginning: &Beginning) -> Option<Finding> {
-    let overlap = beginning.contact?.largest_overlap;
-    too_much_overlap(overlap, beginning.foundation_height, "in the first step an overlap of")
-}
-
 /// Extent to which a filled fraction may leave 0 to 1: a disc that wears opens a little before the first debris fills it.
 const SLACK: f64 = 1e-3;
 
 /// A number and when it was reached, s.
-#[derive(Debug, Clone, Copy)]
-struct Reached {
-    value: f64,
-    time: f64,
-}
+type Reached = (f64, f64);
 
 /// The extremes of what a run recorded.
 #[derive(Debug)]
@@ -475,24 +467,23 @@ const RECORDED_RULES: &[Rule<Recorded>] = &[
 impl Recorded {
     /// Nothing recorded yet of a run with these parameters.
     pub fn new(parameters: &Parameters) -> Self {
-        let none = Reached { value: 0.0, time: 0.0 };
-        Self { parameters: parameters.clone(), mean_pressure: none, overlap: none, filled_fraction: None }
+        let parameters = parameters.clone();
+        Self { parameters, mean_pressure: (0.0, 0.0), overlap: (0.0, 0.0), filled_fraction: None }
     }
 
     /// Takes note of a sample.
     pub fn add(&mut self, sample: &Sample) {
-        let reached = |value| Reached { value, time: sample.time };
-        if sample.mean_pressure > self.mean_pressure.value {
-            self.mean_pressure = reached(sample.mean_pressure);
+        if sample.mean_pressure > self.mean_pressure.0 {
+            self.mean_pressure = (sample.mean_pressure, sample.time);
         }
         let overlap = sample.max_pressure / largest_stiffness(&self.parameters, sample);
-        if overlap > self.overlap.value {
-            self.overlap = reached(overlap);
+        if overlap > self.overlap.0 {
+            self.overlap = (overlap, sample.time);
         }
         let beyond = |fraction: f64| (-fraction).max(fraction - 1.0);
-        let so_far = self.filled_fraction.map_or(SLACK, |filled| beyond(filled.value));
+        let so_far = self.filled_fraction.map_or(SLACK, |(filled, _)| beyond(filled));
         if beyond(sample.filled_fraction) > so_far {
-            self.filled_fraction = Some(reached(sample.filled_fraction));
+            self.filled_fraction = Some((sample.filled_fraction, sample.time));
         }
     }
 
@@ -520,19 +511,19 @@ fn largest_stiffness(parameters: &Parameters, sample: &Sample) -> f64 {
 }
 
 fn pressure(recorded: &Recorded) -> Option<Finding> {
-    let Reached { value, time } = recorded.mean_pressure;
+    let (value, time) = recorded.mean_pressure;
     let what = format!("at {} s a mean contact pressure of", number(time));
     too_much_pressure(value, softest_plateau(&recorded.parameters.materials), &what)
 }
 
 fn overlap(recorded: &Recorded) -> Option<Finding> {
-    let Reached { value, time } = recorded.overlap;
+    let (value, time) = recorded.overlap;
     let what = format!("at {} s an overlap of at least", number(time));
     too_much_overlap(value, recorded.parameters.foundation_height, &what)
 }
 
 fn filled_fraction(recorded: &Recorded) -> Option<Finding> {
-    let Reached { value, time } = recorded.filled_fraction?;
+    let (value, time) = recorded.filled_fraction?;
     Some(Finding {
         found: format!("at {} s a filled fraction of {}", number(time), number(value)),
         bound: format!("outside of 0 to 1 by more than {SLACK}"),

@@ -3,7 +3,6 @@
 use std::path::PathBuf;
 
 use plateau_core::simulation::Execution;
-use plateau_io::number;
 use plateau_run::sweep::{self, Sweep, SweepOptions};
 use plateau_run::{Job, Observer as _, RunOptions, StartMode, execution};
 use pyo3::prelude::*;
@@ -76,15 +75,7 @@ pub fn make_runs(
             let message = format!("{} runs are left, the same call goes on", summary.left);
             return Err(Failure::stopped(signal, Some(message)));
         }
-        match summary.failed + summary.failed_elsewhere + summary.failed_before {
-            0 => Ok(()),
-            failed => {
-                let runs = number::count(summary.runs, "run");
-                Err(Failure::run(format_args!(
-                    "{failed} of {runs} failed; `plateau sweep collect` lists their errors, --retry makes them again"
-                )))
-            }
-        }
+        summary.check()
     };
     in_background(py, tell, &[&about], work)
 }

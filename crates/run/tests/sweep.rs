@@ -62,7 +62,7 @@ fn a_sweep_that_was_stopped_makes_what_is_left() {
     assert_eq!((second.finished_before, second.finished, second.failed, second.left), (2, 2, 0, 0));
     assert_eq!((second.signal, counter.ended.into_inner()), (None, 2));
     let journal = sweep::journal(sweep::load(&path, None).unwrap().study()).unwrap();
-    assert_eq!((journal.len(), journal.damaged), (4, 0));
+    assert_eq!((journal.entries().count(), journal.damaged), (4, 0));
     let plan = sweep::load(&path, None).unwrap();
     assert!(Sweep::prepare(&plan, SweepOptions::default(), &Job::start().unwrap(), &()).unwrap().pending().is_empty());
 }

@@ -480,9 +480,8 @@ impl PulseReport {
             }
         } else if !enough(revolutions, LEAST_REVOLUTIONS) {
             let found = number::rounded(revolutions, 2);
-            text += &format!(
-                ": a mean needs {LEAST_REVOLUTIONS} simulated revolutions, and these are {found}: a smaller time_acceleration gives more"
-            );
+            text += &format!(": a mean needs {LEAST_REVOLUTIONS} simulated revolutions, and these are {found}");
+            text += ": a smaller time_acceleration gives more";
         }
         text
     }

@@ -84,17 +84,13 @@ fn scene_text(arguments: &NewArguments) -> Result<(String, Vec<String>), Failure
         mesh.iter().chain(&mean_radius).map(|(key, value, remark)| line(key, *value, remark)).collect();
     let mut notes = Vec::new();
     let disc = match disc {
-        Some(disc) => {
-            let (lines, said) = disc_lines(scene, disc, reading, arguments.force)?;
-            notes = said;
-            lines
-        }
+        Some(disc) => disc_lines(scene, disc, reading, arguments.force, &mut notes)?,
         None if reading.keys().is_empty() => SYNTHETIC.to_owned(),
         None => {
-            let named: Vec<String> =
-                reading.keys().iter().map(|(key, _)| format!("--{}", key.replace('_', "-"))).collect();
+            let option = |(key, _): &(&str, _)| format!("--{}", key.replace('_', "-"));
+            let named = reading.keys().iter().map(option).collect::<Vec<_>>().join(", ");
             let message = "says how the file of --disc is read, and none is given: give --disc FILE";
-            return Err(Failure::input(format!("{} {message}", named.join(", "))));
+            return Err(Failure::input(format!("{named} {message}")));
         }
     };
     let (base, said) = fibres::lines(arguments)?;
@@ -139,20 +135,19 @@ fn other_speed(key: &str, speed: &str, radius: &str) -> Option<String> {
 }
 
 /// The tables of the disc: the file read as it is, levelled, without spikes, filled where points are missing, and extended by its
-/// statistics; of the profile of a surface with grooves, tiled. Besides, what should be known of them.
+/// statistics; of the profile of a surface with grooves, tiled. What should be known of them is added to `notes`.
 fn disc_lines(
     scene: &Path,
     disc: &Path,
     reading: &ReadArguments,
     force: bool,
-) -> Result<(String, Vec<String>), Failure> {
-    let (disc, measured, mut notes) = read_or_convert(scene, disc, reading, force)?;
+    notes: &mut Vec<String>,
+) -> Result<String, Failure> {
+    let (disc, measured) = read_or_convert(scene, disc, reading, force, notes)?;
     let disc = disc.as_path();
     if measured.pitch.is_none() {
-        return Err(Failure::of_file(
-            disc,
-            "it does not say how far its points are apart: give --pitch, such as --pitch \"5 um\"",
-        ));
+        let message = "it does not say how far its points are apart: give --pitch, such as --pitch \"5 um\"";
+        return Err(Failure::of_file(disc, message));
     }
     let too_small = smaller_than_cells(&measured);
     if let (Some(_), true, [warning, ..]) = (&too_small, measured.is_pitch_assumed, &measured.warnings[..]) {
@@ -164,24 +159,17 @@ fn disc_lines(
     let condition = condition(&measured);
     if measured.profile_lay.is_none() {
         let form = condition.map_or(Level::Plane, |condition| condition.form);
-        let (rotate, remark) = match lay(&measured, form) {
-            None => (
-                "90 deg".to_owned(),
-                "x of the file is along sliding: turn it where the lay would be across".to_owned(),
-            ),
-            Some(lay) => {
-                notes.push(format!("{}: {}", disc.display(), lay.told()));
-                (lay.rotate(), lay.remark())
-            }
-        };
+        let lay = lay(&measured, form);
+        notes.extend(lay.as_ref().map(|lay| format!("{}: {}", disc.display(), lay.told())));
+        let any = "x of the file is along sliding: turn it where the lay would be across";
+        let (rotate, remark) = lay.map_or(("90 deg".into(), any.into()), |lay| (lay.rotate(), lay.remark()));
         lines.push(format!("{:40}# {remark}", format!("# rotate = \"{rotate}\"")));
     }
     match &condition {
         Some(Condition { form: Level::Quadratic, rms_of_forms: [plane, quadratic], .. }) => {
+            let [plane, quadratic] = [plane, quadratic].map(|rms| Length(*rms));
             let bow = format!(
-                "the surface is bowed: rms {} once a plane is taken out, {} once second order is",
-                Length(*plane),
-                Length(*quadratic)
+                "the surface is bowed: rms {plane} once a plane is taken out, {quadratic} once second order is"
             );
             lines.push(line("level", "quadratic", &format!("<- {bow}")));
             notes.push(format!("{}: {bow}: level = \"quadratic\" takes that out", disc.display()));
@@ -190,13 +178,9 @@ fn disc_lines(
     }
     let spikes = condition.and_then(|condition| condition.spikes);
     if let Some(spikes) = &spikes {
-        lines.push(line("outliers", Spikes::LIMIT as i64, &format!("<- {}", spikes_in_words(spikes))));
-        notes.push(format!(
-            "{}: {}: outliers = {} takes them out",
-            disc.display(),
-            spikes_in_words(spikes),
-            Spikes::LIMIT
-        ));
+        let told = spikes_in_words(spikes);
+        lines.push(line("outliers", Spikes::LIMIT as i64, &format!("<- {told}")));
+        notes.push(format!("{}: {told}: outliers = {} takes them out", disc.display(), Spikes::LIMIT));
     }
     if let Some((remark, note)) = too_small {
         lines.extend(remark);
@@ -222,17 +206,15 @@ fn disc_lines(
     warn(disc, &measured, rms);
     if let Some(rms) = rms.filter(|rms| *rms > 0.0 && rms.is_finite()) {
         let cutoff = format!("cutoff = \"{}\"", rounded(rms));
-        lines.push(format!(
-            "{:40}# <- cuts peaks at this height above the mean, here one rms height",
-            format!("# {cutoff}")
-        ));
+        let remark = "<- cuts peaks at this height above the mean, here one rms height";
+        lines.push(format!("{:40}# {remark}", format!("# {cutoff}")));
         notes.push(format!(
             "{}: no peaks are cut. With {cutoff}, one rms height as in the paper, the contact area is larger, up to several times: \
              docs/scenes.md says when to give it",
             disc.display()
         ));
     }
-    Ok((lines.join("\n"), notes))
+    Ok(lines.join("\n"))
 }
 
 /// Says what of the file can hardly be meant.
@@ -273,26 +255,23 @@ fn spikes_in_words(spikes: &Spikes) -> String {
     format!("{count} of {points} points are spikes: kurtosis {kurtosis}, rms {before}, without them {after}")
 }
 
-/// Reads the file, or what the Python package converts it to, and which that is; besides, what should be known of it.
+/// Reads the file, or what the Python package converts it to, which is noted; and which that is.
 fn read_or_convert(
     scene: &Path,
     disc: &Path,
     reading: &ReadArguments,
     force: bool,
-) -> Result<(PathBuf, Measured, Vec<String>), Failure> {
-    let read = |path: PathBuf, found: Result<Measured, FileError>, notes| {
-        let measured = measured(found).map_err(|reason| Failure::of_file(&path, reason))?;
-        Ok((path, measured, notes))
-    };
-    match surface::read(disc, &reading.options()) {
-        Err(reason) if reason.may_be_converted() && hand_over::answering(WORD).is_some() => {
-            let path = converted(scene, disc, force)?;
-            let notes = vec![format!("{}: converted to {}, which the scene names", disc.display(), path.display())];
-            let found = surface::read(&path, &reading.options());
-            read(path, found, notes)
-        }
-        found => read(disc.to_owned(), found, Vec::new()),
+    notes: &mut Vec<String>,
+) -> Result<(PathBuf, Measured), Failure> {
+    let (mut path, mut found) = (disc.to_owned(), surface::read(disc, &reading.options()));
+    let may_be_converted = found.as_ref().is_err_and(FileError::may_be_converted);
+    if may_be_converted && hand_over::answering(WORD).is_some() {
+        path = converted(scene, disc, force)?;
+        notes.push(format!("{}: converted to {}, which the scene names", disc.display(), path.display()));
+        found = surface::read(&path, &reading.options());
     }
+    let measured = measured(found).map_err(|reason| Failure::of_file(&path, reason))?;
+    Ok((path, measured))
 }
 
 /// Returns what was read; for a profile without a lay, an error that asks for it.

@@ -58,12 +58,8 @@ fn repair_one(path: &Path, force: bool) -> Result<String, Failure> {
             if let Some(what) = told(left_out) {
                 message::note(format_args!("{file}: {what}"));
             }
-            Ok(format!(
-                "{file} is repaired: {}, {} with maps; what was there is {}\n",
-                number::count(samples, "sample"),
-                number::count(moments, "moment"),
-                copy.display()
-            ))
+            let (samples, moments) = (number::count(samples, "sample"), number::count(moments, "moment"));
+            Ok(format!("{file} is repaired: {samples}, {moments} with maps; what was there is {}\n", copy.display()))
         }
         Err(RepairError::Claimed(error)) if !error.lacks_space() => Err(Failure::input(error)),
         Err(error @ (RepairError::Read(_) | RepairError::Unknown { .. })) => Err(Failure::input(error)),
@@ -113,9 +109,8 @@ fn refuse_if_written(path: &Path, force: bool) -> Result<(), Failure> {
         }
         // The lock of a run that was killed says that this run has ended.
         Writer::Hidden if !is_known && !force => {
-            return Err(Failure::input(format!(
-                "{file} belongs to another user, who may still be writing it: this system does not tell; if not, give --force"
-            )));
+            let advice = "who may still be writing it: this system does not tell; if not, give --force";
+            return Err(Failure::input(format!("{file} belongs to another user, {advice}")));
         }
         Writer::Nobody | Writer::Hidden => {}
     }

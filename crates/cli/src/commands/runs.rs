@@ -221,10 +221,8 @@ fn running_in(found: &Result<Drift, NoDrift>, filled: f64) -> String {
     };
     let Drift { third_quarter, last_quarter, change, standard_error, pulses } = drift;
     if let (Trend::TooShort, Some(pulses)) = (drift.trend(), pulses) {
-        let pulses = number::rounded(*pulses, 2);
-        return format!(
-            "cannot be told: a quarter of the run has at most {pulses} pulses of the contact area, {LEAST_PULSES} are needed"
-        );
+        let pulses = format!("{} pulses of the contact area, {LEAST_PULSES} are needed", number::rounded(*pulses, 2));
+        return format!("cannot be told: a quarter of the run has at most {pulses}");
     }
     let percent = number::with_error(100.0 * change, Some(100.0 * standard_error));
     let sign = if *change > 0.0 { "+" } else { "" };

@@ -64,26 +64,17 @@ impl Settings {
 
     /// The value of a number or quantity (SI units) that a checked scene has.
     pub(super) fn number(&self, path: &str) -> Result<f64, Problem> {
-        match self.get(path) {
-            Some(Setting::Number(number)) => Ok(*number),
-            other => Err(self.unlike(path, "a number", other)),
-        }
+        self.value(path, "a number", |found| if let Setting::Number(number) = found { Some(*number) } else { None })
     }
 
     /// The value of an integer that a checked scene has.
     pub(super) fn integer(&self, path: &str) -> Result<u64, Problem> {
-        match self.get(path) {
-            Some(Setting::Integer(integer)) => Ok(*integer),
-            other => Err(self.unlike(path, "an integer", other)),
-        }
+        self.value(path, "an integer", |found| if let Setting::Integer(count) = found { Some(*count) } else { None })
     }
 
     /// The value of a text or choice that a checked scene has.
     pub(super) fn text(&self, path: &str) -> Result<&str, Problem> {
-        match self.get(path) {
-            Some(Setting::Text(text)) => Ok(text),
-            other => Err(self.unlike(path, "a text", other)),
-        }
+        self.value(path, "a text", |found| if let Setting::Text(text) = found { Some(text.as_str()) } else { None })
     }
 
     /// Meaning of the word of a choice that a checked scene has.
@@ -108,19 +99,13 @@ impl Settings {
 
     /// The value of a switch that a checked scene has.
     pub(super) fn bool(&self, path: &str) -> Result<bool, Problem> {
-        match self.get(path) {
-            Some(Setting::Bool(value)) => Ok(*value),
-            other => Err(self.unlike(path, "true or false", other)),
-        }
+        self.value(path, "true or false", |found| if let Setting::Bool(value) = found { Some(*value) } else { None })
     }
 
     /// A factor over temperature; without the key it is 1.
     pub(super) fn factor(&self, path: &str) -> Result<Factor, Problem> {
-        match self.get(path) {
-            None => Ok(Factor::default()),
-            Some(Setting::Factor(factor)) => Ok(factor.clone()),
-            other => Err(self.unlike(path, "a factor", other)),
-        }
+        let factor = |found: &Setting| if let Setting::Factor(factor) = found { Some(factor.clone()) } else { None };
+        self.get(path).map_or_else(|| Ok(Factor::default()), |_| self.value(path, "a factor", factor))
     }
 
     /// Tells whether any key of a table is given or has a default.
@@ -145,6 +130,12 @@ impl Settings {
             Some(Setting::Numbers(numbers)) if numbers.len() == 2 => Ok(Some([numbers[0], numbers[1]])),
             other => Err(self.unlike(path, "two numbers", other)),
         }
+    }
+
+    /// The value of a key, if it is of the kind that is expected.
+    fn value<'a, T>(&'a self, path: &str, expected: &str, of: impl Fn(&'a Setting) -> Option<T>) -> Result<T, Problem> {
+        let found = self.get(path);
+        found.and_then(of).ok_or_else(|| self.unlike(path, expected, found))
     }
 
     fn unlike(&self, path: &str, expected: &str, found: Option<&Setting>) -> Problem {

@@ -234,16 +234,6 @@ impl Journal {
         self.entries.get(identity)
     }
 
-    /// Number of runs that have ended, of this study or of what it was before.
-    pub fn len(&self) -> usize {
-        self.entries.len()
-    }
-
-    /// Tells whether no run has ended.
-    pub fn is_empty(&self) -> bool {
-        self.entries.is_empty()
-    }
-
     /// Adds what a shard has that was not read yet.
     fn add(&mut self, shard: &Path) -> io::Result<()> {
         let name = shard.with_extension("");

@@ -58,8 +58,6 @@ pub enum FileError {
     Zip(String),
     #[error("this is {0}, expected an image: PNG, TIFF or JPEG")]
     NotAnImage(Format),
-    #[error("cannot be written as PNG: {0}")]
-    Write(#[from] png::EncodingError),
     #[error("this is {0}, expected an HDF5 file with integers 0 = none and 1 = primary")]
     NotABase(Format),
     #[error("the file states {found}, expected {expected}: is it damaged, or its unit another?")]

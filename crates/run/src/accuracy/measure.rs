@@ -75,7 +75,10 @@ pub fn measure(
     let mut run =
         Measurement { wish, surfaces, finest: None, execution, observer, started, step_time: 0.0, notes: Vec::new() };
     if read.is_none() {
-        run.finest = run.halve();
+        run.finest = run.halve().unwrap_or_else(|note| {
+            run.notes.push(note);
+            None
+        });
     }
     let model = run.rung(1.0)?;
     run.step_time = try_steps(&model.scene, run.surfaces_of(&model)?, execution)? / model.cells.work().sqrt();
@@ -132,31 +135,22 @@ impl Measurement<'_> {
         &self.wish.base.scene
     }
 
-    /// Makes the surfaces on the mesh of halved cells, if the mesh is to be varied and the cell is a numerical setting.
-    fn halve(&mut self) -> Option<InitialSurfaces> {
+    /// Makes the surfaces on the mesh of halved cells, if the mesh is to be varied and the cell is a numerical setting; or a note on why it
+    /// is not varied.
+    fn halve(&self) -> Result<Option<InitialSurfaces>, String> {
         if !self.wish.ladders.contains(&Ladder::Mesh) {
-            return None;
+            return Ok(None);
         }
         if self.base().parameters.plateaus.transport_length.is_none() {
             let note = "the cell is part of the model of this scene, so the mesh is not varied; with \
                         plateaus.transport_length it is a numerical setting";
-            self.notes.push(note.to_owned());
-            return None;
+            return Err(note.to_owned());
         }
-        let step = LadderPoint { ladder: Ladder::TimeAcceleration, value: 1.0, cells: Cells::Halved };
-        let Ok(rung) = Rung::new(&self.wish.base, step, 1.0) else {
-            let note =
-                "the mesh is not varied: columns cannot be set where it is given in lengths, or the pin is round";
-            self.notes.push(note.to_owned());
-            return None;
-        };
-        match surface::load(&rung.scene) {
-            Ok(loaded) => Some(loaded.surfaces),
-            Err(error) => {
-                self.notes.push(format!("the mesh is not varied: with {}, {error}", rung.setting()));
-                None
-            }
-        }
+        let point = LadderPoint { ladder: Ladder::TimeAcceleration, value: 1.0, cells: Cells::Halved };
+        let unset = "the mesh is not varied: columns cannot be set where it is given in lengths, or the pin is round";
+        let rung = Rung::new(&self.wish.base, point, 1.0).map_err(|_| unset)?;
+        let unmade = |error| format!("the mesh is not varied: with {}, {error}", rung.setting());
+        surface::load(&rung.scene).map(|loaded| Some(loaded.surfaces)).map_err(unmade)
     }
 
     /// Cells of the reference.

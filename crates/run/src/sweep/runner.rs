@@ -82,6 +82,19 @@ pub struct SweepSummary {
     pub signal: Option<u8>,
 }
 
+impl SweepSummary {
+    /// Fails where runs have failed, now or before.
+    pub fn check(&self) -> Result<(), Failure> {
+        match self.failed + self.failed_elsewhere + self.failed_before {
+            0 => Ok(()),
+            failed => Err(Failure::run(format_args!(
+                "{failed} of {} failed; `plateau sweep collect` lists their errors, --retry makes them again",
+                number::count(self.runs, "run")
+            ))),
+        }
+    }
+}
+
 /// Reads a study and makes its design. Its results are in that `directory`, if one is given, in place of the one that it names.
 pub fn load(path: &Path, directory: Option<&Path>) -> Result<Plan, StudyError> {
     let mut study = Study::load(path)?;
@@ -271,7 +284,8 @@ pub struct Runner<'a> {
     says_that_it_waits: AtomicBool,
     /// Shard of the journal, made with the first record.
     shard: Mutex<Option<Shard>>,
-    made: Mutex<Made>,
+    /// Numbers of runs that were made, here and elsewhere.
+    made: Mutex<SweepSummary>,
     /// Runs that read other files than were there when it was decided to make them.
     changed: Mutex<BTreeSet<usize>>,
     /// Warnings of the surfaces of the runs.
@@ -280,19 +294,6 @@ pub struct Runner<'a> {
     unanswered: Mutex<SceneWarnings>,
     /// Reason why no result can be kept any more.
     broken: Mutex<Option<Failure>>,
-}
-
-/// Numbers of runs that were made.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct Made {
-    /// Number of runs that finished here.
-    pub finished: usize,
-    /// Number of runs that failed here.
-    pub failed: usize,
-    /// Number of runs that finished meanwhile in other processes.
-    pub finished_elsewhere: usize,
-    /// Number of runs that failed meanwhile in other processes.
-    pub failed_elsewhere: usize,
 }
 
 /// Lock of a mutex, also after a run has panicked: it is whole at any time.
@@ -345,7 +346,7 @@ impl<'a> Runner<'a> {
     }
 
     /// Completes the journal and counts what was made.
-    pub fn end(&self, shared: Result<(), Failure>) -> Result<Made, Failure> {
+    pub fn end(&self, shared: Result<(), Failure>) -> Result<SweepSummary, Failure> {
         self.observer.ends();
         let shard = lock(&self.shard).take();
         let closed = shard.map_or(Ok(()), Shard::close);
@@ -365,7 +366,7 @@ impl<'a> Runner<'a> {
                 text::list(changed.iter().map(ToString::to_string), ", ")
             )));
         }
-        Ok(*lock(&self.made))
+        Ok(lock(&self.made).clone())
     }
 
     /// Makes a run and keeps its result, unless another process has done that or is about to.

@@ -51,12 +51,8 @@ pub(super) fn lines(arguments: &NewArguments) -> Result<(String, Vec<String>), F
             let states = stated.map_or("it does not say how large its pixels are".to_owned(), |stated| {
                 format!("it states pixels of {}, at which a program would print it", Length(stated))
             });
-            return Err(Failure::of_file(
-                path,
-                format_args!(
-                    "{states}: give --pixel, such as --pixel \"2 um\", the length of the scale bar over its pixels"
-                ),
-            ));
+            let advice = "give --pixel, such as --pixel \"2 um\", the length of the scale bar over its pixels";
+            return Err(Failure::of_file(path, format_args!("{states}: {advice}")));
         }
     };
     let lines = [

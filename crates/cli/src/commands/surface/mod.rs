@@ -61,13 +61,8 @@ pub fn surface(arguments: &SurfaceArguments) -> Result<(), Failure> {
 
 /// Refuses to convert several maps of a run into one file.
 fn several(path: &Path, found: &[NamedHeights]) -> Failure {
-    let count = found.len();
-    Failure::of_file(
-        path,
-        format_args!(
-            "--to converts one surface, and these are {count}: say which with --dataset disc/height and --at TIME"
-        ),
-    )
+    let (count, advice) = (found.len(), "say which with --dataset disc/height and --at TIME");
+    Failure::of_file(path, format_args!("--to converts one surface, and these are {count}: {advice}"))
 }
 
 /// Refuses what cannot be done, before anything is read.

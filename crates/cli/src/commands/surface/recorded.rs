@@ -63,12 +63,8 @@ pub fn of(path: &Path, arguments: &SurfaceArguments) -> Result<Option<Vec<NamedH
     if maps.is_empty() || times == 0 {
         let names = wanted.iter().map(|map| map.name()).collect::<Vec<_>>().join(" or ");
         let what = if times == 0 && !maps.is_empty() { "no map yet".to_owned() } else { format!("no map {names}") };
-        return Err(Failure::of_file(
-            path,
-            format_args!(
-                "this run file has {what}: output.maps of the scene says which are recorded, output.maps_at when"
-            ),
-        ));
+        let advice = "output.maps of the scene says which are recorded, output.maps_at when";
+        return Err(Failure::of_file(path, format_args!("this run file has {what}: {advice}")));
     }
     let moments = match arguments.at.as_slice() {
         [] if times == 1 => vec![0],

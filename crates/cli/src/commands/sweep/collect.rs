@@ -96,17 +96,14 @@ fn collected(plan: &Plan) -> Result<Found, Failure> {
 fn attributes(plan: &Plan, collected: &Collected) -> Result<Vec<(&'static str, Attribute)>, Failure> {
     let study = plan.study();
     let text = |text: &str| Attribute::Text(text.to_owned());
-    let read = |path: &std::path::Path| {
-        input::read_to_string(path, limits::STUDY)
-            .map_err(|error| Failure::because(&error, format_args!("{}: {error}", path.display())))
-    };
+    let unread = |error| Failure::because(&error, format_args!("{}: {error}", study.path.display()));
     let state = if collected.count("finished") == collected.runs.len() { "complete" } else { "partial" };
     let mut attributes = vec![
         ("title", text(&study.title)),
         ("state", text(state)),
         ("program", Attribute::Text(program::name())),
         ("source_revision", text(program::REVISION)),
-        ("study", Attribute::Text(read(&study.path)?)),
+        ("study", Attribute::Text(input::read_to_string(&study.path, limits::STUDY).map_err(unread)?)),
         ("design", text(&study.design)),
         ("collected", Attribute::Text(now())),
     ];

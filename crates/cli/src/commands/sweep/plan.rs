@@ -3,9 +3,10 @@
 use std::path::PathBuf;
 
 use plateau_io::number;
-use plateau_io::study::factor::Level;
+use plateau_io::study::factor::{Factor, Level};
 use plateau_io::study::journal::Entry;
 use plateau_io::study::plan::Plan;
+use plateau_io::study::response::Response;
 use plateau_run::execution::cores;
 use plateau_run::sweep::{Estimate, Resolved, journal, note_short_tenths, say_left_out};
 use serde::Serialize;
@@ -107,6 +108,13 @@ struct FactorReport {
     values: String,
 }
 
+impl FactorReport {
+    fn of(factor: &Factor) -> Self {
+        let (name, keys) = (factor.name.clone(), factor.keys.clone());
+        Self { name, keys, keys_in_words: factor.keys_in_words(), values: factor.to_string() }
+    }
+}
+
 impl Report {
     fn new(plan: &Plan, estimate: &Estimate, jobs: usize, ended: Option<Ended>, repeats: Option<usize>) -> Self {
         let study = plan.study();
@@ -116,16 +124,7 @@ impl Report {
             title: study.title.clone(),
             base: study.base.as_ref().map(|base| base.display().to_string()),
             design: study.design.clone(),
-            factors: study
-                .factors
-                .iter()
-                .map(|factor| FactorReport {
-                    name: factor.name.clone(),
-                    keys: factor.keys.clone(),
-                    keys_in_words: factor.keys_in_words(),
-                    values: factor.to_string(),
-                })
-                .collect(),
+            factors: study.factors.iter().map(FactorReport::of).collect(),
             points: plan.points(),
             replicates: plan.replicates(),
             runs: plan.runs(),
@@ -163,35 +162,27 @@ impl Report {
         }
         if self.base.is_some() {
             let [mean, longest] = self.run_time.map(number::duration);
-            rows.push((
-                "memory",
-                format!("{} for {} at a time", number::bytes(self.memory), number::count(self.jobs, "run")),
-            ));
-            rows.push(("time of a run", format!("about {mean}, the longest {longest}")));
-            rows.push((
-                "estimated time",
-                format!("{} for what is left, {} at a time", number::duration(self.estimated_time), self.jobs),
-            ));
+            let (memory, all) = (number::bytes(self.memory), number::duration(self.estimated_time));
+            rows.extend([
+                ("memory", format!("{memory} for {} at a time", number::count(self.jobs, "run"))),
+                ("time of a run", format!("about {mean}, the longest {longest}")),
+                ("estimated time", format!("{all} for what is left, {} at a time", self.jobs)),
+            ]);
         }
         rows.push(("results", self.directory.clone()));
         if self.base.is_some() {
             rows.push(("run files", format!("at most {} in all with --keep-files", number::bytes(self.run_files))));
         }
         let mut text = table(&self.title, &rows);
-        let factors: Vec<(String, String)> = self
-            .factors
-            .iter()
-            .map(|factor| (factor.name.clone(), format!("{}  ({})", factor.values, factor.keys_in_words)))
-            .collect();
+        let values = |factor: &FactorReport| format!("{}  ({})", factor.values, factor.keys_in_words);
+        let factors: Vec<_> = self.factors.iter().map(|factor| (factor.name.clone(), values(factor))).collect();
         text.push_str(&format!("\n{}", table("Factors", &factors)));
         if let Some(lines) = alias_lines(plan) {
             text.push_str(&format!("\n{}", list("Effects that cannot be told from each other", &lines)));
         }
-        let names: Vec<&str> = ["run"]
-            .into_iter()
-            .chain(self.factors.iter().map(|factor| factor.name.as_str()))
-            .chain((self.replicates > 1).then_some("replicate"))
-            .collect();
+        let names = self.factors.iter().map(|factor| factor.name.as_str());
+        let replicate = (self.replicates > 1).then_some("replicate");
+        let names: Vec<&str> = ["run"].into_iter().chain(names).chain(replicate).collect();
         let rows: Vec<Vec<String>> = plan.order().take(LISTED).map(|number| cells(plan, number, shortened)).collect();
         let more = self.runs.saturating_sub(LISTED);
         let heading = if more > 0 {
@@ -216,21 +207,11 @@ fn cells(plan: &Plan, number: usize, written: impl Fn(&Level) -> String) -> Vec<
 fn table_of_runs(plan: &Plan) -> String {
     let imported: Vec<_> = plan.study().responses.iter().filter(|response| response.is_imported()).collect();
     let names = plan.study().factors.iter().map(|factor| factor.name.clone());
-    let header: Vec<String> =
-        ["run".to_owned()]
-            .into_iter()
-            .chain(names)
-            .chain((plan.replicates() > 1).then(|| "replicate".to_owned()))
-            .chain(imported.iter().map(|response| {
-                with_unit(&response.name, response.stated_unit.as_deref().unwrap_or(response.unit("")))
-            }))
-            .collect();
-    let row = |number| {
-        cells(plan, number, |level| level.label.clone())
-            .into_iter()
-            .chain(imported.iter().map(|_| String::new()))
-            .collect()
-    };
+    let replicate = (plan.replicates() > 1).then(|| "replicate".to_owned());
+    let unit = |response: &Response| response.stated_unit.clone().unwrap_or_else(|| response.unit("").to_owned());
+    let filled_in = imported.iter().map(|response| with_unit(&response.name, &unit(response)));
+    let header = ["run".to_owned()].into_iter().chain(names).chain(replicate).chain(filled_in).collect();
+    let row = |number| [cells(plan, number, |level| level.label.clone()), vec![String::new(); imported.len()]].concat();
     csv_table(std::iter::once(header).chain(plan.order().map(row)))
 }
 

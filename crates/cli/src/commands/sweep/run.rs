@@ -85,14 +85,7 @@ fn run_study(arguments: &SweepRunArguments, job: &mut Job) -> Result<(), Failure
         };
         return Err(Failure::stopped(signal, job.leads().then(message)));
     }
-    match summary.failed + summary.failed_elsewhere + summary.failed_before {
-        0 => Ok(()),
-        failed => Err(Failure::run(format_args!(
-            "{} of {} failed; `plateau sweep collect` lists their errors, --retry makes them again",
-            failed,
-            number::count(summary.runs, "run")
-        ))),
-    }
+    summary.check()
 }
 
 /// Prints what came of the runs.

@@ -193,7 +193,7 @@ fn what_is_no_file_is_no_shard() {
     let fifo = folder.path().join("h_1_0-0.journal");
     assert!(std::process::Command::new("mkfifo").arg(&fifo).status().unwrap().success());
     fs::create_dir(folder.path().join("h_1_0-1.open")).unwrap();
-    assert!(Journal::read(folder.path()).unwrap().is_empty());
+    assert!(Journal::read(folder.path()).unwrap().entries.is_empty());
     merge(folder.path(), "h").unwrap();
 }
 
