@@ -8,7 +8,7 @@ from os import PathLike
 from pathlib import Path
 from typing import Any, SupportsFloat, SupportsIndex, final
 
-__all__ = ["Scene", "Simulation", "keys", "make_runs", "run"]
+__all__ = ["Scene", "Simulation", "keys", "make_runs", "run", "scale_of"]
 
 @final
 class Scene:
@@ -130,4 +130,9 @@ def make_runs(study: str | PathLike[str], directory: str | PathLike[str] | None,
 def run(scene: Scene, output: str | PathLike[str] | None, replace: bool, mode: str, engine: str, tell: Any) -> str | None:
     """
     Runs a scene, and gives the summary as JSON; nothing where the run was finished before. `mode` is `new`, `resume` or `extend`.
+    """
+
+def scale_of(unit: str) -> tuple[list[int], int, float, float]:
+    """
+    Powers of m, kg, s, rad and K of a unit, and a, b and c: it is 10^a · b / c of the SI unit of these powers.
     """

@@ -1,5 +1,6 @@
 """Units in which people read and write quantities, and numbers with as many digits as their errors leave."""
 
+import functools
 import json
 import math
 import operator
@@ -12,6 +13,7 @@ from typing import Any
 import numpy as np
 
 from plateau.errors import InputError, InputTypeError, shown
+from plateau.native import native
 
 # By SI unit, from the smallest on: symbol, how many of it are one SI unit, and the size, SI, below which it is taken.
 LADDERS: dict[str, list[tuple[str, float, float]]] = {
@@ -74,19 +76,16 @@ def unit_of(si: str, values: Any) -> Unit:
     return unit_for(si, float(np.max(sizes, initial=0.0, where=~np.isnan(sizes))))
 
 
-def plain(unit: str) -> str:
-    """A unit as it is typed: mm², mm^2 and mm2 are the same."""
-    return unit.strip().translate(str.maketrans("²³¹⁻−µμ", "231--uu", "^"))
-
-
 def shown_unit(unit: str) -> str:
     """A unit as it is shown, however it is typed: um, mm^2 and degC are µm, mm² and °C."""
 
     def shown(found: re.Match[str]) -> str:
-        name, power = plain(found[1]), found[2] or ""
-        if name not in UNITS:
+        name, power = found[1], found[2] or ""
+        try:
+            scale_of(name)
+        except InputError:
             return found[0]
-        return (f"µ{name[1:]}" if name[0] == "u" else name) + power.translate(str.maketrans("-123456789", "⁻¹²³⁴⁵⁶⁷⁸⁹"))
+        return (f"µ{name[1:]}" if name[0] in "uμ" else name) + power.translate(str.maketrans("-123456789", "⁻¹²³⁴⁵⁶⁷⁸⁹"))
 
     return "°C" if unit.strip() == "degC" else re.sub(r"([A-Za-zµμ]+)\^?(-?[1-9])?", shown, unit.strip())
 
@@ -128,68 +127,13 @@ def with_unit(name: str, unit: str) -> str:
 
 # What people write --------------------------------------------------------------------------------------------------------------------
 
-# Powers of m, kg, s, rad and K, and how many SI units it is; these take a prefix.
-PREFIXED: dict[str, tuple[tuple[int, ...], int | Fraction]] = {
-    "m": ((1, 0, 0, 0, 0), 1),
-    "s": ((0, 0, 1, 0, 0), 1),
-    "N": ((1, 1, -2, 0, 0), 1),
-    "Pa": ((-1, 1, -2, 0, 0), 1),
-    "g": ((0, 1, 0, 0, 0), Fraction(1, 1000)),
-    "Hz": ((0, 0, -1, 0, 0), 1),
-    "J": ((2, 1, -2, 0, 0), 1),
-    "W": ((2, 1, -3, 0, 0), 1),
-    "K": ((0, 0, 0, 0, 1), 1),
-}
-TURN = Fraction(math.tau)
-ALONE: dict[str, tuple[tuple[int, ...], int | Fraction]] = {
-    "1": ((0, 0, 0, 0, 0), 1),
-    "%": ((0, 0, 0, 0, 0), Fraction(1, 100)),
-    "min": ((0, 0, 1, 0, 0), 60),
-    "h": ((0, 0, 1, 0, 0), 3600),
-    "d": ((0, 0, 1, 0, 0), 86400),
-    "bar": ((-1, 1, -2, 0, 0), 100000),
-    "rad": ((0, 0, 0, 1, 0), 1),
-    "deg": ((0, 0, 0, 1, 0), TURN / 360),
-    "rev": ((0, 0, 0, 1, 0), TURN),
-    "rpm": ((0, 0, -1, 1, 0), TURN / 60),
-    "RPM": ((0, 0, -1, 1, 0), TURN / 60),
-    "Nm": ((2, 1, -2, 0, 0), 1),
-}
-PREFIXES = {"p": -12, "n": -9, "u": -6, "m": -3, "c": -2, "k": 3, "M": 6, "G": 9, "T": 12}
-UNITS: dict[str, tuple[tuple[int, ...], int | Fraction]] = {
-    **{
-        prefix + name: (powers, one * Fraction(f"1e{tens}"))
-        for prefix, tens in PREFIXES.items()
-        for name, (powers, one) in PREFIXED.items()
-    },
-    **PREFIXED,
-    **ALONE,
-}
-TOKEN = re.compile(r"\s*(?:([()/*·⋅])|([A-Za-z]+|[1%])(-?[1-9])?)\s*")
 
-
+@functools.cache
 def scale_of(unit: str) -> tuple[tuple[int, ...], Fraction]:
     """Powers of m, kg, s, rad and K of a unit, such as ``"mm^3/(N m)"``, and how many SI units it is."""
-    text, at, powers, factor = plain(unit), 0, [0] * 5, Fraction(1)
-    # Only products and quotients: each symbol has the sign of all groups that it is in.
-    groups, sign = [1], 1
-    while at < len(text):
-        found = TOKEN.match(text, at)
-        if found is None or found[2] and found[2] not in UNITS or found[1] == ")" and len(groups) < 2:
-            raise InputError(f'unknown unit "{unit}"')
-        at = found.end()
-        if found[1] == "(":
-            groups.append(groups[-1] * sign)
-        elif found[1] == ")":
-            groups.pop()
-        elif found[2]:
-            of, one = UNITS[found[2]]
-            power = groups[-1] * sign * int(found[3] or 1)
-            powers, factor = [own + power * each for own, each in zip(powers, of, strict=True)], factor * Fraction(one) ** power
-        sign = -1 if found[1] == "/" else 1
-    if len(groups) > 1:
-        raise InputError(f'"{unit}": a parenthesis is not closed')
-    return tuple(powers), factor
+    # Scenes have no percent, and a hyphen only behind ^.
+    powers, tens, times, over = native().scale_of(re.sub(r"\^?[-−]", "^-", unit).replace("%", "(cm/m)"))
+    return powers, Fraction(10) ** tens * Fraction(times) / Fraction(over)
 
 
 def in_si(number: str | float, unit: str, si: str, *, is_difference: bool = False) -> float:

@@ -62,6 +62,13 @@ pub fn parse_as(text: &str, si_unit: &str) -> Result<f64, String> {
     finite(shift_decimal(number, scale.tens) * scale.times / scale.over, not_finite)
 }
 
+/// Powers of m, kg, s, rad and K of a unit, and a, b and c: it is 10^a · b / c of the SI unit of these powers.
+pub fn scale_of(unit: &str) -> Result<(Powers, i32, f64, f64), String> {
+    let Scale { powers, tens, times, over } = Scale::parse(unit)?;
+    let is_usual = tens.abs() < 1000 && times.is_finite() && over.is_finite();
+    if is_usual { Ok((powers, tens, times, over)) } else { Err("this is not a unit".to_owned()) }
+}
+
 /// Value of 0 of a unit in the SI unit: 273.15 K for degrees Celsius, else 0.
 pub fn zero_of(unit: &str) -> f64 {
     if is_celsius(unit) { CELSIUS } else { 0.0 }
@@ -303,7 +310,7 @@ impl fmt::Display for Dimension {
 /// Powers of length, mass, time, plane angle and temperature.
 ///
 /// The angle counts as a dimension of its own, for only so does "14 Hz" differ from "14 rad/s".
-type Powers = [i32; 5];
+pub type Powers = [i32; 5];
 
 /// A unit in terms of SI: 10^tens · times / over of the SI unit with these powers.
 ///

@@ -6,6 +6,7 @@
 //! | `scene.rs` | a scene, read, checked and resolved; its table of keys |
 //! | `simulation.rs` | a simulation between two steps |
 //! | `state.rs` | its state in a file |
+//! | `units.rs` | units as people write them |
 //! | `runs.rs` | runs and studies that write their files |
 //! | `background.rs` | work on a thread, while Python looks at signals and shows progress |
 //! | `failure.rs` | exceptions of the package |
@@ -16,6 +17,7 @@ mod runs;
 mod scene;
 mod simulation;
 mod state;
+mod units;
 
 use pyo3::prelude::*;
 
@@ -28,6 +30,8 @@ mod native {
     use super::scene::{Scene, keys};
     #[pymodule_export]
     use super::simulation::Simulation;
+    #[pymodule_export]
+    use super::units::scale_of;
 
     use pyo3::prelude::*;
     use pyo3::types::IntoPyDict as _;
