@@ -2,9 +2,10 @@
 
 import os
 
-import h5py
 import numpy as np
-from checkout import ROOT, Folder, program
+from checkout import ROOT, Folder
+
+import plateau
 
 # The paper's mesh has cells of 50 um; surfaces are measured in pixels of a quarter of that. Pixels of ring and patch.
 COLUMNS, ROWS, PATCH = 4 * 2764, 4 * 80, 4 * 64
@@ -13,23 +14,6 @@ PIXEL = 2 * np.pi * 22e-3 / COLUMNS
 CUTS = 8 if "PLATEAU_LONG" in os.environ else 3
 # Correlation length over the size of a pixel, rms height in m.
 LENGTH, RMS = 120e-6 / PIXEL, 3e-6
-
-SCENE = """
-version = 1
-extends = "{cermet}"
-[operation]
-duration = "60 s"
-[disc.surface]
-file = "{surface}"
-pitch = "{pitch} m"
-[disc.prepare]
-cutoff = "3 um"
-{extend}
-[numerics]
-time_acceleration = 100
-[output]
-maps_at = []
-"""
 
 
 def large_surface(seed):
@@ -44,16 +28,14 @@ def large_surface(seed):
     return RMS / np.sqrt(variance) * field
 
 
-def contact_area(folder, heights, extension=""):
+def contact_area(folder, heights, **extension):
     """Contact area after 60 s on a ring, m2: the mean of the last 10 s."""
     np.save(folder / "surface.npy", heights)
     # A hair more than a ring's part, so that rounding leaves no gap.
-    pitch = PIXEL * (1 + 1e-12)
-    scene = SCENE.format(cermet=ROOT / "data/scenes/cermet.toml", surface=folder / "surface.npy", pitch=f"{pitch:.17g}", extend=extension)
-    (folder / "scene.toml").write_text(scene)
-    program("run", folder / "scene.toml", "-o", folder / "run.h5", "--force", "--workers", "1")
-    with h5py.File(folder / "run.h5") as run:
-        time, integral = run["series/time"][:], run["series/contact_area_integral"][:]
+    surface = {"file": folder / "surface.npy", "pitch": f"{PIXEL * (1 + 1e-12):.17g} m"}
+    changes = {"operation.duration": "60 s", "disc.surface": surface, "disc.prepare": {"cutoff": "3 um", **extension}, "output.maps_at": []}
+    with plateau.run(ROOT / "data/scenes/cermet.toml", folder / "run.h5", set=changes, workers=1, force=True) as run:
+        time, integral = run["time"].values, run["series/contact_area_integral"].values
     return np.diff(np.interp([50.0, time[-1]], time, integral))[0] / (time[-1] - 50.0)
 
 
@@ -64,9 +46,8 @@ class Extension(Folder):
             surface = large_surface(cut)
             # The patch has no row of the ring.
             patch = surface[:PATCH, ROWS + 32 : ROWS + 32 + PATCH]
-            extend = f'extend = "statistics"\nextend_seed = {cut}'
             of_rings[cut] = contact_area(self.folder, surface[:, :ROWS])
-            of_patches[cut] = contact_area(self.folder, patch, extend)
+            of_patches[cut] = contact_area(self.folder, patch, extend="statistics", extend_seed=cut)
         print(f"contact area, mm2: cut-outs {of_rings * 1e6}, extended {of_patches * 1e6}")
         # The two means by Welch's test, at three standard errors. A patch knows its rms height with the relative error
         # sqrt(pi/4) LENGTH/PATCH, 3.3 %, so extended rings scatter more than cut-outs.

@@ -1,6 +1,7 @@
 """Figures of series and of distributions show the numbers of the run file, in the units that they say. Numbers are read by h5py."""
 
 import pathlib
+import tomllib
 import unittest
 import unittest.mock
 import warnings
@@ -9,7 +10,9 @@ import h5py
 import matplotlib
 import numpy as np
 import xarray
+from checkout import QUICK
 from package_scenes import SHORT, InFolder
+from small_scenes import lines
 
 import plateau
 from plateau import figures
@@ -17,41 +20,7 @@ from plateau.figures import maps
 from plateau.figures.distributions import areas_of
 from plateau.style import saved
 
-DRIVE = """extends = "quick.toml"
-[operation]
-duration = "16 s"
-[numerics]
-time_acceleration = 2
-[operation.cycle]
-file = "drive.csv"
-interpolation = "linear"
-[friction]
-pressure_coefficient = 0.33
-shear_strength = "0.75 MPa"
-maximum = 0.6
-[thermal]
-ambient = "23 degC"
-[thermal.disc]
-conductivity = "50 W/(m K)"
-density = "7200 kg/m^3"
-specific_heat = "500 J/(kg K)"
-area = "3.25 cm^2"
-thickness = "11 mm"
-cooling = "0.03 W/K"
-[thermal.pin]
-conductivity = "1.5 W/(m K)"
-density = "2600 kg/m^3"
-specific_heat = "900 J/(kg K)"
-area = "0.322 cm^2"
-length = "12 mm"
-cooling = "0.008 W/K"
-[emission]
-pm10_fraction = 0.4
-pm25_fraction = 0.15
-number_per_mass = "1e15 1/kg"
-pin_density = "2600 kg/m^3"
-disc_density = "7200 kg/m^3"
-"""
+HOT = tomllib.loads(QUICK.with_name("cermet-hot.toml").read_text())
 # Time, s; load, N; speed of the disc, rpm, and of the vehicle, km/h.
 CYCLE = [(0, 0, 850, 72), (2, 0, 850, 72), (2, 5, 850, 72), (6, 5, 425, 36), (6, 0, 425, 36), (10, 0, 850, 72), (10, 5, 850, 72), (16, 5, 0, 0)]
 
@@ -80,7 +49,10 @@ class Curves(InFolder):
         super().setUpClass()
         rows = [",".join(map(str, row)) for row in CYCLE]
         pathlib.Path("drive.csv").write_text("\n".join(["time [s],normal_force [N],rotational_speed [rpm],road_speed [km/h]", *rows]) + "\n")
-        pathlib.Path("drive.toml").write_text(DRIVE)
+        # A disc as much smaller as the pin is.
+        scene = HOT | {"extends": "quick.toml", "thermal": HOT["thermal"] | {"disc": HOT["thermal"]["disc"] | {"area": "3.25 cm^2"}}, "output": {}}
+        scene |= {"operation": {"duration": "16 s", "cycle": {"file": "drive.csv", "interpolation": "linear"}}, "numerics": {"time_acceleration": 2}}
+        pathlib.Path("drive.toml").write_text("\n".join(lines(scene)))
         plateau.run("drive.toml", "drive.h5")
         for seed in (1, 2, 3):
             plateau.run("quick.toml", f"seed-{seed}.h5", set=SHORT | {"disc.surface.synthetic.seed": seed})
