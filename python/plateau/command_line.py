@@ -154,9 +154,7 @@ def shown(text: str) -> str:
     >>> shown("a\x1b[31mb\n")
     'a\\u{1b}[31mb\n'
     """
-    return "".join(
-        f"\\u{{{ord(one):x}}}" if unicodedata.category(one) in ("Cc", "Cf", "Zl", "Zp") and one not in "\n\t" else one for one in text
-    )
+    return "".join(f"\\u{{{ord(one):x}}}" if unicodedata.category(one) in ("Cc", "Cf", "Zl", "Zp") and one not in "\n\t" else one for one in text)
 
 
 class Words:

@@ -31,8 +31,7 @@ def listed(items: Sequence[str]) -> str:
 def table(heads: Sequence[str], rows: Sequence[Sequence[str]], kind: str = "numbers") -> str:
     """A table of plain texts."""
     cells = [
-        f"<tr>{''.join(f'<{of}>{escape(str(cell))}</{of}>' for cell in row)}</tr>"
-        for of, row in [("th", heads), *(("td", row) for row in rows)]
+        f"<tr>{''.join(f'<{of}>{escape(str(cell))}</{of}>' for cell in row)}</tr>" for of, row in [("th", heads), *(("td", row) for row in rows)]
     ]
     return f'<div class="wide"><table class="{kind}"><thead>{cells[0]}</thead><tbody>{"".join(cells[1:])}</tbody></table></div>'
 

@@ -41,9 +41,7 @@ def followed(path: Path) -> Path:
     return path.resolve() if path.is_symlink() else path
 
 
-def write(
-    folder: Path, files: Mapping[str, bytes], *, of: str | None = None, force: bool = False, inputs: tuple[Path, ...] = ()
-) -> list[str]:
+def write(folder: Path, files: Mapping[str, bytes], *, of: str | None = None, force: bool = False, inputs: tuple[Path, ...] = ()) -> list[str]:
     """Writes files, content by name, into a folder, with the list of them, each under its name when it is complete; gives their paths.
 
     Nothing is changed if a file would be replaced that must not be: an input, or a file of others without `force`. `of` names what the

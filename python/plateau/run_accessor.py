@@ -209,9 +209,7 @@ class RunAccessor:
         per_second = unit.removesuffix(" s") if unit.endswith(" s") else f"{unit} s-1"
         return found._replace(unit=per_second.removeprefix("1 "))
 
-    def _mean_of(
-        self, time: Array, integral: Array, start: float | str | None, end: float | str | None, known_time: Array | None = None
-    ) -> Mean:
+    def _mean_of(self, time: Array, integral: Array, start: float | str | None, end: float | str | None, known_time: Array | None = None) -> Mean:
         revolutions = self._revolutions()
         first, last = last_tenth(time, revolutions)
         begin, stop = (quantity(default if given is None else given, "s") for given, default in ((start, first), (end, last)))

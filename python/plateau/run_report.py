@@ -278,9 +278,7 @@ def _short(unit: Unit, value: float, digits: int = 3) -> str:
     return with_minus(f"{rounded:.6g} {unit.symbol}") if math.isfinite(value) else UNKNOWN
 
 
-def report(
-    runs: Run | Sequence[Run], output: str | os.PathLike[str] | None = None, *, force: bool = False, progress: bool | None = None
-) -> str:
+def report(runs: Run | Sequence[Run], output: str | os.PathLike[str] | None = None, *, force: bool = False, progress: bool | None = None) -> str:
     """Writes one page in HTML about a run, or about several that are compared with the first.
 
     Parameters

@@ -330,14 +330,7 @@ class Simulation:
         """Pressure on each pin cell in the last step, Pa; 0 where nothing touches, NaN outside a round pin."""
         return self._numbers("pressure")
 
-    def set_heights(
-        self,
-        *,
-        disc_height: Any = None,
-        disc_substrate: Any = None,
-        pin_height: Any = None,
-        pin_substrate: Any = None,
-    ) -> None:
+    def set_heights(self, *, disc_height: Any = None, disc_substrate: Any = None, pin_height: Any = None, pin_substrate: Any = None) -> None:
         """Takes over several fields of heights at once, m; those that are None stay.
 
         Volumes count what steps moved: ``balance_residual`` shows what was changed here. It copies the whole state, which takes as long
@@ -356,14 +349,8 @@ class Simulation:
         """
         given = (disc_height, disc_substrate, pin_height, pin_substrate)
         rows, disc, pin, *_ = self._native.mesh
-        arrays: list[Any] = []
-        for name, heights in zip(FIELDS_OF_HEIGHTS, given, strict=True):
-            if heights is None:
-                arrays.append(None)
-                continue
-            expected = (disc if name.startswith("disc") else pin, rows)
-            arrays.append(_heights(name, heights, expected))
-        self._native.set_heights(arrays)
+        named = zip(FIELDS_OF_HEIGHTS, given, (disc, disc, pin, pin), strict=True)
+        self._native.set_heights([None if one is None else _heights(name, one, (columns, rows)) for name, one, columns in named])
 
     def _set(self, name: str, heights: Any) -> None:
         if heights is None:

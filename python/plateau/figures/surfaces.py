@@ -190,10 +190,7 @@ def _reliefs(page: list[tuple[Surface, Scale]]) -> Any:
 
 
 def plot_surfaces(
-    *files: str | os.PathLike[str],
-    prepare: str | os.PathLike[str] | None = None,
-    view: Literal["charts", "relief"] = "charts",
-    **options: Any,
+    *files: str | os.PathLike[str], prepare: str | os.PathLike[str] | None = None, view: Literal["charts", "relief"] = "charts", **options: Any
 ) -> Figures:
     """Draws surfaces: map, distribution of the heights, material ratio curve, power spectral density and autocorrelation.
 
