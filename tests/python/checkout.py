@@ -22,10 +22,11 @@ SHARED = next((folder / "surfaces" for folder in _NAMED if (folder / "surfaces")
 
 
 class Folder(unittest.TestCase):
-    """Tests, each with an empty folder of its own."""
+    """Tests, each in an empty folder of its own."""
 
     def setUp(self):
         self.folder = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory()))
+        self.enterContext(contextlib.chdir(self.folder))
 
 
 def changed(*changes):

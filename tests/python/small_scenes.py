@@ -97,10 +97,7 @@ def write(
         "materials": materials,
         "plateaus": plateaus,
         "disc": {"surface": {"file": "init.h5", "dataset": "/disc/height"}},
-        "pin": {
-            "surface": {"file": "init.h5", "dataset": "/pin/height"},
-            "base": {"file": "init.h5", "dataset": "/pin/base"},
-        },
+        "pin": {"surface": {"file": "init.h5", "dataset": "/pin/height"}, "base": {"file": "init.h5", "dataset": "/pin/base"}},
         "numerics": {"time_acceleration": time_acceleration, "integrator": integrator},
         "output": {"file": "run.h5", "sample_every_steps": sample_every_steps},
     }

@@ -199,10 +199,7 @@ class Simplifications(Folder):
         rows = re.findall(r"^\| coated, 51 s \| heights (?:/ )?(\S*) ?\|(.*)\|$", text, re.MULTILINE)
         number = r"([+−]?[\d.]+) to ([+−]?[\d.]+)"
         return {
-            heights: [
-                tuple(float(value.replace("−", "-")) / 100 for value in re.search(number, cell).groups())
-                for cell in cells.split("|")
-            ]
+            heights: [tuple(float(value.replace("−", "-")) / 100 for value in re.search(number, cell).groups()) for cell in cells.split("|")]
             for heights, cells in rows
         }
 

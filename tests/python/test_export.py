@@ -5,11 +5,9 @@ import json
 import os
 import pathlib
 import shutil
-import signal
 import subprocess
 import sys
 import tempfile
-import time
 import unittest
 import unittest.mock
 import xml.etree.ElementTree as xml
@@ -53,10 +51,6 @@ class Export(Folder):
     def setUpClass(cls):
         cls.made = pathlib.Path(cls.enterClassContext(tempfile.TemporaryDirectory())) / "run.h5"
         plateau.run(QUICK, cls.made, set=SHORT)
-
-    def setUp(self):
-        super().setUp()
-        self.enterContext(contextlib.chdir(self.folder))
 
     def same(self, found, expected):
         found, expected = np.ascontiguousarray(found), np.ascontiguousarray(expected)
@@ -296,31 +290,3 @@ class Export(Folder):
         self.assertRegex("".join(out), r"^wrote run.csv \(\d+\.\d kB\)\n$")
         self.assertIn("run.csv exists; give --force to replace it", err[1])
         self.assertTrue(pathlib.Path("run.csv").read_text().startswith("time [s]\tdisplacement [m]\t"))
-
-    def test_a_run_that_goes_on_and_one_that_was_killed(self):
-        changes = ["--set", "operation.steps=100000000", "--set", 'output.sample_every="0.05 s"']
-        command = [plateau.find_program(), "run", str(QUICK), "-o", "going.h5", *changes]
-        run = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-        try:
-            for _ in range(600):
-                time.sleep(0.1)
-                with contextlib.suppress(plateau.InputError, OSError), self.assertWarnsRegex(UserWarning, "running .or it was killed"):
-                    plateau.export("going.h5", "npz", "alive.npz", force=True)
-                    if np.load("alive.npz")["time"].size >= 50:
-                        break
-            else:
-                self.fail("no 50 samples within a minute")
-        finally:
-            run.send_signal(signal.SIGKILL)
-            run.wait()
-        with self.assertWarns(plateau.PlateauWarning):
-            plateau.export("going.h5", "npz", "killed.npz")
-        with np.load("alive.npz") as alive, np.load("killed.npz") as killed:
-            samples = alive["time"].size
-            self.assertGreaterEqual(killed["time"].size, samples)
-            with h5py.File("going.h5", swmr=True) as file:
-                for name in ("time", "contact_area", "pool"):
-                    values = file["time" if name == "time" else f"series/{name}"][:]
-                    self.same(killed[name], values[: killed["time"].size])
-                    self.same(alive[name], values[:samples])
-            self.assertEqual(str(killed["state"]), "running")

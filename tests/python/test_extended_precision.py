@@ -19,10 +19,7 @@ FRACTIONS = {"contact_ratio", "pin_primary", "pin_secondary", "pin_none", "disc_
 # Captured fraction, share of the pin, time acceleration and share of fibres, dealt out over the scenes.
 CHOICES = [(0.3, 0.5, 20, 0.4), (1.0, 0.3, 1, 0.7), (0.05, 1.0, 100, 0.2), (0.6, 0.0, 10, 0.5), (0.1, 0.8, 50, 0.4)]
 # What materials of the pin, debris and operation take beyond the paper, each alone and all at once.
-COUNTERFACE = {
-    "pin_primary": {"wear_rate_against_secondary": "2e-13 1/Pa"},
-    "pin_secondary": {"wear_rate_against_secondary": "1e-14 1/Pa"},
-}
+COUNTERFACE = {"pin_primary": {"wear_rate_against_secondary": "2e-13 1/Pa"}, "pin_secondary": {"wear_rate_against_secondary": "1e-14 1/Pa"}}
 STRENGTH = {"pin_secondary": {"strength": "2e6 Pa"}}
 # A little more than three columns at the mean radius of the small scenes.
 TRANSPORT = {"transport_length": "0.0067 m"}
@@ -146,20 +143,12 @@ class Program(Comparison):
         for seed in EMPTIED:
             with self.subTest(seed=seed):
                 self.compare(
-                    seed,
-                    every=10,
-                    plateaus=plateaus("track", 0.3),
-                    materials=small_scenes.ALIKE,
-                    steps=4000,
-                    pin_roughness=0.0,
-                    resin_recess=0.0,
+                    seed, every=10, plateaus=plateaus("track", 0.3), materials=small_scenes.ALIKE, steps=4000, pin_roughness=0.0, resin_recess=0.0
                 )
 
     def test_local_debris_of_every_option(self):
         options = itertools.product(
-            ["explicit", "exponential"],
-            [(1.0, True), (0.4, True), (1.0, False)],
-            [small_scenes.ALIKE, small_scenes.DIFFERENT],
+            ["explicit", "exponential"], [(1.0, True), (0.4, True), (1.0, False)], [small_scenes.ALIKE, small_scenes.DIFFERENT]
         )
         scenes = {}
         for seed, (integrator, (captured_fraction, formation), materials) in enumerate(options):

@@ -1,6 +1,5 @@
 """The page of `plateau.report`: its numbers against the run file, what strangers write, several runs, and the words of runs."""
 
-import contextlib
 import html
 import os
 import pathlib
@@ -40,10 +39,6 @@ class Report(Folder):
         with h5py.File(cls.made / "heavy.h5", "r+") as file:
             file.attrs["title"] = HOSTILE
         plateau.run(QUICK.with_name("stops.toml"), cls.made / "stops.h5")
-
-    def setUp(self):
-        super().setUp()
-        self.enterContext(contextlib.chdir(self.folder))
 
     def draw_few(self):
         # Figures have tests of their own.

@@ -55,9 +55,7 @@ FORM_IS_GOOD = {
 }
 WRONG_TYPES = ["1979-05-27", "[true]", "[[1]]", '""', '" "', "-7"]
 # Numbers of any sign.
-ACCEPT_MINUS_7 = {
-    f"{body}.{key}" for body in ("disc", "pin") for key in ("prepare.scale", "surface.synthetic.skewness")
-}
+ACCEPT_MINUS_7 = {f"{body}.{key}" for body in ("disc", "pin") for key in ("prepare.scale", "surface.synthetic.skewness")}
 UNITS = "m mm um µm N kN Pa GPa s min m/s km/h rpm rad/s Hz 1/Pa m^2/N mm^3/(N_m) m^2 um^2 kg x deg".split()
 # Random values, each of which is tried with every key.
 VALUES = 256 if "PLATEAU_LONG" in os.environ else 32

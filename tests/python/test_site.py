@@ -61,9 +61,5 @@ class Sites(Folder):
         (site / "two.html").write_text((site / "two.html").read_text() + '<a href="one.html#none"></a>$\\mu$')
         self.assertEqual(
             check.problems(site),
-            [
-                "two.html: p.png leads nowhere",
-                "two.html: one.html#none: there is no such place",
-                "two.html: a formula was left as it is: $\\mu$",
-            ],
+            ["two.html: p.png leads nowhere", "two.html: one.html#none: there is no such place", "two.html: a formula was left as it is: $\\mu$"],
         )

@@ -57,9 +57,9 @@ class Studies(Folder):
         return blocks[0]
 
     def run_python(self, text):
-        """What Python prints in the folder; in this process, for each of its own would import all packages anew."""
+        """What Python prints; in this process, for each of its own would import all packages anew."""
         out = io.StringIO()
-        with contextlib.chdir(self.folder), contextlib.redirect_stdout(out):
+        with contextlib.redirect_stdout(out):
             exec(text, {})
         pyplot.close("all")
         return out.getvalue()

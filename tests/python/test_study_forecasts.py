@@ -121,9 +121,7 @@ class PredictionTest(unittest.TestCase):
                         numbers = [setting["number"] for setting in place["settings"]]
                         self.assertEqual([number is None for number in numbers], [number is None for number in expected["numbers"]])
                         values = [response["value"] for response in place["responses"]]
-                        same = [
-                            (a, b) for a, b in zip(numbers + values, expected["numbers"] + expected["values"], strict=True) if b is not None
-                        ]
+                        same = [(a, b) for a, b in zip(numbers + values, expected["numbers"] + expected["values"], strict=True) if b is not None]
                         np.testing.assert_allclose(*zip(*same, strict=True), rtol=1e-8)
                         self.assertEqual(bool(place["beyond"]), bool(expected["beyond"]))
 

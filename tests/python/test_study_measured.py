@@ -73,10 +73,7 @@ class TextTableTest(InFolder):
 
     def test_what_is_wrong_is_refused_with_its_place(self):
         for text, words in (
-            (
-                "time [s];force [N]\n0;10,5\n3; 1.200\n",
-                '/t.csv:3: "1.200" in line 3 and "10,5" in line 2: a decimal point',
-            ),
+            ("time [s];force [N]\n0;10,5\n3; 1.200\n", '/t.csv:3: "1.200" in line 3 and "10,5" in line 2: a decimal point'),
             ("a,b\n1,2\n\n3,4\n", "/t.csv:4: another table begins here"),
             ("a,b\n1,2\n\n# more\nc,d\n3,4\n", "/t.csv:5: another table begins here"),
             ("a,b\n1,2\na,b\n3,4\n", "/t.csv:3: another table begins here"),
@@ -156,17 +153,7 @@ class ImportTest(InFolder):
         found = self.take("humidity [%RH];batch;wear [mm3]\n20,00001;A;1,5\n80 %RH;'=B;\n")
         self.assertEqual(
             found.document() | {"file": ""},
-            {
-                "study": "Rig",
-                "lines": 2,
-                "responses": ["wear"],
-                "new": 1,
-                "changed": 0,
-                "runs": 4,
-                "complete": 0,
-                "idle": [],
-                "file": "",
-            },
+            {"study": "Rig", "lines": 2, "responses": ["wear"], "new": 1, "changed": 0, "runs": 4, "complete": 0, "idle": [], "file": ""},
         )
         self.assertEqual(self.take("batch,humidity,wear [m3],friction\nA,20,,0.4\n").complete, 1)
         self.assertEqual(self.kept(), "humidity [%RH],batch,replicate,wear [m3],friction\n20.0,A,1,1.5e-09,0.4\n")

@@ -78,7 +78,6 @@ def paths(value, at=""):
 class Words(Folder):
     def setUp(self):
         super().setUp()
-        self.enterContext(contextlib.chdir(self.folder))
         os.environ["PLATEAU_CALLED"] = "plateau"
         # Most calls draw one format alone, profiles of few places and few functions that may be true, which is quicker.
         self.patch(style, "FORMATS", {"svg": style.FORMATS["svg"]})
@@ -158,10 +157,7 @@ class Words(Folder):
             pathlib.Path(name).write_text(scene)
         words = ["compare", "one.toml", "two.toml", "--seeds", "1", "--set", "operation.duration='10000 s'", "-q"]
         called = subprocess.Popen(
-            [sys.executable, "-m", "plateau.command_line", *words],
-            stdout=subprocess.DEVNULL,
-            stderr=subprocess.PIPE,
-            start_new_session=True,
+            [sys.executable, "-m", "plateau.command_line", *words], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, start_new_session=True
         )
         try:
             until = time.monotonic() + 60
@@ -204,12 +200,7 @@ class Words(Folder):
         self.assertTrue(kinds <= names, names)
         self.assertEqual(page.count("<svg"), len(names))
         self.assertNotIn("<script", page)
-        for folder, file in (
-            ("optimum", "profiler.pdf"),
-            ("optimum", "contour.png"),
-            ("sensitivity", "leak-indices.svg"),
-            ("fit", "profiles.svg"),
-        ):
+        for folder, file in (("optimum", "profiler.pdf"), ("optimum", "contour.png"), ("sensitivity", "leak-indices.svg"), ("fit", "profiles.svg")):
             self.assertTrue(pathlib.Path("study", folder, file).is_file(), file)
         # Text has the same folders; those of an earlier call are replaced with --force alone.
         self.refused("sweep", "effects", "study.toml", said="study/effects has the files of an earlier call; give --force")
@@ -237,9 +228,7 @@ class Words(Folder):
         with open("grid.csv", newline="") as file:
             rows = list(csv.DictReader(file))
         self.assertEqual((len(rows), list(rows[0])[:4]), (9, ["load [N]", "dose", "leak [m3]", "leak mean low [m3]"]))
-        self.refused(
-            "sweep", "predict", "study.toml", "-o", "grid.csv", said="grid.csv exists; give --force to replace it, or write elsewhere"
-        )
+        self.refused("sweep", "predict", "study.toml", "-o", "grid.csv", said="grid.csv exists; give --force to replace it, or write elsewhere")
         self.refused("sweep", "predict", "study.toml", "-o", "study.toml", "--force", said="study.toml is an input and is not replaced")
         self.refused("sweep", "predict", "study.toml", "--at", "load=9 N", said="give --extrapolate to see")
         self.assertIn("load = 9 N", self.call("sweep", "predict", "study.toml", "--at", "load=9 N", "--extrapolate", "-q")[0])

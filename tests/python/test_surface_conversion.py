@@ -141,14 +141,14 @@ class Conversion(Folder):
 
     def test_the_program_hands_over_and_new_converts(self):
         shutil.copy(SAMPLES / "float64.x3p", self.folder / "scan.x3p")
-        told = program("surface", "scan.x3p", cwd=self.folder)
+        told = program("surface", "scan.x3p")
         self.assertEqual((told.returncode, told.stdout), (2, ""))
         self.assertIn("this is an X3P file (.x3p), which is not read as it is; convert it: plateau surface convert FILE -o FILE.h5", told.stderr)
-        done = program("surface", "convert", "scan.x3p", cwd=self.folder)
+        done = program("surface", "convert", "scan.x3p")
         self.assertEqual((done.returncode, done.stdout), (0, "scan.x3p: heights are in scan.h5\n"), done.stderr)
         # The same once more is there already; of another file it is not.
         before = (self.folder / "scan.h5").stat().st_mtime_ns
-        again = program("surface", "convert", "scan.x3p", cwd=self.folder)
+        again = program("surface", "convert", "scan.x3p")
         self.assertEqual((again.returncode, again.stdout), (0, done.stdout), again.stderr)
         self.assertEqual((self.folder / "scan.h5").stat().st_mtime_ns, before)
         for content in (b"of somebody else", None):
@@ -157,17 +157,17 @@ class Conversion(Folder):
             else:
                 (self.folder / "other.h5").write_bytes(content)
             target = "scan.h5" if content is None else "other.h5"
-            refused = program("surface", "convert", "scan.x3p", "-o", target, cwd=self.folder)
+            refused = program("surface", "convert", "scan.x3p", "-o", target)
             self.assertEqual(refused.returncode, 2)
             self.assertIn(f"{target} exists; give --force to replace it", refused.stderr)
         shutil.copy(SAMPLES / "float64.x3p", self.folder / "scan.x3p")
-        made = program("new", "mine.toml", "--disc", "scan.x3p", cwd=self.folder)
+        made = program("new", "mine.toml", "--disc", "scan.x3p")
         self.assertEqual(made.returncode, 0, made.stderr)
         self.assertIn("scan.x3p: converted to scan.h5, which the scene names", made.stdout)
         self.assertIn('file = "scan.h5"', (self.folder / "mine.toml").read_text(encoding="utf-8"))
         # Without the package, the same line says what to run and to install.
         bare = {**os.environ, "PATH": "/usr/bin:/bin"}
-        told = program("new", "other.toml", "--disc", "scan.x3p", cwd=self.folder, env=bare)
+        told = program("new", "other.toml", "--disc", "scan.x3p", env=bare)
         beside = pathlib.Path(PROGRAM).resolve().parent / "plateau-surface"
         if PROGRAM != str(ROOT / "plateau") and not beside.exists():
             self.assertEqual(told.returncode, 2, told.stdout)
