@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Draws the contact area of a run against time: single steps, and their mean over a revolution of the disc.
 
-    python examples/contact_area.py quick.h5 -o contact_area.png
+python examples/contact_area.py quick.h5 -o contact_area.png
 """
 
 import argparse

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Prints how much of the disc and the pin is plateau at every recorded map, and how thick the build-up is.
 
-    python examples/coverage.py quick.h5
+python examples/coverage.py quick.h5
 """
 
 import argparse

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Draws a map of a run, by default the last heights of the disc, and prints what is in it.
 
-    python examples/disc_map.py quick.h5 -o disc_map.png
-    python examples/disc_map.py quick.h5 --map pin/pressure --time 60
+python examples/disc_map.py quick.h5 -o disc_map.png
+python examples/disc_map.py quick.h5 --map pin/pressure --time 60
 """
 
 import argparse

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Runs a scene under several loads and prints the contact area under each, with its standard error.
 
-    python examples/loads.py data/scenes/quick.toml --loads 5 10 20 --folder loads
+python examples/loads.py data/scenes/quick.toml --loads 5 10 20 --folder loads
 """
 
 import argparse

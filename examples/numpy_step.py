@@ -3,7 +3,8 @@
 
     python examples/numpy_step.py data/scenes/quick.toml --steps 200
 
-It prints how far both are apart. The scene has local debris without transport length, strength, wear rates against secondary plateaus, heat or a cycle.
+It prints how far both are apart. The scene has local debris without transport length, strength, wear rates against secondary plateaus, heat
+or a cycle.
 """
 
 import argparse
@@ -60,7 +61,9 @@ class Model:
         # Wear: build-up first, then what it stands on.
         pin_rate, disc_rate = self.pin_rate[status], self.disc_rate[covered]
         own = np.where(self.is_resin, 0.0, self.pin_rate[PRIMARY])
-        pin_lost = build_up_first(self.pin_base - self.pin, self.raw(pin_rate, disc_rate, stiffness, overlap), self.raw(own, disc_rate, stiffness, overlap))
+        pin_lost = build_up_first(
+            self.pin_base - self.pin, self.raw(pin_rate, disc_rate, stiffness, overlap), self.raw(own, disc_rate, stiffness, overlap)
+        )
         pin_lost = np.where(touches & (status == RESIN), self.resin_loss, pin_lost)
         coating = self.raw(self.disc_rate[0], pin_rate, stiffness, overlap)
         disc_lost = build_up_first(disc - disc_base, self.raw(disc_rate, pin_rate, stiffness, overlap), coating)

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Loads the series of a run into pandas and prints their means over parts of the run.
 
-    python examples/to_pandas.py quick.h5 --parts 4
+python examples/to_pandas.py quick.h5 --parts 4
 """
 
 import argparse

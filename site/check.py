@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Checks a built site: every link within it leads to a file, and to a place in it where it names one; every formula of the guide is there.
 
-    python3 site/check.py FOLDER
+python3 site/check.py FOLDER
 """
 
 import re

@@ -12,7 +12,10 @@ from typing import Any
 
 FENCE = re.compile(r"^(```+|~~~+)(\w*)[^\n]*\n(.*?)^\1[ \t]*$\n?", re.MULTILINE | re.DOTALL)
 # Inline code, a formula on a line of its own or within one, a link to the first page of the guide, or one out of the folder of the page.
-INLINE = re.compile(r"(`+)(?!`).*?(?<!`)\1(?!`)|^\$\$(?P<display>.+?)\$\$$|\$(?P<formula>[^\s$](?:[^$\n]*[^\s$])?)\$(?!\d)|\]\((?P<up>(?:\.\./)*)(?:README\.md(?P<place>#[^)\s]*)?|(?<=/)(?P<path>[^)\s]*))\)", re.DOTALL | re.MULTILINE)
+INLINE = re.compile(
+    r"(`+)(?!`).*?(?<!`)\1(?!`)|^\$\$(?P<display>.+?)\$\$$|\$(?P<formula>[^\s$](?:[^$\n]*[^\s$])?)\$(?!\d)|\]\((?P<up>(?:\.\./)*)(?:README\.md(?P<place>#[^)\s]*)?|(?<=/)(?P<path>[^)\s]*))\)",
+    re.DOTALL | re.MULTILINE,
+)
 LINK_TEXT = re.compile(r"\[((?:[^\[\]]|\[[^\[\]]*\])*)\]\(plain:\)")
 
 

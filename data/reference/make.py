@@ -17,8 +17,19 @@ import xarray
 import plateau
 
 SERIES = [
-    "balance_residual", "contact_area", "contact_area_integral", "contact_area_mean", "contact_ratio", "disc_secondary",
-    "emitted", "filled_fraction", "load_residual", "pin_secondary", "worn_disc", "worn_pin", "worn_resin",
+    "balance_residual",
+    "contact_area",
+    "contact_area_integral",
+    "contact_area_mean",
+    "contact_ratio",
+    "disc_secondary",
+    "emitted",
+    "filled_fraction",
+    "load_residual",
+    "pin_secondary",
+    "worn_disc",
+    "worn_pin",
+    "worn_resin",
 ]
 # The digests are of the whole file; a cut run has not ended when the run did.
 LEFT_OUT = {"attributes_sha256", "numbers_sha256", "execution_sha256", "end_time"}

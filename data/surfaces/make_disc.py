@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Makes rough_disc.sdf: 4 by 4 mm of a rough disc as an instrument gives them, in SDF. Needs NumPy.
 
-    python3 data/surfaces/make_disc.py data/surfaces/rough_disc.sdf
+python3 data/surfaces/make_disc.py data/surfaces/rough_disc.sdf
 """
 
 import struct
@@ -9,10 +9,10 @@ import sys
 
 import numpy as np
 
-POINTS, PITCH = 200, 20e-6                        # of each direction; m
-RMS, LENGTH, NOISE = 3e-6, 120e-6, 50e-9          # rms height and correlation length as in cermet.toml; of the instrument; m
-TILT = 2e-3, -1e-3                                # along x and y
-RESOLUTION = 1e-9                                 # what the number 1 stands for, m
+POINTS, PITCH = 200, 20e-6  # of each direction; m
+RMS, LENGTH, NOISE = 3e-6, 120e-6, 50e-9  # rms height and correlation length as in cermet.toml; of the instrument; m
+TILT = 2e-3, -1e-3  # along x and y
+RESOLUTION = 1e-9  # what the number 1 stands for, m
 
 random = np.random.default_rng(2019)
 # A random field with the autocorrelation exp(-(r/LENGTH)^2), on a square that is twice as wide: a patch does not close.
@@ -26,7 +26,8 @@ heights = field - field.mean() + NOISE * random.standard_normal(field.shape) + T
 
 counts = np.rint(heights / RESOLUTION).astype("<i2")
 assert abs(counts - heights / RESOLUTION).max() < 1
-head = struct.pack("<8s10s12s12sHHddddBBB", b"bISO-1.0", b"make_disc", b"251120260000", b"251120260000",
-                   POINTS, POINTS, PITCH, PITCH, RESOLUTION, -1.0, 0, 5, 0)
+head = struct.pack(
+    "<8s10s12s12sHHddddBBB", b"bISO-1.0", b"make_disc", b"251120260000", b"251120260000", POINTS, POINTS, PITCH, PITCH, RESOLUTION, -1.0, 0, 5, 0
+)
 with open(sys.argv[1], "wb") as file:
     file.write(head + counts.tobytes())

@@ -33,16 +33,7 @@ except ModuleNotFoundError as error:
 from plateau import study
 from plateau.commands import check, collect, command
 from plateau.drive_cycle import cycle
-from plateau.errors import (
-    InputError,
-    InputTypeError,
-    MissingFileError,
-    PlateauError,
-    PlateauWarning,
-    RunFailed,
-    RunStopped,
-    UnknownNameError,
-)
+from plateau.errors import InputError, InputTypeError, MissingFileError, PlateauError, PlateauWarning, RunFailed, RunStopped, UnknownNameError
 from plateau.exports import export
 from plateau.figures import plot
 from plateau.figures.accuracy import plot_accuracy

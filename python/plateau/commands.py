@@ -37,7 +37,7 @@ def check(scene: Path | Mapping[str, Any] | Scene, *, set: Mapping[str, Any] | N
     >>> check("quick.toml", set={"mesh.rows": 10, "output.file": "ten-rows.h5"})["rows"]
     10
     """
-    if isinstance(scene, Mapping) or isinstance(scene, str) and "\n" in scene:
+    if isinstance(scene, Mapping) or (isinstance(scene, str) and "\n" in scene):
         # The program warns, too.
         with warnings.catch_warnings(action="ignore", category=PlateauWarning):
             scene = scene_of(scene, {}, 2)
@@ -136,7 +136,7 @@ def _scene_arguments(changes: Mapping[str, Any] | None, workers: int | str | Non
         raise InputTypeError(f'set = {changes!r}: expected a dictionary, such as set={{"operation.normal_force": "20 N"}}')
     for key, value in (changes or {}).items():
         if not isinstance(key, str) or "=" in key:
-            raise InputError(f"set: {shown(key)} is not a key of a scene, expected text such as \"operation.normal_force\"")
+            raise InputError(f'set: {shown(key)} is not a key of a scene, expected text such as "operation.normal_force"')
         arguments += ["--set", change_of(key, value)]
     if workers is not None:
         arguments += ["--workers", str(workers)]

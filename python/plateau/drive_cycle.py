@@ -258,7 +258,9 @@ def _told(read: pandas.DataFrame, found: pandas.DataFrame, load: "pandas.Series[
     time, speed = read["time"].to_numpy(), read["road_speed"].to_numpy()
     spans = np.diff(time)
     way = float(np.sum(spans * (speed[1:] + speed[:-1]) / 2.0))
-    slowing = read["deceleration"].to_numpy() if "deceleration" in read else np.divide(-np.diff(speed), spans, out=np.zeros_like(spans), where=spans > 0)
+    slowing = (
+        read["deceleration"].to_numpy() if "deceleration" in read else np.divide(-np.diff(speed), spans, out=np.zeros_like(spans), where=spans > 0)
+    )
     moves = found["road_speed"] > 0.0
     brakes = ((load > 0.0) & moves).to_numpy()
     # First row of each braking, and the first one after it.
@@ -267,13 +269,16 @@ def _told(read: pandas.DataFrame, found: pandas.DataFrame, load: "pandas.Series[
     lasts = moments[np.minimum(brakings[:, 1], len(moments) - 1)] - moments[np.maximum(brakings[:, 0] - 1, 0)]
     short = [load.iloc[start:end].max() for start, end in brakings[lasts <= SHORT]]
     largest, unit = float(load.max()), shown.split("[")[1].rstrip("]")
-    told = f"{len(time)} rows, {time[-1]:g} s, {way / 1e3:.3g} km; at most {3.6 * speed.max():.3g} km/h, slows down by at most {slowing.max():.2g} m/s²"
+    told = (
+        f"{len(time)} rows, {time[-1]:g} s, {way / 1e3:.3g} km; at most {3.6 * speed.max():.3g} km/h, slows down by at most {slowing.max():.2g} m/s²"
+    )
     told += f", at most {largest:.3g} {unit}; {counted(len(brakings), 'braking')}"
     warned = []
     usual = float(np.median(spans)) if len(spans) else 0.0
     wide = int(np.argmax(spans))
     if len(spans) > 4 and spans[wide] > 5.0 * usual > 0.0 and (speed[wide] > 0.0 or speed[wide + 1] > 0.0):
-        warned.append(f"between the rows at {time[wide]:g} and {time[wide + 1]:g} s there are {spans[wide]:g} s, else about {usual:g} s: a straight line is taken")
+        rows = f"between the rows at {time[wide]:g} and {time[wide + 1]:g} s there are {spans[wide]:g} s"
+        warned.append(f"{rows}, else about {usual:g} s: a straight line is taken")
     limits = [(3.6 * speed.max(), 300.0, "km/h"), (slowing.max(), 15.0, "m/s²"), (largest if unit == "bar" else 0.0, 250.0, "bar")]
     warned += [f"{value:.3g} {unit} is more than {most:g} {unit}: check the unit of the column" for value, most, unit in limits if value > most]
     if np.count_nonzero(brakes) > 0.7 * np.count_nonzero(moves):
@@ -310,7 +315,10 @@ def _scene(path: Path, of_cycle: Path, csv: bytes, tables: str, duration: float)
         made, cycle_made = Path(folder, path.name), Path(folder, of_cycle.name)
         listen(["-q", "new", made, "--duration", f"{duration:.10g} s"])
         # The cycle has load and speed.
-        text = re.sub(r"(?m)^(normal_force|sliding_speed|rotational_speed) = .*\n", "", made.read_text(encoding="utf-8")).replace(str(made), str(path)) + tables
+        text = (
+            re.sub(r"(?m)^(normal_force|sliding_speed|rotational_speed) = .*\n", "", made.read_text(encoding="utf-8")).replace(str(made), str(path))
+            + tables
+        )
         text = re.sub(r"(?m)^disc_primary = .*$", rf"\g<0>     {OF_DISC}", text)
         first = re.sub(r"(?m)^time_acceleration = .*$", "time_acceleration = 1", text)
         made.write_text(first, encoding="utf-8")
@@ -319,7 +327,11 @@ def _scene(path: Path, of_cycle: Path, csv: bytes, tables: str, duration: float)
             largest = call(["-q", "check", made])["cycle"]["largest_acceleration_without_warning"]
         except InputError as error:
             raise InputError(str(error).replace(str(made), str(path)).replace(str(cycle_made), str(of_cycle))) from None
-        remark = "every braking has ten simulated revolutions" if largest >= LEAST_ACCELERATION else "short brakings have less than ten simulated revolutions"
+        remark = (
+            "every braking has ten simulated revolutions"
+            if largest >= LEAST_ACCELERATION
+            else "short brakings have less than ten simulated revolutions"
+        )
         line = f"time_acceleration = {max(math.floor(min(largest, 100.0)), LEAST_ACCELERATION):<19} # 1 is the model itself; {remark}"
         return re.sub(r"(?m)^time_acceleration = .*$", line, text)
 
@@ -396,7 +408,9 @@ def _columns(table: TextTable, columns: Mapping[str, str]) -> Iterator[tuple[str
     if missing:
         there = ", ".join(f'"{head}"' for head in table.heads)
         said = " and ".join(f'"{columns.get(name, name)}"' for name in missing)
-        raise InputError(f"{table.path}: no column {said}; there are {there}: name {'it' if len(missing) == 1 else 'them'} by --column {missing[0]}=HEADER")
+        raise InputError(
+            f"{table.path}: no column {said}; there are {there}: name {'it' if len(missing) == 1 else 'them'} by --column {missing[0]}=HEADER"
+        )
     if len(loads) > 1:
         raise InputError(f"{table.path}: it has {' and '.join(loads)}, expected one of them: give the others another header")
 

@@ -50,7 +50,7 @@ def export(
     sign = "\t" if separator in ("tab", "\\t") else separator or {",": ";"}.get(decimal, ",")
     if to not in FORMATS:
         raise InputError(f"{to!r} is no format: expected {', '.join(FORMATS)}")
-    if to != "csv" and (decimal, sign) != (".", ",") or to == "xlsx" and maps:
+    if (to != "csv" and (decimal, sign) != (".", ",")) or (to == "xlsx" and maps):
         raise InputError(f"{to} has no {'maps' if maps else 'decimal mark or separator to choose'}: leave that out, or take csv")
     if decimal not in (".", ",") or len(sign) != 1 or sign.isalnum() or sign in "\"'+-.\r\n" or sign == decimal:
         raise InputError(f"decimal mark {decimal!r} with separator {separator!r}: expected . or , and a sign of no number, such as ;")

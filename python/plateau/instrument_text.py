@@ -110,7 +110,13 @@ def _zygo(lines: list[str]) -> tuple[dict[str, Any], list[list[str]]]:
         raise InputError(f"line 4: the heights have {width} x {height} points")
     _, factor, wavelength, _, obliquity, _, pixel, *_ = (float(word) for word in lines[7].split())
     blocks = [lines[begin + 1 : end] for begin, end in zip(marks, [*marks[1:], len(lines)], strict=True)]
-    facts = {"origin": (x, y), "size": (width, height), "wave": factor * wavelength * obliquity, "pixel": pixel, "resolution": int(lines[10].split()[0])}
+    facts = {
+        "origin": (x, y),
+        "size": (width, height),
+        "wave": factor * wavelength * obliquity,
+        "pixel": pixel,
+        "resolution": int(lines[10].split()[0]),
+    }
     return facts, blocks
 
 

@@ -59,7 +59,7 @@ def write(folder: Path, files: Mapping[str, bytes], *, of: str | None = None, fo
 
     def is_own(name: str) -> bool:
         path = folder / name
-        return force or (name in own or (name == LIST and bool(own))) and path.is_file() and not path.is_symlink()
+        return force or ((name in own or (name == LIST and bool(own))) and path.is_file() and not path.is_symlink())
 
     for name in (*files, LIST):
         refuse_file(folder / name, is_own(name), inputs, "name another folder with -o")

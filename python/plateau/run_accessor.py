@@ -123,8 +123,9 @@ class RunAccessor:
         """Mean of a series over a part of the run, with its standard error.
 
         The mean of the contact area is calculated from its integral, which includes every step, over the time in contact. It is the number
-        that ``plateau run`` prints. In other series, a sample represents the time since the previous sample; where a sample has no value, as a temperature
-        of a lifted pin, this time is left out. `plateau.means.mean_between` describes the standard error. It takes into account that neighbouring values are correlated.
+        that ``plateau run`` prints. In other series, a sample represents the time since the previous sample; where a sample has no value,
+        as a temperature of a lifted pin, this time is left out. `plateau.means.mean_between` describes the standard error. It takes into
+        account that neighbouring values are correlated.
 
         Parameters
         ----------

@@ -187,10 +187,7 @@ def _complete_part(file: Any) -> xarray.DataTree:
 
 def _variable(dataset: Any, complete: dict[str, int]) -> tuple[list[str], Any, dict[str, Any]]:
     """Dimensions, values and attributes."""
-    if dataset.is_scale:
-        dims = [dataset.name.rsplit("/", 1)[-1]]
-    else:
-        dims = [dimension[0].name.rsplit("/", 1)[-1] for dimension in dataset.dims]
+    dims = [dataset.name.rsplit("/", 1)[-1]] if dataset.is_scale else [dimension[0].name.rsplit("/", 1)[-1] for dimension in dataset.dims]
     parts = tuple(slice(complete.get(name)) for name in dims)
     values = dataset[parts]
     # Statuses are an enumeration there, and plain integers here.

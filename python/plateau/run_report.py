@@ -38,9 +38,9 @@ NO_PAGES = (".pdf", ".png", ".svg", ".csv")
 FIRST_FIGURES = (("friction", "temperature", "emission", "contact-area"), ("contact-area", "filled", "status", "heights"))
 # Series of which the largest value is told, the last one, and the mean, for they pulse with the contact area; the first two of runs with
 # friction, heat or emission.
-LARGEST = "disc_temperature contact_temperature contact_temperature_max pin_temperature heat_residual".split()
-DISSIPATION = ("disc_temperature pin_temperature friction_work heat_lost emitted_mass pm10_mass pm25_mass particle_number").split()
-MEANS = "contact_ratio mean_pressure max_pressure friction_coefficient pin_secondary pin_primary pin_none".split()
+LARGEST = ["disc_temperature", "contact_temperature", "contact_temperature_max", "pin_temperature", "heat_residual"]
+DISSIPATION = ["disc_temperature", "pin_temperature", "friction_work", "heat_lost", "emitted_mass", "pm10_mass", "pm25_mass", "particle_number"]
+MEANS = ["contact_ratio", "mean_pressure", "max_pressure", "friction_coefficient", "pin_secondary", "pin_primary", "pin_none"]
 AT_END = ("filled_fraction disc_secondary worn_whole_pin lost_pin worn_pin worn_resin worn_disc emitted deposited_pin deposited_disc pool").split()
 # Numbers of several runs on the first page, by their names in the table of all numbers, and what they are called there.
 ANSWERS = {
@@ -54,7 +54,7 @@ ANSWERS = {
 }
 # Numbers of the whole brake, of runs with one, at their end.
 BRAKE = [name for name in SERIES if name.startswith(("brake_", "pad_")) and name != "brake_torque"]
-ORIGIN = "program source_revision host instruction_set start_time end_time seeds surfaces conventions references".split()
+ORIGIN = ["program", "source_revision", "host", "instruction_set", "start_time", "end_time", "seeds", "surfaces", "conventions", "references"]
 
 
 @dataclass(frozen=True)
@@ -345,7 +345,7 @@ def _compared(told: Sequence[Told]) -> tuple[list[str], str]:
     texts = {name: [one.measures[name].text if name in one.measures else UNKNOWN for one in told] for name in ANSWERS}
     texts = {ANSWERS[name]: own for name, own in texts.items() if {*own} != {UNKNOWN}}
     of_scenes = table(["run", *told[0].five], [[one.label, *one.five.values()] for one in told])
-    of_runs = table(["run", *texts], [[one.label, *row] for one, row in zip(told, zip(*texts.values()), strict=True)])
+    of_runs = table(["run", *texts], [[one.label, *row] for one, row in zip(told, zip(*texts.values(), strict=True), strict=True)])
     areas = [told[0].area.text, *(one.area.compared(told[0].area) for one in told[1:])]
     said = "The contact area is: " + "; ".join(f"{one.label} {area}" for one, area in zip(told, areas, strict=True))
     runs_in = "; ".join(f"{one.label}: {with_minus(one.summary['running_in'])}" for one in told if one.summary.get("running_in"))

@@ -15,7 +15,7 @@ from plateau.run_report import report
 from plateau.style import saved
 from plateau.units import quantity
 
-COLOURS = "viridis cividis inferno magma plasma greys".split()
+COLOURS = ["viridis", "cividis", "inferno", "magma", "plasma", "greys"]
 # Widths that figures can have, m: less has no room for a map and its colour bar.
 LEAST_WIDTH, MOST_WIDTH = 0.06, 1.0
 RUNS = "Run files, also of runs that go on or were stopped; at most 10"
@@ -54,7 +54,9 @@ def add(words: Words) -> None:
     _output(made, "FILE", "File to write, for vtk the folder, made if it is not there; named like the run file unless given")
     made.add_argument("--maps", action="store_true", help="Write the maps too; for csv, as the other formats but xlsx have them anyway")
     made.add_argument("--decimal", choices=(".", ","), default=".", help="Decimal mark of csv [default: .]")
-    made.add_argument("--separator", metavar="SIGN", help='What separates the columns of csv, such as ";" or tab [default: , or ; with a decimal comma]')
+    made.add_argument(
+        "--separator", metavar="SIGN", help='What separates the columns of csv, such as ";" or tab [default: , or ; with a decimal comma]'
+    )
     of_all(made, "Replace files that exist")
 
 

@@ -87,7 +87,7 @@ class Scene:
         Scene
         """
         if changes is not None and not isinstance(changes, Mapping):
-            raise InputTypeError(f"{changes!r}: expected a dictionary, such as {{\"operation.normal_force\": \"20 N\"}}")
+            raise InputTypeError(f'{changes!r}: expected a dictionary, such as {{"operation.normal_force": "20 N"}}')
         return self._changed({**_layer(changes or {}), **_layer(more)}, 4)
 
     def _changed(self, changes: Mapping[str, Any], stacklevel: int | None) -> "Scene":
@@ -166,7 +166,7 @@ def _source(scene: Any) -> tuple[str, str | None, Layers]:
         return scene._path, scene._text, scene._changes
     if scene is None or isinstance(scene, Mapping):
         return UNNAMED, "", ({"version": 1, **_layer(scene or {})},)
-    if isinstance(scene, str) and ("\n" in scene or "=" in scene and not os.path.exists(scene)):
+    if isinstance(scene, str) and ("\n" in scene or ("=" in scene and not os.path.exists(scene))):
         return UNNAMED, in_utf8(scene, "the text of the scene"), ()
     return file_name(scene, "a scene"), None, ()
 
@@ -188,7 +188,7 @@ def _flat(tables: Mapping[str, Any], above: str = "") -> Iterator[tuple[str, Any
     """Whole paths of keys and their values; single words are keys of any table."""
     for name, value in tables.items():
         if not isinstance(name, str) or "=" in name:
-            raise InputError(f"{shown(name)} is not a key of a scene, expected text such as \"operation.normal_force\"")
+            raise InputError(f'{shown(name)} is not a key of a scene, expected text such as "operation.normal_force"')
         path = f"{above}.{name}" if above else name if isinstance(value, Mapping) else _path_of(name)
         if isinstance(value, Mapping) and value and path not in _keys():
             yield from _flat(value, path)
@@ -199,7 +199,7 @@ def _flat(tables: Mapping[str, Any], above: str = "") -> Iterator[tuple[str, Any
 def _path_of(name: Any) -> str:
     """The whole path of a key that is given by its last word."""
     if not isinstance(name, str):
-        raise InputTypeError(f"{shown(name)} is not a key of a scene, expected text such as \"operation.normal_force\"")
+        raise InputTypeError(f'{shown(name)} is not a key of a scene, expected text such as "operation.normal_force"')
     if "." in name or name in _keys():
         return name
     # Columns of a cycle are called as keys are.

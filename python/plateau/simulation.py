@@ -344,8 +344,8 @@ class Simulation:
         Raises
         ------
         InputError
-            If an array is not of real numbers, or masked, a shape is wrong, or a height is no finite number, on the wrong side of its substrate, or above the highest initial height
-            of the disc, up to which debris fills it.
+            If an array is not of real numbers, or masked, a shape is wrong, or a height is no finite number, on the wrong side of its
+            substrate, or above the highest initial height of the disc, up to which debris fills it.
         """
         given = (disc_height, disc_substrate, pin_height, pin_substrate)
         rows, disc, pin, *_ = self._native.mesh

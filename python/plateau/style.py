@@ -68,7 +68,10 @@ def _look() -> Any:
 def saved(
     figures: Mapping[str, Any], formats: Sequence[str] | None = None, dpi: int | None = None, progress: bool | None = False
 ) -> dict[str, bytes]:
-    """Files of figures by name with ending, of all formats unless told; equal figures give equal files. `dpi` is also that of maps within svg and pdf."""
+    """Files of figures by name with ending, of all formats unless told; equal figures give equal files.
+
+    `dpi` is also that of maps within svg and pdf.
+    """
     import matplotlib
 
     files: dict[str, bytes] = {}

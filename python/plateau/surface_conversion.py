@@ -114,9 +114,11 @@ def read(path: Path, content: bytes) -> Heights:
                 return by(path, _unfolded(content))
         except (PlateauError, ImportError):
             raise
-        except Exception as error:  # noqa: BLE001 - the libraries raise what the damaged file made of them
+        except Exception as error:
             said.append(f"{name}: {_first_line(error)}")
-    raise InputError(f"{path}: no library reads it ({'; '.join(said)}); save it as SDF, or as text with unit and pitch, with the instrument's program")
+    raise InputError(
+        f"{path}: no library reads it ({'; '.join(said)}); save it as SDF, or as text with unit and pitch, with the instrument's program"
+    )
 
 
 def _first_line(error: Exception) -> str:

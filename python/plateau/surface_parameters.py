@@ -47,9 +47,14 @@ PARAMETERS: dict[str, tuple[str, str, float, str]] = {
     "Sal": (SPATIAL, "um", 1e6, "autocorrelation length"),
     "Str": (SPATIAL, "1", 1.0, "texture aspect ratio"),
     "Std": (SPATIAL, "deg", 180.0 / np.pi, "texture direction: lay from x towards y"),
-    **{f"{name}_{axis}": (PROFILE, unit, factor, f"{about}, {way}") for axis, way in (("x", "along"), ("y", "across")) for name, unit, factor, about in (
-        ("Ra", "um", 1e6, "arithmetical mean height"), ("Rq", "um", 1e6, "root-mean-square height"), ("Rsk", "1", 1.0, "skewness"), ("Rku", "1", 1.0, "kurtosis"))},
 }  # fmt: skip
+OF_PROFILES = {"Ra": ("um", 1e6, "arithmetical mean height"), "Rq": ("um", 1e6, "root-mean-square height")}
+OF_PROFILES |= {"Rsk": ("1", 1.0, "skewness"), "Rku": ("1", 1.0, "kurtosis")}
+PARAMETERS |= {
+    f"{name}_{axis}": (PROFILE, unit, factor, f"{about}, {way}")
+    for axis, way in (("x", "along"), ("y", "across"))
+    for name, (unit, factor, about) in OF_PROFILES.items()
+}
 
 
 def parameters(heights: Any, pitch: tuple[float, float] | None) -> dict[str, Any]:

@@ -2,7 +2,9 @@
 
 
 def decoded(content: bytes) -> str:
-    """The text of a file: UTF-8 or UTF-16, with byte order mark or without, else Windows-1252. What the encoding does not have is a replacement character.
+    """The text of a file: UTF-8 or UTF-16, with byte order mark or without, else Windows-1252.
+
+    What the encoding does not have is a replacement character.
 
     Examples
     --------

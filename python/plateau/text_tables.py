@@ -70,7 +70,9 @@ def read_text_table(path: Path) -> TextTable:
     names, numbers = told[0][1], [number for number, _ in told]
     for before, (number, line) in zip(numbers[1:], told[2:], strict=False):
         if line.strip() == names.strip() or any(not between.strip() for _, between in numbered[before : number - 1]):
-            said = "a table has one line of names and no blank lines between its rows; take these out, or put what stands below into a file of its own"
+            said = (
+                "a table has one line of names and no blank lines between its rows; take these out, or put what stands below into a file of its own"
+            )
             raise InputError(f"{path}:{number}: another table begins here: {said}")
     mark = stated[1] if stated else "\t" if "\t" in names else ";" if names.count(";") > names.count(",") else ","
     heads, *rows = (_cells(path, number, line, mark) for number, line in told)

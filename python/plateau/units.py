@@ -223,8 +223,8 @@ def quantity(said: object, si: str, *, is_difference: bool = False, needs_unit: 
         raise InputTypeError(f"{shown(said)}, {expected}")
     told = json.dumps(said, default=str, ensure_ascii=False)
     found = re.fullmatch(rf"({NUMBER})\s*(\D.*)?", str(said).strip().replace("\N{MINUS SIGN}", "-"))
-    unit = (found and found[2] or "").strip() or ("" if needs_unit else si)
-    if found is None or not unit or not math.isfinite(float(found[1])) or si == "1" and unit not in ("%", "1" if not needs_unit else "%"):
+    unit = ((found and found[2]) or "").strip() or ("" if needs_unit else si)
+    if found is None or not unit or not math.isfinite(float(found[1])) or (si == "1" and unit not in ("%", "1" if not needs_unit else "%")):
         raise InputError(f"{told}, {expected}")
     if re.match(r",\d", unit):
         raise InputError(f"{told}: decimal marks are points, {expected}")

@@ -59,8 +59,7 @@ STATUSES = {"none": 0, "primary": 1, "secondary": 2}
 ENUMERATIONS = {"disc/status", "pin/status", "pin/base"}
 TIMES = {"time", "map_time"}
 TEXTS = (
-    "title program source_revision scene conventions Conventions references inputs seeds host decomposition instruction_set "
-    "start_time end_time state"
+    "title program source_revision scene conventions Conventions references inputs seeds host decomposition instruction_set start_time end_time state"
 ).split()
 
 

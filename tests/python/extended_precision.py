@@ -203,6 +203,7 @@ def remove(height, substrate, secondary, raw, raw_of_substrate, direction):
 def wear(state, pair, overlap, parameters):
     """Wears both surfaces; the heights that the cells of pin and disc lost."""
     pin, disc = parameters.pin, parameters.disc
+
     def rate_of_pin(status):
         alone, on_build_up = (by_status(pin, name, status) for name in ("specific_wear_rate", "wear_rate_against_secondary"))
         return np.where(pair.disc_status == SECONDARY, on_build_up, alone)

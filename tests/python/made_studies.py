@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 import pandas
 import xarray
+
 from plateau.study.data import Factor, Response, Study
 
 ENDS = {"low": -math.inf, "high": math.inf}

@@ -11,6 +11,16 @@ SHORT = {"operation.duration": "20 s", "output.maps_at": ["0 s", "10 s"]}
 # A fifth of a second for a pulse of the contact area, in place of 25 s.
 PULSES = {"materials.pin_resin.wear_height": "0.04 um"}
 ROUND = {**SHORT, "mesh": {"shape": "disc", "pin_width": "1 mm", "cell_size": "50 um", "mean_radius": "20.5 mm"}}
+# Maps of a run file by their names in scenes.
+MAPS = {
+    "disc_height": "disc/height",
+    "disc_substrate": "disc/substrate",
+    "disc_status": "disc/status",
+    "pin_height": "pin/height",
+    "pin_substrate": "pin/substrate",
+    "pin_status": "pin/status",
+    "pressure": "pin/pressure",
+}
 STUDY = f"""
 version = 1
 base = "{QUICK}"

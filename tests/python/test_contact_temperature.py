@@ -135,7 +135,7 @@ class Program(Folder):
                 self.compare(coated)
 
     def compare(self, coated):
-        thermal = {key: value for key, value in HOT["thermal"].items()}
+        thermal = dict(HOT["thermal"].items())
         if not coated:
             thermal["disc"] = {key: value for key, value in thermal["disc"].items() if key != "coating"}
         quick = tomllib.loads((SCENES / "quick.toml").read_text())

@@ -13,8 +13,8 @@ import unittest
 
 import netCDF4
 import numpy as np
-from PIL import Image
 from checkout import QUICK, ROOT, changed, program
+from PIL import Image
 
 
 def numbers(line):
@@ -138,8 +138,8 @@ class Examples(unittest.TestCase):
     def test_compare_runs(self):
         lines = self.example("compare_runs.py", "quick.h5", "strong.h5", "--series", "filled_fraction", "-o", "compare.png")
         self.assertEqual(len(lines), 3)
-        names, units = zip(*re.findall(r"(\S+) \[(\S+)\]", lines[0]))
-        for name, line in zip(["quick", "strong"], lines[1:]):
+        names, units = zip(*re.findall(r"(\S+) \[(\S+)\]", lines[0]), strict=True)
+        for name, line in zip(["quick", "strong"], lines[1:], strict=True):
             with netCDF4.Dataset(self.folder / f"{name}.h5") as run:
                 time, series = run["time"][:], {name: run["series"][name][:] for name in names[3:]}
                 integral = run["series"]["contact_area_integral"][:]
@@ -151,7 +151,7 @@ class Examples(unittest.TestCase):
             self.close(found[:3], [end, *(1e-6 * value for value in mean)])
             first = np.argmin(abs(time - start))
             self.close(found[1], (integral[-1] - integral[first]) / (time[-1] - time[first]))
-            pressure = series.pop("mean_pressure")[first + 1:].mean()
+            pressure = series.pop("mean_pressure")[first + 1 :].mean()
             # Samples lie whole steps apart, so that their distances differ a little.
             np.testing.assert_allclose(found[3], pressure, rtol=2e-3)
             self.close(found[4:], [values[-1] for values in series.values()])
@@ -182,8 +182,9 @@ class Examples(unittest.TestCase):
         self.assertEqual(len(lines), 1 + len(times))
         for index, line in enumerate(lines[1:]):
             found = [float(word) for word in line.split()]
-            mean = [np.average(status == value, axis=1, weights=radius).mean()
-                    for status, value in ((disc[index], 2), (pin[index], 1), (pin[index], 2))]
+            mean = [
+                np.average(status == value, axis=1, weights=radius).mean() for status, value in ((disc[index], 2), (pin[index], 1), (pin[index], 2))
+            ]
             mean.append(np.average(film[index], axis=1, weights=radius).mean() * 1e6)
             np.testing.assert_allclose(found[1:5], mean, rtol=0, atol=1e-6)
             self.close(found[0], times[index])
@@ -198,7 +199,7 @@ class Examples(unittest.TestCase):
         for _ in range(2):  # The second time nothing is run again.
             lines = self.example("loads.py", "loads.toml", "--loads", "5", "20")
             self.assertEqual(len(lines), 3)
-            for name, load, line in zip(["quick", "strong"], [5, 20], lines[1:]):
+            for name, load, line in zip(["quick", "strong"], [5, 20], lines[1:], strict=True):
                 line_of_mean = self.line_of_mean(name)
                 self.close([float(word) for word in line.split()], [load, *numbers(line_of_mean.replace("mm2", "mm"))[2:]])
 
@@ -213,7 +214,7 @@ class Examples(unittest.TestCase):
         units = {"time": "s", "contact_area_mean": "m2", "mean_pressure": "Pa", "filled_fraction": "1"}
         self.assertEqual(dict(re.findall(r"(\S+) \[(\S+)\]", lines[1])), units)
         first = time <= time[-1] / 2
-        for line, part in zip(lines[2:], [first, ~first]):
+        for line, part in zip(lines[2:], [first, ~first], strict=True):
             found = [float(word) for word in line.split("]")[1].split()]
             self.close(found, [series[name][part].mean() for name in names])
         self.assertEqual(len(lines), 4)

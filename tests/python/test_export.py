@@ -17,13 +17,12 @@ import numpy as np
 import pandas
 import xarray
 from checkout import QUICK, Folder, word
+from package_scenes import MAPS
 
 import plateau
 from plateau import exports
 
-MAPS = {"disc_height": "disc/height", "disc_substrate": "disc/substrate", "disc_status": "disc/status",
-        "pin_height": "pin/height", "pin_substrate": "pin/substrate", "pin_status": "pin/status",
-        "pressure": "pin/pressure", "pin_base": "pin/base"}
+EXPORTED = MAPS | {"pin_base": "pin/base"}
 SHORT = {"operation.duration": "5 s", "output.maps_at": ["0 s", "2 s"], "output.roughness": True}
 
 
@@ -31,7 +30,7 @@ def grid(path):
     """Extent, cell data and points of a .vts file: the XML as XML, the numbers behind it by the format's description."""
     content = path.read_bytes()
     mark = content.index(b"_", content.index(b"<AppendedData"))
-    tail = content[content.rindex(b"</AppendedData>"):]
+    tail = content[content.rindex(b"</AppendedData>") :]
     head = xml.fromstring(content[:mark] + tail)
     assert (head.get("type"), head.get("byte_order"), head.get("header_type")) == ("StructuredGrid", "LittleEndian", "UInt64")
     assert head.find("AppendedData").get("encoding") == "raw"
@@ -116,7 +115,7 @@ class Export(Folder):
         plateau.export(self.made, "npz", "out.npz")
         with h5py.File(self.made) as run, np.load("out.npz", allow_pickle=False) as arrays:
             paths = {name: name for name in ("time", "map_time", "radius", "disc_angle", "pin_angle")}
-            paths |= {name: f"series/{name}" for name in run["series"]} | MAPS
+            paths |= {name: f"series/{name}" for name in run["series"]} | EXPORTED
             texts = {"title", "state", "scene", "units"}
             self.assertEqual(set(arrays.files), set(paths) | texts)
             for name, path in paths.items():
@@ -214,8 +213,10 @@ class Export(Folder):
 
     def test_a_disk_that_is_full_is_told_in_one_line(self):
         # In a process of its own, which HDF5 ended by a signal where it wrote by itself.
-        limited = ("import resource, sys; resource.setrlimit(resource.RLIMIT_FSIZE, (4096, 4096)); "
-                   "from plateau.command_line import main; sys.exit(main(['export', *sys.argv[1:]]))")
+        limited = (
+            "import resource, sys; resource.setrlimit(resource.RLIMIT_FSIZE, (4096, 4096)); "
+            "from plateau.command_line import main; sys.exit(main(['export', *sys.argv[1:]]))"
+        )
         for to in exports.FORMATS:
             with self.subTest(to):
                 done = subprocess.run([sys.executable, "-c", limited, self.made, "--to", to], capture_output=True, text=True, check=False)
@@ -223,7 +224,11 @@ class Export(Folder):
                 self.assertEqual((done.returncode, [path for path in pathlib.Path().rglob("*") if path.is_file()]), (1, []))
 
     def test_endings_are_those_of_the_format(self):
-        for to, name, told in (("npz", "a.nc", r"ends in \.npz, such as a\.npz"), ("csv", "a.xlsx", r"\.csv or \.tsv or \.txt"), ("netcdf", "a.h5", r"\.nc or")):
+        for to, name, told in (
+            ("npz", "a.nc", r"ends in \.npz, such as a\.npz"),
+            ("csv", "a.xlsx", r"\.csv or \.tsv or \.txt"),
+            ("netcdf", "a.h5", r"\.nc or"),
+        ):
             with self.subTest(to), self.assertRaisesRegex(plateau.InputError, told):
                 plateau.export(self.made, to, name)
         self.assertEqual(os.listdir(), [])
@@ -277,10 +282,15 @@ class Export(Folder):
         plateau.export(run, "csv", "heads.csv")
         plateau.export(run, "xlsx", "heads.xlsx")
         for table in (pandas.read_csv("heads.csv"), pandas.read_excel("heads.xlsx")):
-            self.assertEqual([head for head in table.columns if not head[0].isalnum()], [f"'{name} [m3]" for name in ("=1+1", "+1", "-1", "@a", "|a")])
+            self.assertEqual(
+                [head for head in table.columns if not head[0].isalnum()], [f"'{name} [m3]" for name in ("=1+1", "+1", "-1", "@a", "|a")]
+            )
 
     def test_what_is_not_installed_is_told(self):
-        with unittest.mock.patch.dict(sys.modules, {"pyevtk": None, "pyevtk.hl": None}), self.assertRaisesRegex(plateau.MissingPackageError, "brake.all"):
+        with (
+            unittest.mock.patch.dict(sys.modules, {"pyevtk": None, "pyevtk.hl": None}),
+            self.assertRaisesRegex(plateau.MissingPackageError, "brake.all"),
+        ):
             plateau.export(self.made, "vtk")
 
     def test_the_word(self):

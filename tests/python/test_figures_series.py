@@ -190,7 +190,7 @@ class Curves(InFolder):
 
     def test_emission(self):
         figure = plateau.plot("drive.h5", "emission")
-        mass, number, mass_per_way, number_per_way = figure.axes
+        mass, _number, mass_per_way, number_per_way = figure.axes
         time, pm25, particles, way = series("drive.h5", "time", "pm25_mass", "particle_number", "road_distance")
         drawn = line(mass, "PM2.5")
         ends, rates = drawn.get_xdata(), drawn.get_ydata()

@@ -4,8 +4,8 @@ hand or from formulas."""
 import json
 import math
 import pathlib
-import statistics
 import shutil
+import statistics
 from unittest import mock
 
 import matplotlib.colors
@@ -29,7 +29,12 @@ def described(heights, pitch, name="made", **more):
     """What the program tells of a surface, as far as figures need it, in its units."""
     known = np.sort(heights[np.isfinite(heights)])[::-1] - np.nanmean(heights)
     places = (np.arange(known.size) + 0.5) / known.size
-    told = {"title": name, "body": name.split()[0] if name.split()[0] in ("disc", "pin") else None, "pitch": [one / UM for one in pitch], "measured": known.size}
+    told = {
+        "title": name,
+        "body": name.split()[0] if name.split()[0] in ("disc", "pin") else None,
+        "pitch": [one / UM for one in pitch],
+        "measured": known.size,
+    }
     told |= {"points": heights.size, "rows": heights.shape[0], "columns": heights.shape[1]}
     told |= {"Sq": known.std() / UM, "Ssk": 0.0, "Sku": 1.5, "Sp": known[0] / UM, "Sv": -known[-1] / UM, "units": UNITS}
     told |= {"Sk": 1.0, "Spk": 0.5, "Svk": 0.25, "Smr1": 10.0, "Smr2": 80.0, "Sal": None, "Str": None, **more}
@@ -134,7 +139,7 @@ class Surfaces(InFolder):
         figure = surfaces(folder_of((described(heights, (10 * UM, 5 * UM)), heights)))["surfaces"]
         per_mm, density = panel(figure, "spatial frequency, mm⁻¹").lines[0].get_data()
         self.assertAlmostEqual(density.sum() * (per_mm[1] - per_mm[0]), 50, delta=1)
-        lag, values = panel(figure, "lag, mm").lines[0].get_data()
+        _lag, values = panel(figure, "lag, mm").lines[0].get_data()
         known = np.isfinite(heights)
         z = np.where(known, heights - np.nanmean(heights), 0)
         pairs = (known[:, :-30] & known[:, 30:]).sum()
@@ -253,14 +258,24 @@ class FibreMaps(InFolder):
         heights[0] = 1 * UM
         shutil.copytree(folder_of((described(heights, (1.2 * MM, 1 * MM), "disc", is_patch=False), heights)), ".", dirs_exist_ok=True)
         told = {"extent": [10 * MM, 4 * MM], "picture": [3 * MM, 5 * MM], "micrograph": "grey.npy", "fibre": "fibre.npy", "base": "base.npy"}
-        told |= {"is_tiled": True, "seams": {"angles": [0.0, 1.0], "radii": [19 * MM]}, "mean_radius": 20 * MM, "row_height": 1 * MM, "pin_columns": 8}
+        told |= {
+            "is_tiled": True,
+            "seams": {"angles": [0.0, 1.0], "radii": [19 * MM]},
+            "mean_radius": 20 * MM,
+            "row_height": 1 * MM,
+            "pin_columns": 8,
+        }
         told |= {"leading_edge": [[-5 * MM, -2 * MM], [-5 * MM, 2 * MM]]}
         pathlib.Path("fibre_map.json").write_text(json.dumps(told))
         _, right, whole, *_ = fibre_map(".")["fibre-map"].axes
         # The picture lies in the middle: 3 mm from 1.5 mm on; it is higher than the pin.
         seams = sorted(line.get_xdata()[0] for line in right.lines if line.get_color() == SEAM["color"])
         np.testing.assert_allclose(seams, [-4.5, -1.5, 1.5, 4.5])
-        angles = [math.atan2(line.get_xdata()[0], line.get_ydata()[0] + 20) for line in whole.lines if line.get_color() == SEAM["color"] and len(line.get_xdata()) == 2]
+        angles = [
+            math.atan2(line.get_xdata()[0], line.get_ydata()[0] + 20)
+            for line in whole.lines
+            if line.get_color() == SEAM["color"] and len(line.get_xdata()) == 2
+        ]
         np.testing.assert_allclose(angles, [-4 * math.tau / 100, 1 - 4 * math.tau / 100])
         # Without a picture there is the pin alone.
         pathlib.Path("fibre_map.json").write_text(json.dumps({**told, "micrograph": None, "fibre": None, "picture": None, "is_tiled": False}))

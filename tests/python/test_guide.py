@@ -2,7 +2,6 @@
 
 import h5py
 import numpy as np
-
 from checkout import QUICK
 from guide import Guide
 

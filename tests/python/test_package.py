@@ -62,6 +62,12 @@ class Documentation(InFolder):
                 for member, value in vars(thing).items():
                     self.assertTrue(member.startswith("_") or value.__doc__, f"{name}.{member}")
 
+    def test_lints_and_format(self):
+        for words in (["check"], ["format", "--check"]):
+            ruff = [sys.executable, "-m", "ruff", *words, "--no-cache", "--quiet", str(ROOT)]
+            found = subprocess.run(ruff, capture_output=True, text=True, check=False)
+            self.assertEqual(found.returncode, 0, found.stdout + found.stderr)
+
     def test_types(self):
         try:
             import mypy.api
@@ -147,9 +153,18 @@ class Runs(InFolder):
             program.call(["run"])
 
     def test_a_file_that_is_not_there_is_told_as_such(self):
-        calls = [lambda path: plateau.run(path), lambda path: plateau.run(path, resume=True), plateau.check, plateau.sweep, plateau.collect,
-                 plateau.study.effects, plateau.open_run, plateau.open_study, lambda path: plateau.command("surface", path, json=True),
-                 lambda path: plateau.command("plot", path)]
+        calls = [
+            lambda path: plateau.run(path),
+            lambda path: plateau.run(path, resume=True),
+            plateau.check,
+            plateau.sweep,
+            plateau.collect,
+            plateau.study.effects,
+            plateau.open_run,
+            plateau.open_study,
+            lambda path: plateau.command("surface", path, json=True),
+            lambda path: plateau.command("plot", path),
+        ]
         for call in calls:
             for path in ("none.toml", pathlib.Path("no/none.toml")):
                 with self.assertRaisesRegex(plateau.MissingFileError, "none.toml") as caught:
@@ -179,11 +194,24 @@ class Runs(InFolder):
     def test_any_command(self):
         said = 'for word; do printf "<%s>" "$word"; done'
         with stand_in(said):
-            found = plateau.command("sweep", "predict", pathlib.Path("a b.toml"), 3, max_failures=2, force=True, retry=False, output=None,
-                                    figure=["one", "two"], set={"operation.normal_force": "5 N", "mesh.rows": 10})
-        self.assertEqual(found, "<sweep><predict><a b.toml><3><--max-failures><2><--force><--figure><one><--figure><two>"
-                         '<--set><operation.normal_force="5 N"><--set><mesh.rows=10>')
-        with stand_in("printf '{\"arguments\": \"%s\"}' \"$*\""):
+            found = plateau.command(
+                "sweep",
+                "predict",
+                pathlib.Path("a b.toml"),
+                3,
+                max_failures=2,
+                force=True,
+                retry=False,
+                output=None,
+                figure=["one", "two"],
+                set={"operation.normal_force": "5 N", "mesh.rows": 10},
+            )
+        self.assertEqual(
+            found,
+            "<sweep><predict><a b.toml><3><--max-failures><2><--force><--figure><one><--figure><two>"
+            '<--set><operation.normal_force="5 N"><--set><mesh.rows=10>',
+        )
+        with stand_in('printf \'{"arguments": "%s"}\' "$*"'):
             self.assertEqual(plateau.command("fit", "study.toml", json=True), {"arguments": "fit study.toml --json"})
         with stand_in("echo 'plateau: warning: beware' >&2"), self.assertWarnsRegex(plateau.PlateauWarning, "^beware$") as warned:
             self.assertIsNone(plateau.command("surface", json=True))
@@ -214,9 +242,9 @@ class Runs(InFolder):
     def test_times(self):
         told = {"30 s": 30.0, "1.5min": 90.0, " 2 h ": 7200.0, "5e2 ms": 0.5, 7: 7.0, np.float64(2.5): 2.5, ".5 s": 0.5}
         self.assertEqual([quantity(time, "s") for time in told], list(told.values()))
-        for time in ("30", "30 sec", "s", "1,5 s", "1 N", None, [1], "nan s"):
+        for wrong in ("30", "30 sec", "s", "1,5 s", "1 N", None, [1], "nan s"):
             with self.assertRaisesRegex(plateau.InputError, "expected a number in s, or text with a unit"):
-                quantity(time, "s")
+                quantity(wrong, "s")
 
     def test_errors_can_be_sent_to_another_process(self):
         for kind in (plateau.MissingFileError, plateau.UnknownNameError, plateau.InputTypeError, plateau.RunFailed):
@@ -244,7 +272,8 @@ class Runs(InFolder):
     def test_an_interrupt_of_python_alone_closes_the_run_file(self):
         text = (
             # A shell may have had what runs in its background ignore the signal.
-            "import signal, plateau\nsignal.signal(signal.SIGINT, signal.default_int_handler)\ntry:\n    plateau.run('quick.toml', 'long.h5', set={'operation.duration': '100000 s'})\n"
+            "import signal, plateau\nsignal.signal(signal.SIGINT, signal.default_int_handler)\ntry:\n"
+            "    plateau.run('quick.toml', 'long.h5', set={'operation.duration': '100000 s'})\n"
             "except KeyboardInterrupt:\n    print('interrupted')"
         )
         process = subprocess.Popen([sys.executable, "-c", text], stdout=subprocess.PIPE, text=True)
@@ -374,8 +403,7 @@ class Studies(InFolder):
     def test_words_of_a_study_are_words_whatever_they_look_like(self):
         words = ["nan", "inf", "1e3", "1000", "007", "-", "=1+1", "A"]
         pathlib.Path("words.toml").write_text(
-            f'version = 1\ndesign = "full-factorial"\n[[factor]]\nname = "grade"\nlevels = {words}\n'
-            '[[response]]\nname = "wear"\nimported = true\n'
+            f'version = 1\ndesign = "full-factorial"\n[[factor]]\nname = "grade"\nlevels = {words}\n[[response]]\nname = "wear"\nimported = true\n'
         )
         pathlib.Path("words.csv").write_text("grade,wear\n" + "".join(f"{word},{at}\n" for at, word in enumerate(words)))
         plateau.command("sweep", "import", "words.toml", "words.csv")

@@ -1,6 +1,7 @@
 """Means, maps, build-up and figures of the Python package, against closed forms, sums written out by hand, and what the program prints;
 and run files that are read while they are written and after a kill."""
 
+import itertools
 import os
 import pathlib
 import signal
@@ -275,7 +276,7 @@ class Runs(InFolder):
                 # Labels beyond the ends of an axis are not drawn.
                 shown = [box for box in boxes if panel.bbox.y0 - 10 < (box.y0 + box.y1) / 2 < panel.bbox.y1 + 10]
                 self.assertGreaterEqual(len(shown), 2)
-                self.assertTrue(all(below.y1 <= above.y0 for below, above in zip(shown, shown[1:])), panel.get_title())
+                self.assertTrue(all(below.y1 <= above.y0 for below, above in itertools.pairwise(shown)), panel.get_title())
         # A ring in one box is stretched, or it would be a line; a pin is in proportion.
         self.assertGreater(two[1].bbox.height, 100)
         self.assertEqual(two[0].get_aspect(), 1)
@@ -314,7 +315,12 @@ class Wrong(InFolder):
 
     def test_what_is_not_a_run_file(self):
         os.mkfifo("pipe.h5")
-        for path, told in ((".", "this is a folder"), ("pipe.h5", "not a regular file"), (None, "expected the path of a run file"), (3.5, "expected the path")):
+        for path, told in (
+            (".", "this is a folder"),
+            ("pipe.h5", "not a regular file"),
+            (None, "expected the path of a run file"),
+            (3.5, "expected the path"),
+        ):
             with self.assertRaisesRegex(plateau.InputError, told):
                 plateau.open_run(path)
         with self.assertRaisesRegex(plateau.InputError, "quick.toml: cannot be read as a run file: it is not an HDF5 file; plateau.run"):
@@ -341,7 +347,8 @@ class Pauses(InFolder):
         lines += [f"{time},{force},{speed}" for time, force, speed in table]
         pathlib.Path("cycle.csv").write_text("\n".join(lines) + "\n")
         pathlib.Path("city.toml").write_text(
-            'extends = "quick.toml"\n[operation]\nduration = "8 s"\n[numerics]\ntime_acceleration = 2\n[operation.cycle]\nfile = "cycle.csv"\ninterpolation = "hold"\n'
+            'extends = "quick.toml"\n[operation]\nduration = "8 s"\n[numerics]\ntime_acceleration = 2\n'
+            '[operation.cycle]\nfile = "cycle.csv"\ninterpolation = "hold"\n'
         )
         run = plateau.run("city.toml")
         axes = run.plateau.plot()
@@ -455,7 +462,9 @@ class Unfinished(InFolder):
 class Cycles(InFolder):
     def test_a_row_for_each_event(self):
         rows = [["0 s", "5 N", "850 rpm"], ["1 s", "5 N", "0 rpm"], ["1 s", "0 N", "0 rpm"], ["2 s", "0 N", "850 rpm"]]
-        pathlib.Path("stops.toml").write_text(f'extends = "quick.toml"\n[operation]\nduration = "6 s"\n[operation.cycle]\npoints = {rows}\nrepeat = 3\n')
+        pathlib.Path("stops.toml").write_text(
+            f'extends = "quick.toml"\n[operation]\nduration = "6 s"\n[operation.cycle]\npoints = {rows}\nrepeat = 3\n'
+        )
         with self.assertWarnsRegex(plateau.PlateauWarning, "simulated revolutions"):
             run = plateau.run("stops.toml", "stops.h5", set={"output.maps_at": [], "numerics.time_acceleration": 2})
         with h5py.File("stops.h5") as file:

@@ -53,7 +53,7 @@ class Page(unittest.TestCase):
         def rule(load: float) -> dict[str, object]:
             one = [load, load - 0.1, load + 0.1]
             effects = {response: {"load": one if response == "filled" else [0.0, -1.0, 1.0]} for response in page.SHOWN}
-            return {"factors": {"effects": effects}, "skewness": {"differences": dict.fromkeys(page.SHOWN, {"1 less -1": [0.5, 0.1, 0.9]})}}
+            return {"factors": {"effects": effects}, "skewness": {"differences": {key: {"1 less -1": [0.5, 0.1, 0.9]} for key in page.SHOWN}}}
 
         with mock.patch.object(page, "RESULTS", {"plain": rule(1.0), "strength": rule(-1.0)}):
             self.assertEqual(page.changed(), "1 of 10: load (filled)")

@@ -25,7 +25,7 @@ HOSTILE = '<script>alert(1)</script> "$x & \u202eback'
 
 def rows(page, heading=""):
     """Rows of all tables below a heading, as lists of texts."""
-    below = page[page.index(heading):]
+    below = page[page.index(heading) :]
     found = re.findall(r"<tr>(.*?)</tr>", below, re.DOTALL)
     return [[html.unescape(cell) for cell in re.findall(r"<t[hd]>(.*?)</t[hd]>", row, re.DOTALL)] for row in found]
 
@@ -107,7 +107,7 @@ class Report(Folder):
         self.assertNotIn("<script", page)
         self.assertNotIn("\u202e", page)
         self.assertIn("<h1>&lt;script&gt;alert(1)&lt;/script&gt; &quot;$x &amp; \ufffdback</h1>", page)
-        self.assertEqual(set(re.findall(r'(?:src|href|url)\W+(?!data:)(\w+:)', page)) - {"http:"}, set())
+        self.assertEqual(set(re.findall(r"(?:src|href|url)\W+(?!data:)(\w+:)", page)) - {"http:"}, set())
         body = page[page.index("<body>") : page.index("</body>")] + "</body>"
         xml.fromstring(re.sub(r"&(?!amp;|lt;|gt;|quot;|#)\w+;", "", body).replace("<body>", '<body xmlns:xlink="x">'))
 

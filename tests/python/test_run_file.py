@@ -103,7 +103,7 @@ class RunFile(Folder):
             ended = False
             while not ended:
                 ended = not is_being_written(self.path)  # asked first, so that the last look sees everything
-                if any([follower.look() for follower in followers]):
+                if any(follower.look() for follower in followers):
                     news = time.monotonic()
                 self.assertLess(time.monotonic(), news + 10, "nothing new for ten seconds")
                 time.sleep(0.05)

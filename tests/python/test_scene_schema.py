@@ -160,6 +160,7 @@ def good_value(path, key):
 
 def random_value(chance):
     """A value of any kind, in TOML. Whole numbers are integers: JSON does not tell 8.0 from 8. There is no minus zero."""
+
     def number():
         if chance.random() < 0.5:
             return str(chance.randrange(-3, 20))

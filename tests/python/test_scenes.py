@@ -137,7 +137,9 @@ class Runs(InFolder):
 
     def test_a_run_file_is_named_as_one(self):
         for call in (lambda: plateau.run("quick.toml", "run.CSV"), lambda: plateau.run("quick.toml", set={"output.file": "run.png"})):
-            with self.assertRaisesRegex(plateau.InputError, "a run file is HDF5, expected a name such as run.h5; afterwards plateau.(export|plot) makes"):
+            with self.assertRaisesRegex(
+                plateau.InputError, "a run file is HDF5, expected a name such as run.h5; afterwards plateau.(export|plot) makes"
+            ):
                 call()
 
     def test_a_run_that_is_killed_goes_on_to_the_same_end(self):

@@ -19,20 +19,17 @@ import warnings
 import h5py
 import numpy as np
 from checkout import QUICK, ROOT, program
-from package_scenes import InFolder
+from package_scenes import MAPS, InFolder
 
 import plateau
 from plateau.native import native
 
 VECTORS = ROOT / "tests" / "vectors"
-# Fields, and where run files have them.
-FIELDS = {"disc_height": "disc/height", "disc_substrate": "disc/substrate", "disc_status": "disc/status", "pin_height": "pin/height",
-          "pin_substrate": "pin/substrate", "pin_status": "pin/status", "pressure": "pin/pressure"}
 
 
 def state_of(simulation):
     """All that is compared: bytes of every field, and the sample."""
-    return [getattr(simulation, name).tobytes() for name in FIELDS], repr(simulation.sample())
+    return [getattr(simulation, name).tobytes() for name in MAPS], repr(simulation.sample())
 
 
 def python(text, **options):
@@ -51,12 +48,12 @@ class Bits(InFolder):
             file = f"{path.parent.name}.h5"
             program("run", path, "-o", file, "-q")
             with h5py.File(file) as run:
-                times, ends = run["time"][:], {name: run[where][-1] for name, where in FIELDS.items() if where in run}
+                times, ends = run["time"][:], {name: run[where][-1] for name, where in MAPS.items() if where in run}
                 series = {name: run["series"][name][:] for name in run["series"] if name != "time"}
             for workers in (1, 2, 3):
                 simulation = plateau.Simulation(path, workers=workers)
                 found = simulation.observe(time=times[-1], every=97)
-                for when, row in zip(found["time"], found[list(series)].to_dict("records")):
+                for when, row in zip(found["time"], found[list(series)].to_dict("records"), strict=True):
                     place = np.flatnonzero(times == when)
                     self.assertEqual(len(place), 1, (file, when))
                     expected = {name: values[place[0]] for name, values in series.items()}
@@ -108,7 +105,7 @@ class Fields(InFolder):
     def test_arrays_stay_when_the_simulation_is_gone(self):
         simulation = plateau.Simulation(QUICK)
         simulation.advance(50)
-        fields = {name: getattr(simulation, name) for name in FIELDS}
+        fields = {name: getattr(simulation, name) for name in MAPS}
         kept = {name: values.copy() for name, values in fields.items()}
         self.assertEqual(fields["disc_height"].shape, (690, 20))
         self.assertEqual(fields["pin_height"].shape, (40, 20))
@@ -176,8 +173,17 @@ class Fields(InFolder):
         simulation = plateau.Simulation(QUICK)
         heights = simulation.pin_height
         kept = heights.tobytes()
-        for wrong in (heights.astype(complex), heights > 0.0, heights.astype(str), heights.astype(object), np.ma.masked_less(heights, 0.0),
-                      [[1.0], [1.0, 2.0]], [[10**400] * 20] * 40, "heights", None):
+        for wrong in (
+            heights.astype(complex),
+            heights > 0.0,
+            heights.astype(str),
+            heights.astype(object),
+            np.ma.masked_less(heights, 0.0),
+            [[1.0], [1.0, 2.0]],
+            [[10**400] * 20] * 40,
+            "heights",
+            None,
+        ):
             with self.assertRaisesRegex(plateau.InputTypeError, "^pin_height is .*expected (an array|one) of numbers"):
                 simulation.pin_height = wrong
         simulation.pin_height = heights.tolist()
@@ -242,13 +248,25 @@ class Control(InFolder):
         simulation, deep, half = plateau.Simulation(QUICK), [], "\ud800"
         for _ in range(100_000):
             deep = [deep]
-        calls = [lambda: simulation.advance(time=10**400), lambda: simulation.advance(time=deep), lambda: simulation.save(half),
-                 lambda: setattr(simulation, "normal_force", half), lambda: plateau.Simulation.load("a\0b"),
-                 lambda: plateau.Simulation.load("a.state", workers=10**30), lambda: plateau.Simulation(QUICK, engine=half),
-                 lambda: plateau.Scene(half), lambda: plateau.Scene(QUICK, title=half), lambda: plateau.Scene(f"version = 1\n# {half}"),
-                 lambda: plateau.Scene(QUICK, title=deep), lambda: plateau.Scene(QUICK, rows=10**5000), lambda: plateau.Scene(QUICK)[3],
-                 lambda: plateau.run(QUICK, half), lambda: plateau.run(QUICK, "q.h5", engine=None),
-                 lambda: plateau.sweep("none.toml", jobs=-1), lambda: plateau.sweep("none.toml", max_failures=10**30)]
+        calls = [
+            lambda: simulation.advance(time=10**400),
+            lambda: simulation.advance(time=deep),
+            lambda: simulation.save(half),
+            lambda: setattr(simulation, "normal_force", half),
+            lambda: plateau.Simulation.load("a\0b"),
+            lambda: plateau.Simulation.load("a.state", workers=10**30),
+            lambda: plateau.Simulation(QUICK, engine=half),
+            lambda: plateau.Scene(half),
+            lambda: plateau.Scene(QUICK, title=half),
+            lambda: plateau.Scene(f"version = 1\n# {half}"),
+            lambda: plateau.Scene(QUICK, title=deep),
+            lambda: plateau.Scene(QUICK, rows=10**5000),
+            lambda: plateau.Scene(QUICK)[3],
+            lambda: plateau.run(QUICK, half),
+            lambda: plateau.run(QUICK, "q.h5", engine=None),
+            lambda: plateau.sweep("none.toml", jobs=-1),
+            lambda: plateau.sweep("none.toml", max_failures=10**30),
+        ]
         for place, call in enumerate(calls):
             with self.subTest(place), self.assertRaises(plateau.InputError) as caught:
                 call()

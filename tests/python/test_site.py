@@ -7,8 +7,8 @@ import unittest
 from checkout import ROOT, Folder
 
 sys.path.insert(0, str(ROOT / "site"))
-import check  # noqa: E402, where the site is
-import preprocess  # noqa: E402
+import check
+import preprocess
 
 
 class Pages(unittest.TestCase):

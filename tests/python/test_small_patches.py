@@ -14,7 +14,13 @@ from package_scenes import InFolder
 
 import plateau
 
-SURFACES = ("alicona_200x296_iso1_int32", "lay_plu_384x288_iso1_binary64", "afm_256x256_iso2_int32", "frt_missing_150x300_iso1_int32", "pypi_afm_256x256_iso1_binary64")
+SURFACES = (
+    "alicona_200x296_iso1_int32",
+    "lay_plu_384x288_iso1_binary64",
+    "afm_256x256_iso2_int32",
+    "frt_missing_150x300_iso1_int32",
+    "pypi_afm_256x256_iso1_binary64",
+)
 # Cell, m, rows and columns of the ring, and the shorter side of the patches, m: tracks of 4 mm and, of what is tried for long, of 40 mm.
 TRACKS = ((50e-6, 80, 400, 2.4e-3), (40e-3 / 120, 120, 450, 15e-3))[: 2 if "PLATEAU_LONG" in os.environ else 1]
 
@@ -58,7 +64,9 @@ class SmallPatches(InFolder):
             mean, half = cell * columns / math.tau, cell * rows / 2
             radii = f"inner_radius = '{mean - half!r} m', outer_radius = '{mean + half!r} m'"
             mesh = f"rows = {rows}, disc_columns = {columns}, pin_columns = 10, {radii}"
-            pathlib.Path("ring.toml").write_text(f'extends = "{QUICK}"\ndisc.surface = {{ file = "{folder}/patch.sdf" }}\ndisc.prepare = {prepare}\nmesh = {{ {mesh} }}\n')
+            pathlib.Path("ring.toml").write_text(
+                f'extends = "{QUICK}"\ndisc.surface = {{ file = "{folder}/patch.sdf" }}\ndisc.prepare = {prepare}\nmesh = {{ {mesh} }}\n'
+            )
             disc, _ = plateau.command("surface", prepare="ring.toml", json=True)
             plateau.command("surface", prepare="ring.toml", figure_data=folder)
             cells = np.load(f"{folder}/cells-0.npy")

@@ -11,13 +11,15 @@ import warnings
 import numpy as np
 import xarray
 from checkout import QUICK, Folder
+from scipy import stats
+
+# isort: split
 import optimum
 from made_studies import number, study_of, word
+
 from plateau.errors import InputError
 from plateau.study.scene_comparison import _compared, _fixed, _ratio, _seed_keys, _sure, _words, compare, difference, response_of
 from plateau.units import unit_of
-from scipy import stats
-
 
 # Student's sleep data (R: `sleep`): hours of sleep gained with two drugs by the same ten patients.
 ONE = [0.7, -1.6, -0.2, -1.2, -0.1, 3.4, 3.7, 0.8, 0.0, 2.0]
@@ -87,7 +89,9 @@ class Differences(unittest.TestCase):
         for scene, level, phases in (("a", 3e-5, (0.0, 2.0, 4.0)), ("b", 2.6e-5, (1.0, 5.0, 3.0))):
             runs = [level + 1e-5 * np.sin(2 * np.pi * time / 20.0 + phase) for phase in phases]
             areas = xarray.DataArray(runs, {"time": time}, ("run", "time"), attrs={"units": "m2"})
-            study = study_of([number("seed", 1.0, 2.0, 3.0)], {"seed": [1.0, 2.0, 3.0], "area": [level] * 3}, responses={"area": "m2"}, title=f"Disc {scene}")
+            study = study_of(
+                [number("seed", 1.0, 2.0, 3.0)], {"seed": [1.0, 2.0, 3.0], "area": [level] * 3}, responses={"area": "m2"}, title=f"Disc {scene}"
+            )
             response = dataclasses.replace(study.responses[0], series="contact_area")
             made[scene] = dataclasses.replace(study, responses=[response], data=xarray.Dataset({"contact_area_mean": areas}))
         found = _compared(made, {"a": "", "b": ""}, 0.95, [], pathlib.Path(), False)
@@ -164,7 +168,7 @@ class Scenes(Folder):
     def test_scenes_of_other_cells_and_accelerations_are_not_alike(self):
         with warnings.catch_warnings(action="ignore"):
             coarse = self.folder / "coarse.toml"
-            coarse.write_text(f'version = 1\nextends = {json.dumps(str(QUICK))}\n[mesh]\nrows = 10\n[numerics]\ntime_acceleration = 10\n')
+            coarse.write_text(f"version = 1\nextends = {json.dumps(str(QUICK))}\n[mesh]\nrows = 10\n[numerics]\ntime_acceleration = 10\n")
             found = compare([QUICK, coarse], 2, set={"operation.duration": "1 s"}, output=self.folder / "out")
             for said in ("rows of different height (quick 50 µm, coarse 100 µm)", "different time accelerations (20.0, 10.0)"):
                 self.assertTrue(any(said in caution for caution in found.cautions), found.cautions)

@@ -10,11 +10,11 @@ from dataclasses import replace
 
 import numpy as np
 import pandas
-from scipy import stats
-
 from checkout import ROOT
 from effects import SEEDS_STUDY, cube, of_runs, simulated
 from made_studies import number, span, stored, study_of, word
+from scipy import stats
+
 from plateau.errors import InputError, PlateauWarning
 from plateau.study.analysis import effects, together
 from plateau.study.data import Response, Study
@@ -85,7 +85,7 @@ def meant(path: str, old: dict, new: dict, study: Study, response: Response) -> 
     tests = ("f", "p", "standard_error", "interval[0]", "interval[1]", "interval")
     if term is not None and last in tests:
         # The error is that over all seeds; and what cannot be estimated has no test.
-        return seeds and term["label"] != "replicate" or term["f"] is None and bool(term["aliased_with"])
+        return (seeds and term["label"] != "replicate") or (term["f"] is None and bool(term["aliased_with"]))
     # So is that of what the model lacks.
     if seeds and path.startswith(("/lack_of_fit/f", "/lack_of_fit/p", "/misfit")):
         return True
@@ -93,7 +93,7 @@ def meant(path: str, old: dict, new: dict, study: Study, response: Response) -> 
     if study.title == ONE_SEED and path.startswith("/equations[1]"):
         return True
     # Levels are named in the unit of the study.
-    return last == "error_from" and seeds or "equations" in path and last == "variables"
+    return (last == "error_from" and seeds) or ("equations" in path and last == "variables")
 
 
 class Seeds(unittest.TestCase):
@@ -247,7 +247,6 @@ class Seeds(unittest.TestCase):
         with self.assertRaisesRegex(InputError, "one set of seeds"):
             seeds_needed(study_of([number("A", -1.0, 1.0)], pandas.DataFrame({"A": [-1.0, 1.0, -1.0], "y": [1.0, 2.0, 1.5]})))
 
-
     def test_levels_of_a_pilot_have_their_largest_difference(self) -> None:
         runs = pandas.DataFrame(list(itertools.product((4.0, 12.0), "abc", (1, 2, 3))), columns=["load", "pad", "replicate"])
         runs["y"] = np.random.default_rng(2).normal(size=18) + 3.0 * (runs["pad"] == "c")
@@ -287,11 +286,15 @@ class Missing(unittest.TestCase):
         study = study_of(factors, runs.assign(y=runs["y"].where(~runs.index.isin(lacks))))
         with warnings.catch_warnings(action="ignore", category=PlateauWarning):
             found = effects(study)
-            self.assertIn("y: 5 of 24 runs have no value of it (5 of the 12 with A = 1): if such runs lack it because of how large it is", found.cautions[0])
+            self.assertIn(
+                "y: 5 of 24 runs have no value of it (5 of the 12 with A = 1): if such runs lack it because of how large it is", found.cautions[0]
+            )
             self.assertIn(found.cautions[0].removeprefix("y: "), found.text())
             self.assertEqual(found.cautions[0], found.document()["cautions"][0])
             self.assertTrue(found.table["cautions"].str.startswith("5 of 24 runs have no value of it; ").all())
-            said = [effects(study_of(factors, runs.assign(y=runs["y"].where(kept))))["y"].cautions[0] for kept in (runs["replicate"] < 3, runs.index != 3)]
+            said = [
+                effects(study_of(factors, runs.assign(y=runs["y"].where(kept))))["y"].cautions[0] for kept in (runs["replicate"] < 3, runs.index != 3)
+            ]
             self.assertTrue(said[0].startswith("8 of 24 runs have no value of it: if"), said)
             self.assertTrue(said[1].startswith("1 of 24 runs has no value of it (run 4): if"), said)
         self.assertFalse(any("no value" in one for one in effects(study_of(factors, runs)).cautions))
@@ -464,7 +467,7 @@ class Levels(unittest.TestCase):
     def test_tukey_is_that_of_scipy(self) -> None:
         # The example of scipy.stats.tukey_hsd, from the documentation of SAS: minutes until headaches end.
         groups = [[24.5, 23.5, 26.4, 27.1, 29.9], [28.4, 34.2, 29.5, 32.2, 30.1], [26.1, 28.3, 24.3, 26.2, 27.8]]
-        runs = pandas.DataFrame([(name, y) for name, group in zip("abc", groups) for y in group], columns=["brand", "y"])
+        runs = pandas.DataFrame([(name, y) for name, group in zip("abc", groups, strict=True) for y in group], columns=["brand", "y"])
         table = levels(study_of([word("brand", "a", "b", "c")], runs)).table.set_index(["level", "other"])
         expected = [(("b", "a"), 0.951, 8.249, 0.014), (("c", "a"), -3.389, 3.909, 0.980), (("c", "b"), -7.989, -0.691, 0.020)]
         for pair, low, high, p in expected:
@@ -476,7 +479,7 @@ class Levels(unittest.TestCase):
     def test_dunnett_is_that_of_scipy(self) -> None:
         # The example of scipy.stats.dunnett: blood counts of Dunnett (1955).
         groups = [[7.40, 8.50, 7.20, 8.24, 9.84, 8.32], [9.76, 8.80, 7.68, 9.36], [12.80, 9.68, 12.16, 9.20, 10.55]]
-        runs = pandas.DataFrame([(name, y) for name, group in zip("abc", groups) for y in group], columns=["drug", "y"])
+        runs = pandas.DataFrame([(name, y) for name, group in zip("abc", groups, strict=True) for y in group], columns=["drug", "y"])
         table = levels(study_of([word("drug", "a", "b", "c")], runs), control="a").table.set_index("level")
         self.assertAlmostEqual(table.loc["b", "p"], 0.62004941, places=3)
         self.assertAlmostEqual(table.loc["c", "p"], 0.0059035, places=3)

@@ -7,13 +7,13 @@ from types import SimpleNamespace
 
 import numpy as np
 import pandas
+
 from plateau.output_folder import plain
 from plateau.study.data import Factor
 from plateau.study.figure_axes import set_axis
-from plateau.style import number
 from plateau.study.fit_answer import Fit
 from plateau.study.scene_comparison import Comparison
-from plateau.style import in_style, new
+from plateau.style import in_style, new, number
 from plateau.units import Unit, shown_unit, with_digits, with_hyphen, with_minus
 
 RECESS = Factor("recess", "key", "m", (2e-6, 20e-6), True, True, False, "um", 1e-6, 0.0)

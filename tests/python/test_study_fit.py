@@ -6,19 +6,21 @@ from types import SimpleNamespace
 
 import numpy as np
 import pandas
-
 from checkout import QUICK, Folder
+from scipy import stats
+
+# isort: split
 import fit as experiments
+
 from plateau.errors import InputError
 from plateau.study.calibration import calibrated
 from plateau.study.data import Factor, Response
 from plateau.study.fit_answer import Fit
 from plateau.study.fit_of_study import fit, plan
-from plateau.study.likelihood import Components, Likelihood, Runs, Target, products, profile
 from plateau.study.imports import import_values
+from plateau.study.likelihood import Components, Likelihood, Runs, Target, products, profile
 from plateau.study.measured import Measurement
 from plateau.study.results import analysed
-from scipy import stats
 
 PLAIN = Response("", "1", "", "none", -np.inf, np.inf, {})
 
@@ -150,7 +152,9 @@ class OutcomeTest(unittest.TestCase):
         self.assertEqual((of_key["most_likely"], of_key["interval"], found.document()["check"]), (None, [], "failed"))
         self.assertIn("Runs at the most likely place contradict the forecast (load = 2.", found.text())
         self.assertIsNone(found.determined)
-        self.assertEqual(found.keys["cautions"][0].split("; ")[:2], ["runs contradict the forecast", "Runs at the most likely place contradict the forecast"])
+        self.assertEqual(
+            found.keys["cautions"][0].split("; ")[:2], ["runs contradict the forecast", "Runs at the most likely place contradict the forecast"]
+        )
         moved = self.outcome(40, 5.0)
         best = moved.likelihood.best[0]
         self.assertTrue(moved.has_failed or abs(best - 0.3) > 0.15, best)
@@ -244,7 +248,9 @@ uncertainty = "0.1 mm3"
         path = self.study(lambda text: text.replace("points = 12", "points = 12\nreplicates = { seeds = [1, 2] }"))
         runs = analysed(path).runs
         wear = np.where(runs["load"] > 3.0, 3.0, 1.0) + 0.1 * np.log(runs["speed"]) + 0.02 * np.random.default_rng(1).standard_normal(24)
-        lines = [f"{load!r},{speed!r},{seed},{w!r}" for load, speed, seed, w in zip(runs["load"], runs["speed"], runs["replicate"], wear, strict=True)]
+        lines = [
+            f"{load!r},{speed!r},{seed},{w!r}" for load, speed, seed, w in zip(runs["load"], runs["speed"], runs["replicate"], wear, strict=True)
+        ]
         table = path.with_suffix(".csv")
         table.write_text("\n".join(["load,speed,replicate,wear [mm3]", *lines]))
         import_values(path, table)

@@ -12,14 +12,14 @@ import unittest.mock
 import warnings
 from pathlib import Path
 
-import numpy as np
-import pandas
-from scipy import stats
-
 import checkout  # noqa: F401, for the folders of modules
 import forecasts
+import numpy as np
+import pandas
 from effects import cube
 from made_studies import number, span, stored, study_of, word
+from scipy import stats
+
 from plateau.errors import InputError
 from plateau.study import variance_parts
 from plateau.study.analysis import effects

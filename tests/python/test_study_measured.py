@@ -8,6 +8,7 @@ from types import SimpleNamespace
 
 import numpy as np
 from checkout import Folder
+
 from plateau.errors import InputError, MissingFileError
 from plateau.study.data import Response
 from plateau.study.imports import import_values

@@ -14,6 +14,8 @@ import pandas
 from checkout import QUICK, Folder
 from made_studies import number, span, study_of, word
 from matplotlib.colors import to_rgba
+from scipy import stats
+
 from plateau.errors import InputError, RunFailed
 from plateau.study.data import Response
 from plateau.study.goals import Goal, Limit, Problem, beyond_runs, expected_improvement, improved, overall
@@ -23,7 +25,6 @@ from plateau.study.results import analysed
 from plateau.study.runs import made_study, written
 from plateau.style import APART
 from plateau.units import quantity, unit_for
-from scipy import stats
 
 # A central composite design with three responses, and what the program before this package answered about it.
 LIMITS_MEET = {
@@ -124,7 +125,6 @@ class Search(unittest.TestCase):
         found = optimize(given, maximize=["gain"], limit=["cost<=2", "risk>=3"], limit_on="means")
         self.assertEqual((found.keeps_limits, found.desirability), (False, 0.0))
         self.assertIn("they are missed least at", found.text())
-
 
     def test_optimum_and_prediction_have_one_region(self):
         # A rotatable design, with axial runs at √2: what is best lies on the circle of its runs, and there a prediction is made.
@@ -259,7 +259,9 @@ class Wishes(unittest.TestCase):
         for a in np.linspace(-0.9, 0.9, 37):
             inside, outside = ((a, 0.33 - a**2 + away) for away in (-1e-3, 1e-3))
             self.assertTrue(any(path.contains_point(inside) for one in shown for path in one.get_paths()), a)
-            self.assertEqual([any(path.contains_point(at) for one in missed for path in one.get_paths()) for at in (inside, outside)], [False, True], a)
+            self.assertEqual(
+                [any(path.contains_point(at) for one in missed for path in one.get_paths()) for at in (inside, outside)], [False, True], a
+            )
 
     def test_goals_that_exclude_each_other_are_in_the_table(self):
         runs = pandas.DataFrame({"A": np.linspace(-1.0, 1.0, 9)}).assign(y=lambda runs: runs["A"], z=lambda runs: runs["A"])

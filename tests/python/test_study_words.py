@@ -16,9 +16,10 @@ import unittest
 import unittest.mock
 
 from checkout import QUICK, ROOT, Folder, program, word
-from plateau.errors import InputError, RunFailed, in_python
+
 from plateau import command_line, output_folder, progress, style
 from plateau.command_line import shown
+from plateau.errors import InputError, RunFailed, in_python
 from plateau.output_folder import HEAD, LIST, all_or_none, put, write
 from plateau.study import analysis, likelihood, variance_parts, words
 
@@ -185,8 +186,8 @@ class Words(Folder):
             ["  read      11 lines with leak, grip", "  values    22 new, 0 changed", "  complete  11 of 11 runs"],
         )
         self.is_as_before("import", self.document("sweep", "import", "study.toml", "measured.csv"))
-        for word in ("effects", "predict", "sensitivity"):
-            self.is_as_before(word, self.document("sweep", word, "study.toml"))
+        for answer in ("effects", "predict", "sensitivity"):
+            self.is_as_before(answer, self.document("sweep", answer, "study.toml"))
         with unittest.mock.patch.object(style, "FORMATS", {**style.FORMATS, "png": {}, "pdf": {}}):
             self.is_as_before("optimize", self.document("sweep", "optimize", "study.toml", "--minimize", "leak", "--limit", "grip>=0.55"))
         self.is_as_before("fit", self.document("fit", "study.toml"))
@@ -214,8 +215,8 @@ class Words(Folder):
         self.import_all()
         pathlib.Path("study").rename("there")
         settings = {"optimize": ["--minimize", "leak"], "predict": ["--at", "load=2 N", "--at", "dose=0.5"], "import": ["measured.csv"]}
-        for word in ("effects", "sensitivity", "optimize", "predict", "import"):
-            self.call("sweep", word, "study.toml", *settings.get(word, []), "--directory", "there", "-q")
+        for answer in ("effects", "sensitivity", "optimize", "predict", "import"):
+            self.call("sweep", answer, "study.toml", *settings.get(answer, []), "--directory", "there", "-q")
         self.call("fit", "study.toml", "--directory", "there", "-q")
         self.document("fit", "study.toml", "--directory", "there", "--plan")
         self.assertFalse(pathlib.Path("study").exists())
@@ -244,7 +245,7 @@ class Words(Folder):
         self.refused("sweep", "optimize", "study.toml", *contour, said="--contour load,oil: expected two different factors")
 
     def test_wrong_words(self):
-        for words, said in (
+        for wrong, said in (
             (["sweep", "effects"], "STUDY; plateau sweep effects --help tells more"),
             (["sweep", "effects", "no.toml"], "no.toml"),
             (["sweep", "effects", "no.toml", "--model", "cubic"], "invalid choice: 'cubic'"),
@@ -254,10 +255,10 @@ class Words(Folder):
             (["compare", str(QUICK)], "two scenes or more"),
             (["sweep", "tell"], "invalid choice: 'tell'"),
         ):
-            with self.subTest(words):
-                self.refused(*words, said=said)
+            with self.subTest(wrong):
+                self.refused(*wrong, said=said)
         pathlib.Path("study.toml").write_text(MEASURED)
-        out, err = self.call("sweep", "effects", "study.toml", status=1)
+        _out, err = self.call("sweep", "effects", "study.toml", status=1)
         self.assertRegex(err, "^plateau: study.toml: there is no result to analyse yet; plateau sweep import")
 
     def test_names_do_nothing_to_terminals_pages_and_spreadsheets(self):

@@ -71,7 +71,13 @@ class SurfaceCommand(InFolder):
         expected |= {"Sz": 0.05503606503315581, "Sdq": 0.4280487450660783, "Sdr": 8.282255201236532}
         for name, value in expected.items():
             self.assertAlmostEqual(surface[name] / value, 1, delta=1e-6)
-        for name, value in {"Sk": 0.02176493496909058, "Spk": 0.013370115360182578, "Svk": 0.009136651324949466, "Smr1": 15.1351958, "Smr2": 87.8276}.items():
+        for name, value in {
+            "Sk": 0.02176493496909058,
+            "Spk": 0.013370115360182578,
+            "Svk": 0.009136651324949466,
+            "Smr1": 15.1351958,
+            "Smr2": 87.8276,
+        }.items():
             self.assertAlmostEqual(surface[name] / value, 1, delta=5e-3)
         self.assertEqual((surface["columns"], surface["rows"], surface["coverage"], surface["level"]), (256, 256, 1.0, "least-squares plane"))
         self.assertAlmostEqual(surface["pitch"][0], 1.953125e-3)
@@ -171,7 +177,10 @@ class SurfaceCommand(InFolder):
 
     def test_a_scene_shows_what_it_makes_of_its_surfaces(self):
         disc, pin = described(prepare=QUICK)
-        self.assertEqual([(one["name"], one["columns"], one["rows"], one["level"]) for one in (disc, pin)], [("disc", 690, 20, "nothing"), ("pin", 40, 20, "nothing")])
+        self.assertEqual(
+            [(one["name"], one["columns"], one["rows"], one["level"]) for one in (disc, pin)],
+            [("disc", 690, 20, "nothing"), ("pin", 40, 20, "nothing")],
+        )
         # Cut at one rms height of 3 µm: the highest points are there above the mean before it.
         self.assertTrue(3.0 < disc["Sp"] < 3.5 and disc["Sq"] < 3.0)
         # 30 % fibres stand 8 µm above the resin, peaks positive.

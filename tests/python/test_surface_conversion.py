@@ -10,8 +10,8 @@ import shutil
 import warnings
 
 import h5py
-import numpy as np
 import netCDF4
+import numpy as np
 import xarray
 from checkout import PROGRAM, ROOT, SHARED, Folder, called
 
@@ -74,7 +74,12 @@ class Conversion(Folder):
         if SHARED is None:
             self.skipTest("no folder shared/surfaces above the checkout (PLATEAU_SHARED names the folder shared)")
         known = json.loads((SHARED / "values.json").read_text(encoding="utf-8"))
-        for name, letter in [("alicona_200x296.al3d", "A"), ("dhm_grooves_75x305.txt", "B"), ("lay_200x200.x3p", "C"), ("frt_missing_150x300.frt", "F")]:
+        for name, letter in [
+            ("alicona_200x296.al3d", "A"),
+            ("dhm_grooves_75x305.txt", "B"),
+            ("lay_200x200.x3p", "C"),
+            ("frt_missing_150x300.frt", "F"),
+        ]:
             path = self.convert(SHARED / name)
             if letter == "C":
                 # zipfile and numpy.frombuffer(bindata/data.bin, "<f8").reshape(200, 200), column by column.
@@ -169,6 +174,6 @@ class Conversion(Folder):
         bare = {**os.environ, "PATH": "/usr/bin:/bin"}
         told = program("new", "other.toml", "--disc", "scan.x3p", env=bare)
         beside = pathlib.Path(PROGRAM).resolve().parent / "plateau-surface"
-        if PROGRAM != str(ROOT / "plateau") and not beside.exists():
+        if str(ROOT / "plateau") != PROGRAM and not beside.exists():
             self.assertEqual(told.returncode, 2, told.stdout)
             self.assertIn("pip install 'plateau-brake[all]'", told.stderr)

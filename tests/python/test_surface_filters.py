@@ -14,6 +14,7 @@ from surfalize.filter import GaussianFilter
 
 import plateau
 
+
 def prepared(file, shape, pitches, **prepare):
     """Heights of a pin whose cells are the pixels of a surface, prepared so; m, shape (columns, rows)."""
     (columns, rows), (pitch_x, pitch_y) = shape, pitches

@@ -85,7 +85,7 @@ class ClosedForms(unittest.TestCase):
         for degrees in (0, 10, 45, 87, 90, -20, -75):
             sine, cosine = math.sin(math.radians(degrees)), math.cos(math.radians(degrees))
             for columns, rows, pitch, wave in ((200, 200, (1e-6, 1e-6), 12.3e-6), (100, 400, (4e-6, 1e-6), 33e-6)):
-                heights = grid(columns, rows, lambda x, y: np.cos(tau * (y * pitch[1] * cosine - x * pitch[0] * sine) / wave))  # noqa: B023
+                heights = grid(columns, rows, lambda x, y: np.cos(tau * (y * pitch[1] * cosine - x * pitch[0] * sine) / wave))
                 heights = math.sqrt(2) * heights + 0.5 * noise.reshape(rows, columns)
                 heights.flat[3::10] = np.nan
                 found = parameters(heights, pitch)["Std"]
@@ -137,7 +137,13 @@ class ClosedForms(unittest.TestCase):
         # digit is unknown.
         normal, count = statistics.NormalDist(), 200_000
         found = parameters(np.array([[normal.inv_cdf((place + 0.5) / count) for place in range(count)]]), None)
-        for name, expected, half_digit in (("Sk", 2.57395, 5e-6), ("Spk", 0.945, 5e-5), ("Svk", 0.945, 5e-5), ("Smr1", 0.09905, 5e-6), ("Smr2", 0.90095, 5e-6)):
+        for name, expected, half_digit in (
+            ("Sk", 2.57395, 5e-6),
+            ("Spk", 0.945, 5e-5),
+            ("Svk", 0.945, 5e-5),
+            ("Smr1", 0.09905, 5e-6),
+            ("Smr2", 0.90095, 5e-6),
+        ):
             self.assertAlmostEqual(found[name], expected, delta=1.2 * half_digit + 1e-5)
 
     def test_a_uniform_distribution(self):
@@ -201,9 +207,9 @@ class OtherPrograms(unittest.TestCase):
 
             def agrees(peer, names, relative, absolute=0.0):
                 for name in names:
-                    expected = peers[peer].get(name) if peer in peers else None  # noqa: B023
+                    expected = peers[peer].get(name) if peer in peers else None
                     if expected is not None:
-                        self.assertAlmostEqual(found[name], expected, delta=relative * abs(expected) + absolute, msg=f"{file}, {name}, {peer}")  # noqa: B023
+                        self.assertAlmostEqual(found[name], expected, delta=relative * abs(expected) + absolute, msg=f"{file}, {name}, {peer}")
                         yield name
 
             # Beside 1e-6 there is what the file has rounded: of a height half a step, of means over all points relative errors step/√12 over Sq √n,

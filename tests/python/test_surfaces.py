@@ -2,8 +2,8 @@
 
 import numpy as np
 import sdfio
-import surfalize
 import SurfaceTopography
+import surfalize
 from checkout import Folder, program
 
 # Pitches that are no round numbers, different along x and y, so that nothing can be exchanged unnoticed.

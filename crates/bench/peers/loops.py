@@ -1,4 +1,5 @@
 """The step as loops over cells (column, row), compiled by Numba. z grows from the disc to the pin."""
+
 import math
 
 from numba import njit

@@ -8,6 +8,7 @@ For scenes with local debris and formation, explicit wear, a disc that does not 
 what they lie on. Fields are arrays (column, row); z grows from the disc
 to the pin.
 """
+
 import json
 import math
 import platform
@@ -91,9 +92,7 @@ class Simulation:
 
     def advance(self, steps):
         for _ in range(steps):
-            self.displacement, self.contact_area, deposited, evaluations = step(
-                self.fields, self.rules, self.turned, self.displacement
-            )
+            self.displacement, self.contact_area, deposited, evaluations = step(self.fields, self.rules, self.turned, self.displacement)
             self.turned += 1
             self.deposited += deposited
             self.evaluations += evaluations

@@ -3,6 +3,7 @@
 usage: evaluate.py, in the environment .venv of the checkout with PYTHONPATH=python
 """
 
+import itertools
 import re
 import sys
 from pathlib import Path
@@ -74,7 +75,7 @@ def main() -> None:
         changes[length] = {
             heights: {
                 f"{coarse} to {fine}": change
-                for coarse, fine in zip(cells, cells[1:], strict=False)
+                for coarse, fine in itertools.pairwise(cells)
                 if (change := compared(found, (length, heights, 20, 100.0, coarse), (length, heights, 20, 100.0, fine)))
             }
             for heights in ("1", "0.1", "0.01")
@@ -84,9 +85,7 @@ def main() -> None:
         for heights in ("1", "0.1", "0.01")
     }
     accelerated = {
-        length: {
-            heights: compared(found, (length, heights, 20, 1.0, "50"), (length, heights, 20, 100.0, "50")) for heights in ("1", "0.1", "0.01")
-        }
+        length: {heights: compared(found, (length, heights, 20, 1.0, "50"), (length, heights, 20, 100.0, "50")) for heights in ("1", "0.1", "0.01")}
         for length in ("200", "strength")
     }
     results = {"values": values, "changes": changes, "rows": rows, "acceleration": accelerated, "runs": len(found)}

@@ -12,7 +12,7 @@ import matplotlib
 from plateau.style import LINES, MM, WIDE
 
 matplotlib.use("Agg")
-import matplotlib.pyplot as plt  # noqa: E402, after the choice of what draws
+import matplotlib.pyplot as plt
 
 HERE = Path(__file__).parent
 #: The plain rule is dashed.

@@ -17,7 +17,7 @@ RULES = {"plain": HERE, "strength": HERE / "strength"}
 
 
 def of_skewness(folder: Path) -> dict[str, object]:
-    """Means of every disc, and differences between skewnesses of discs that are not cut; both with 95 % intervals, logarithms where it is fitted so."""
+    """Means of every disc, and differences between skewnesses of discs that are not cut, with 95 % intervals; logarithms where it is fitted so."""
     study = plateau.study.open_study(folder / "skewness.toml")
     skewness, cut = study.factors
     means = {}

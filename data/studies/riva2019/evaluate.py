@@ -230,14 +230,13 @@ def main() -> None:
         "starts": starts(),
         "sets": {rule: {heights: claims.intervals(of) for heights, of in discs.items()} for rule, discs in sets.items()},
         "each_set": {
-            rule: {key: {heights: [run[key] for run in of] for heights, of in discs.items()} for key in
-                   ("pin_film", "pin_covered", "pin_loaded", "sq_fibres", "sq_pin", "inner_over_outer")}
+            rule: {
+                key: {heights: [run[key] for run in of] for heights, of in discs.items()}
+                for key in ("pin_film", "pin_covered", "pin_loaded", "sq_fibres", "sq_pin", "inner_over_outer")
+            }
             for rule, discs in sets.items()
         },
-        "ratio": {
-            rule: {over: claims.ratio(discs, "contact_area_mean", "1", over) for over in ("0.1", "0.01")}
-            for rule, discs in sets.items()
-        },
+        "ratio": {rule: {over: claims.ratio(discs, "contact_area_mean", "1", over) for over in ("0.1", "0.01")} for rule, discs in sets.items()},
         "holds": {rule: claims.holds(discs) for rule, discs in sets.items()},
         "holds_once": claims.holds({heights: [flat(run)] for heights, run in runs.items()}),
         "friction": of_friction(paths, pooled),

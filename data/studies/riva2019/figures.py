@@ -18,7 +18,7 @@ from tables import m_of, m_of_one
 from plateau.style import APART, LINES, MM, STATUS_COLOURS, WIDE, wrapped
 
 matplotlib.use("Agg")
-import matplotlib.pyplot as plt  # noqa: E402, after the choice of what draws
+import matplotlib.pyplot as plt
 
 HERE = Path(__file__).parent
 DOCS = HERE.parents[2] / "docs/images"
@@ -146,8 +146,7 @@ def inputs(run: Maps) -> None:
     """The paper's figures 5 to 7: what the runs begin with."""
     disc, pin = at(run, "disc/height", 0) * 1e6, at(run, "pin/height", 0) * 1e6
     figure, (above, below) = plt.subplots(2, 1, figsize=(5, 4), layout="constrained", height_ratios=[2, 1])
-    figure.colorbar(draw(above, disc[:PIECE], "disc at the start, 8 mm of the ring"), ax=above,
-                    label="height, µm")
+    figure.colorbar(draw(above, disc[:PIECE], "disc at the start, 8 mm of the ring"), ax=above, label="height, µm")
     arc = disc.plateau.unrolled()["arc_length"].values * 1e3
     below.plot(arc[:PIECE] - arc[0], disc[:PIECE, 40], color="black", lw=0.8)
     below.set(xlabel="along the track, mm", ylabel="height, µm", title="the same at the mean radius")
@@ -164,8 +163,7 @@ def filling_of_the_baseline(run: Maps) -> None:
     """The paper's figure 8, and the length of the real test."""
     figure, axes = plt.subplots(1, 3, figsize=(ACROSS, 1.7), layout="constrained")
     for panel, moment in zip(axes, (0.0, END, LONG_END), strict=True):
-        image = draw(panel, at(run, "disc/height", moment)[:PIECE] * 1e6, f"disc, baseline, {moment:.0f} s",
-                     norm=Normalize(-10, 10))
+        image = draw(panel, at(run, "disc/height", moment)[:PIECE] * 1e6, f"disc, baseline, {moment:.0f} s", norm=Normalize(-10, 10))
     figure.colorbar(image, ax=axes, label="height, µm", shrink=0.8, extend="both")
     save(figure, "fig08")
 
@@ -197,8 +195,9 @@ def radial() -> None:
     of_baseline = RESULTS["sets"]["local"]["1"]
     bands = np.array([of_baseline[f"band_{number}"] for number in range(BANDS)]) * 100
     radius = 20 + (np.arange(BANDS) + 0.5) * 4 / BANDS
-    axes.errorbar(radius, bands[:, 0], bands[:, 1], fmt="o", color="black", ms=3, capsize=2, lw=0.8,
-                  label=f"sets of surfaces, m = {m_of('sets')}, 95 %")
+    axes.errorbar(
+        radius, bands[:, 0], bands[:, 1], fmt="o", color="black", ms=3, capsize=2, lw=0.8, label=f"sets of surfaces, m = {m_of('sets')}, 95 %"
+    )
     profile = [RESULTS["runs"]["1"]["disc"]["3000"][f"band_{number}"] * 100 for number in range(BANDS)]
     axes.plot(radius, profile, color=COLOURS[1], lw=1, label=f"one set, m = {m_of_one('runs', '1')}")
     axes.set(xlabel="radius, mm", ylabel="filled at 3000 s, %", title="baseline, local debris", ylim=(30, 100))
@@ -216,9 +215,13 @@ def radial() -> None:
 
 def pin_over_sets() -> None:
     """What claims 3 and 4 ask of the pin, in each set of surfaces."""
-    panels = {"pin_film": ("build-up on the pin, nm", 1e9), "pin_covered": ("pin, secondary by status, %", 100),
-              "pin_loaded": ("secondary that carries load, %", 100), "sq_fibres": ("Sq of the fibres, nm", 1e9),
-              "sq_pin": ("Sq of the whole pin, µm", 1e6)}
+    panels = {
+        "pin_film": ("build-up on the pin, nm", 1e9),
+        "pin_covered": ("pin, secondary by status, %", 100),
+        "pin_loaded": ("secondary that carries load, %", 100),
+        "sq_fibres": ("Sq of the fibres, nm", 1e9),
+        "sq_pin": ("Sq of the whole pin, µm", 1e6),
+    }
     figure, axes = plt.subplots(1, len(panels), figsize=(ACROSS, 2.2), layout="constrained")
     for panel, (key, (title, factor)) in zip(axes, panels.items(), strict=True):
         for rule, colour, place in (("local", COLOURS[1], -0.08), ("pooled", COLOURS[2], 0.08)):

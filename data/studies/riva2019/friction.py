@@ -1,6 +1,7 @@
 """Friction of the discs (model.md section 10), from runs without it: it acts on neither contact nor wear, so their contact area is
 that of runs with it. For evaluate.py."""
 
+import itertools
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -132,7 +133,8 @@ def ceiling(discs: Discs) -> dict[str, object]:
         taken = [above(one).mean() - above(every_step) for one, every_step in single]
         found[heights] = {
             "share": float(np.mean([(one > CHOSEN.maximum).mean() for one, _ in single])),
-            "taken": float(np.mean(taken)), "largest": float(max(taken)),
+            "taken": float(np.mean(taken)),
+            "largest": float(max(taken)),
         }
     highest = max(CHOSEN.without_ceiling(series["contact_area"].max(), LOAD) for of_disc in discs.values() for series in of_disc)
     return found | {"highest": float(highest)}
@@ -141,12 +143,10 @@ def ceiling(discs: Discs) -> dict[str, object]:
 def of_sets(discs: Discs, acceleration: float) -> dict[str, object]:
     """Friction over sets of surfaces. A window that is shorter than a simulated revolution has not seen the ring: it is left out."""
     revolution = acceleration * 60 / 850
-    means = {
-        window: per_disc(discs, law_over(window)) for window, (start, end) in WINDOWS.items() if end - start >= revolution
-    }
+    means = {window: per_disc(discs, law_over(window)) for window, (start, end) in WINDOWS.items() if end - start >= revolution}
     edges = np.arange(0.0, END + WINDOW / 2, WINDOW)
     over_time = {heights: [] for heights in discs}
-    for start, end in zip(edges[:-1], edges[1:], strict=True):
+    for start, end in itertools.pairwise(edges):
         for heights, pair in intervals(per_disc(discs, lambda series, times=(start, end): mean_over(series, *times))).items():
             over_time[heights].append([float(start + end) / 2, *pair])
     return {
@@ -161,11 +161,13 @@ def of_choices(discs: Discs) -> dict[str, object]:
     """What other values of the law do in the last tenth, one at a time, and by how much they move friction where no ceiling is."""
     laws = {"as chosen": (None, CHOSEN)} | {
         f"{key} {end}": (value, replace(CHOSEN, **{key: value}))
-        for key, values in CHANGED.items() for end, value in zip(("low", "high"), values, strict=True)
+        for key, values in CHANGED.items()
+        for end, value in zip(("low", "high"), values, strict=True)
     }
     free = {name: per_disc(discs, law_over(LAST, replace(law, maximum=np.inf))) for name, (_, law) in laws.items()}
     return {
-        name: compared(per_disc(discs, law_over(LAST, law))) | {
+        name: compared(per_disc(discs, law_over(LAST, law)))
+        | {
             "value": value,
             "without_ceiling": compared(free[name]),
             "moves": {heights: float(free[name][heights].mean() - free["as chosen"][heights].mean()) for heights in discs},
@@ -184,7 +186,8 @@ def of_loads(study: Path) -> dict[str, object]:
         return {}
     values = {load: per_disc(discs, law_over(LAST, load=choices.load_of(LOADS[load]))) for load, discs in found.items()}
     return {
-        load: compared(values[load]) | {
+        load: compared(values[load])
+        | {
             "more_than_at_94": intervals({heights: values[load][heights] - values["94"][heights] for heights in SCENES}),
             "without_ceiling": compared(per_disc(discs, law_over(LAST, replace(CHOSEN, maximum=np.inf), choices.load_of(LOADS[load])))),
             "contact_area": intervals(per_disc(discs, lambda series: mean_area(series, *WINDOWS[LAST]))),
@@ -201,8 +204,7 @@ def of_runs(paths: dict[str, Path]) -> dict[str, object]:
         "windows": {window: {heights: law_over(window)(of[0]) for heights, of in discs.items()} for window in WINDOWS},
         "ceiling": ceiling(discs),
         "start": {
-            heights: [[float(start + SHORT / 2), mean_over(of[0], start, start + SHORT)] for start in edges[:-1]]
-            for heights, of in discs.items()
+            heights: [[float(start + SHORT / 2), mean_over(of[0], start, start + SHORT)] for start in edges[:-1]] for heights, of in discs.items()
         },
     }
 

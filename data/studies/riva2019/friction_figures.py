@@ -13,10 +13,7 @@ from plateau.style import wrapped
 
 FRICTION = RESULTS["friction"]
 # The law's numbers as figures have them: sign, factor, form, unit.
-SIGNS = {
-    "pressure_coefficient": ("α", 1, ".3f", ""), "shear_strength": ("τ₀", 1e-6, ".3f", " MPa"),
-    "maximum": ("μ_max", 1, ".1f", ""),
-}
+SIGNS = {"pressure_coefficient": ("α", 1, ".3f", ""), "shear_strength": ("τ₀", 1e-6, ".3f", " MPa"), "maximum": ("μ_max", 1, ".1f", "")}
 
 
 def against_time() -> None:
@@ -34,8 +31,13 @@ def against_time() -> None:
     for panel in (axes, start):
         panel.axhline(FRICTION["law"]["maximum"], color="grey", lw=0.6, ls=":")
     axes.annotate("ceiling", (3000, FRICTION["law"]["maximum"]), textcoords="offset points", xytext=(0, -9), ha="right", color="grey")
-    axes.set(title=f"sets of surfaces, local debris, m = {m_of('sets')}, 95 % bands", xlabel="time, s",
-             ylabel="coefficient of friction, means of 50 s", xlim=(0, 3000), ylim=(0.33, 0.62))
+    axes.set(
+        title=f"sets of surfaces, local debris, m = {m_of('sets')}, 95 % bands",
+        xlabel="time, s",
+        ylabel="coefficient of friction, means of 50 s",
+        xlim=(0, 3000),
+        ylim=(0.33, 0.62),
+    )
     figure.legend(*axes.get_legend_handles_labels(), loc="outside lower center", ncols=4)
     start.set(title=f"the first 100 s of one set, local, m = {m_of('runs')}", xlabel="time, s", ylabel="means of 2 s", xlim=(0, 100))
     save(figure, "friction")

@@ -64,10 +64,7 @@ def sizes(run: xarray.DataTree, moment: float) -> dict[str, dict]:
         "disc_lowlands_filled": measures.plateau_sizes((initial < reference) & (height >= reference - NEAR), True),
         "disc_holes": measures.plateau_sizes(height < reference - 1e-6, True),
     }
-    return {
-        name: {"count": len(cells)} | (measures.diameters(cells * cell, [10, 50, 90]) if len(cells) else {})
-        for name, cells in pieces.items()
-    }
+    return {name: {"count": len(cells)} | (measures.diameters(cells * cell, [10, 50, 90]) if len(cells) else {}) for name, cells in pieces.items()}
 
 
 def open_depth(run: xarray.DataTree, moment: float) -> np.ndarray:

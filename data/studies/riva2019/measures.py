@@ -70,6 +70,7 @@ def run_in(time: np.ndarray, values: np.ndarray, part: float) -> float:
 
 def change_point(time: np.ndarray, values: np.ndarray) -> float:
     """The time at which two straight lines that meet there fit a series best, by least squares."""
+
     def rest(at: float) -> float:
         basis = np.stack([np.ones_like(time), time, (time - at).clip(0)], axis=1)
         return float(((values - basis @ np.linalg.lstsq(basis, values, rcond=None)[0]) ** 2).sum())

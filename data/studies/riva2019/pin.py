@@ -7,9 +7,7 @@ import numpy as np
 THICK = 0.1e-6
 
 
-def of_the_pin(
-    height: np.ndarray, film: np.ndarray, base: np.ndarray, pressure: np.ndarray, radius: np.ndarray
-) -> dict[str, float]:
+def of_the_pin(height: np.ndarray, film: np.ndarray, base: np.ndarray, pressure: np.ndarray, radius: np.ndarray) -> dict[str, float]:
     """Build-up and roughness of the pin at a moment, from its heights, the thickness of its build-up, what lies below, and the pressure.
     Resin that touches loses 5 um at once, so the moment matters: means over several cycles of the resin do not depend on it."""
     fibre, weights = base == 1, np.broadcast_to(radius, height.shape)

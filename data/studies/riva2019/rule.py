@@ -87,9 +87,7 @@ def steps(first, count, disc, pin, mesh, materials, force, delta, reading, top, 
                 lost[j, i], pressure[j, i] = 0.0, 0.0
                 if gap[j, i] < delta:
                     pressure[j, i] = stiffness[j, i] / area[i] * (delta - gap[j, i])
-                    z_p[j, i], b_p[j, i], lost[j, i] = wear_of_the_pin(
-                        z_p[j, i], b_p[j, i], base[j, i], pressure[j, i], slide[i], kappa, wear_height
-                    )
+                    z_p[j, i], b_p[j, i], lost[j, i] = wear_of_the_pin(z_p[j, i], b_p[j, i], base[j, i], pressure[j, i], slide[i], kappa, wear_height)
                     sums[0] += area[i]
                     sums[1 if plateau[j, i] else 2] += area[i] * lost[j, i]
         # 4L Debris: a cell that has a gap gets what the cell ahead of it lost. From the first column on, so that the cell

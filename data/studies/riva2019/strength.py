@@ -131,12 +131,7 @@ def on_the_paper_s_mesh(name: str) -> dict[str, object]:
     read = {path: run_numbers(path) for of_set in whole for path in of_set}
     discs = {heights: [flat(read[of_set[disc]]) for of_set in whole] for disc, heights in enumerate(SCENES)}
     late = {heights: [read[of_set[disc]]["history"][f"{LONG_END:.0f}"] for of_set in whole] for disc, heights in enumerate(SCENES)}
-    return {
-        "sets": len(whole),
-        "means": means(discs),
-        "late": means(late),
-        "holds": claims.holds(discs),
-    }
+    return {"sets": len(whole), "means": means(discs), "late": means(late), "holds": claims.holds(discs)}
 
 
 def main() -> None:

@@ -1,5 +1,6 @@
 """The tables of strength, levels and what the paper does not give, from strength.json, and of the mesh, from mesh.json."""
 
+import itertools
 import json
 from collections.abc import Iterable
 from pathlib import Path
@@ -10,10 +11,7 @@ from strength import FIRST, WHILE
 from tables import ASKED, RESULTS, head, row, shown, value, with_interval
 
 HERE = Path(__file__).parent
-RESULTS |= {
-    "strength": json.loads((HERE / "strength.json").read_text()),
-    "mesh": json.loads((HERE.parent / "mesh/mesh.json").read_text()),
-}
+RESULTS |= {"strength": json.loads((HERE / "strength.json").read_text()), "mesh": json.loads((HERE.parent / "mesh/mesh.json").read_text())}
 #: No strength is asked for as one that nothing reaches.
 NONE = 1e12
 
@@ -101,7 +99,7 @@ def table_strength_claims() -> str:
 def table_levels() -> str:
     """Contact area at the end of long runs, by the wear rate of the disc's build-up."""
     text = head("wear, 1/Pa", "area of the last tenth, mm²", "filled, %")
-    found = {"plain rule": discs for discs in value("strength/levels").values()}
+    found = {"plain rule": list(value("strength/levels").values())[-1]}
     found |= {shown(float(rate), "g"): of["means"] for rate, of in sorted(value("strength/steady").items(), key=lambda one: float(one[0]))}
     quantities = (("contact_area_mean", 1e6, ".2f"), ("filled", 100, ".1f"))
     for name, discs in found.items():
@@ -184,7 +182,7 @@ def table_lengths() -> str:
 def table_mesh(length: str, *keys: str, discs: Iterable[str] = NAMES) -> str:
     """Quantities on every mesh, and their change by the last halvings, with one transport length or the plain rule."""
     cells = [cell for cell in CELLS if cell in value(f"mesh/values/{length}/1")]
-    halvings = [f"{coarse} to {fine}" for coarse, fine in zip(cells, cells[1:], strict=False)]
+    halvings = [f"{coarse} to {fine}" for coarse, fine in itertools.pairwise(cells)]
     text = head("quantity", "disc", *(f"{cell} µm" for cell in cells), *(f"{halving} µm, %" for halving in halvings[-2:]))
     for heading, key, factor, form in OF_MESH:
         for heights in discs if key in keys else ():

@@ -214,10 +214,7 @@ def table_history() -> str:
 def table_sizes() -> str:
     """Sizes of plateaus."""
     text = head(f"diameter, µm, of what holds 10, 50, 90 % of the area, m = {m_of('runs')}", *NAMES.values())
-    names = {
-        "pin_contact": "pin, in contact",
-        "pin_thick": "pin, build-up of 0.1 µm and more",
-    }
+    names = {"pin_contact": "pin, in contact", "pin_thick": "pin, build-up of 0.1 µm and more"}
     for key, name in names.items():
         cells = []
         for heights in NAMES:
@@ -259,8 +256,14 @@ def table_pooled() -> str:
 
 # The claims that are asked of every choice, by the paper's numbers.
 OF_CHOICES = {
-    "filled in order": "1", "filled as in the paper": "near", "more on the disc": "2", "more even pressure": "5", "lower contact area": "6", "longer run-in": "7",
-    "baseline not steady": "drift", "higher pressure": "10",
+    "filled in order": "1",
+    "filled as in the paper": "near",
+    "more on the disc": "2",
+    "more even pressure": "5",
+    "lower contact area": "6",
+    "longer run-in": "7",
+    "baseline not steady": "drift",
+    "higher pressure": "10",
 }
 
 

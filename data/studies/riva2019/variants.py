@@ -77,8 +77,18 @@ class Model:
     def advance(self, count: int) -> None:
         """Takes some steps."""
         self.delta = steps(
-            self.taken, count, self.disc, self.pin, (self.area, self.slide), self.materials, self.force, self.delta,
-            self.reading, self.initial.max(), self.sums, self.pressure,
+            self.taken,
+            count,
+            self.disc,
+            self.pin,
+            (self.area, self.slide),
+            self.materials,
+            self.force,
+            self.delta,
+            self.reading,
+            self.initial.max(),
+            self.sums,
+            self.pressure,
         )
         self.taken += count
 

@@ -3,11 +3,13 @@ screen of README.md.
 
 usage: write_docs.py [--check]: with --check only says whether they agree, as exit status
 
-Templates have `{{path}}`, `{{path|format}}` and `{{path|factor|format}}`: a path in results.json, a factor and a Python
-format; with `*` in the path for the three discs, one after the other. `{{table NAME ARGUMENT...}}` is one of tables.py, friction_tables.py or strength_tables.py, `{{m runs}}` the
-time acceleration of a part of the study; `{{change LENGTH HEIGHTS HALVING QUANTITY}}` is one of the mesh, `{{ratios LENGTH QUANTITY}}` those of the rough disc to the smoothest; `{{last tenth HEIGHTS END}}` is the mean contact area of a run at m = 1 over the last tenth of the time to its end, mm².
-`{{PATH minus PATH|...}}` and `{{PATH relative to PATH|...}}` compare two; `{{largest PATTERN|...}}` and `{{smallest PATTERN|...}}` are of the sizes of all numbers at paths with `*`.
-`{{wilson HITS OF}}` is an interval of a share, `{{runs of STUDY...}}` a number of runs, `{{wear from 0 STRENGTH HEIGHTS}}` wear of the first 300 s and of the last.
+Templates have `{{path}}`, `{{path|format}}` and `{{path|factor|format}}`: a path in results.json, a factor and a Python format; with `*` in
+the path for the three discs, one after the other. `{{table NAME ARGUMENT...}}` is one of tables.py, friction_tables.py or
+strength_tables.py, `{{m runs}}` the time acceleration of a part of the study; `{{change LENGTH HEIGHTS HALVING QUANTITY}}` is one of the
+mesh, `{{ratios LENGTH QUANTITY}}` those of the rough disc to the smoothest; `{{last tenth HEIGHTS END}}` is the mean contact area of a run
+at m = 1 over the last tenth of the time to its end, mm². `{{PATH minus PATH|...}}` and `{{PATH relative to PATH|...}}` compare two;
+`{{largest PATTERN|...}}` and `{{smallest PATTERN|...}}` are of the sizes of all numbers at paths with `*`. `{{wilson HITS OF}}` is an
+interval of a share, `{{runs of STUDY...}}` a number of runs, `{{wear from 0 STRENGTH HEIGHTS}}` wear of the first 300 s and of the last.
 """
 
 import re

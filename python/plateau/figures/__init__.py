@@ -15,7 +15,9 @@ from plateau.style import Figures, in_style
 from plateau.units import quantity
 
 # What gives the pages of a figure, none if no run has what it shows, and the series that runs need for it.
-FIGURES: dict[str, tuple[Any, ...]] = {name: (partial(maps.draw_maps, paths=paths, caption=said),) for name, (paths, said) in maps.FIGURES.items()} | {
+FIGURES: dict[str, tuple[Any, ...]] = {
+    name: (partial(maps.draw_maps, paths=paths, caption=said),) for name, (paths, said) in maps.FIGURES.items()
+} | {
     "contact-area": (series.contact_area, "contact_area", "contact_area_mean"),
     "friction": (series.friction, "friction_coefficient_mean", "friction_coefficient", "mean_pressure"),
     "temperature": (series.temperature, "pin_temperature"),

@@ -45,7 +45,7 @@ FIGURES = {
     "contact-temperature": (("pin/temperature",), HOT),
 }
 Legend = Sequence[tuple[str, str]]
-LEGEND = [*zip(STATUS_COLOURS, map(": ".join, STATUSES)), (FILM_COLOUR, "the same, thinner than 0.1 µm")]
+LEGEND = [*zip(STATUS_COLOURS, map(": ".join, STATUSES), strict=False), (FILM_COLOUR, "the same, thinner than 0.1 µm")]
 
 
 @dataclass

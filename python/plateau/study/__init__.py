@@ -1,7 +1,8 @@
 """Studies: their results, and what these tell.
 
 ``open_study`` opens what was collected; ``effects``, ``levels``, ``seeds_needed``, ``predict``, ``optimize``, ``sensitivity``, ``fit`` and
-``compare`` answer, and ``of_scenes`` makes a study of scenes. They need the packages of ``pip install 'plateau-brake[all]'``, which are imported when they are called.
+``compare`` answer, and ``of_scenes`` makes a study of scenes. They need the packages of ``pip install 'plateau-brake[all]'``, which are
+imported when they are called.
 """
 
 from typing import TYPE_CHECKING, Any

@@ -99,7 +99,12 @@ class Effects(Answer):
         for factor in self.study.factors:
             factors.append([factor.name, factor.keys, (" … " if factor.is_range else ", ").join(map(factor.shown, factor.levels))])
         states = ", ".join(f"{count} {state}" for state, count in self.study.runs["state"].value_counts().items())
-        about = [f"design: {self.study.design}", f"runs: {states}", f"sets of seeds: {self.study.seeds}", *(f"caution: {said}" for said in self.cautions)]
+        about = [
+            f"design: {self.study.design}",
+            f"runs: {states}",
+            f"sets of seeds: {self.study.seeds}",
+            *(f"caution: {said}" for said in self.cautions),
+        ]
         parts = [html_page.listed(about), html_page.table(["factor", "keys", "values"], factors, "words")]
         for one, stem in zip(self.responses, file_names([one.response.name for one in self.responses]), strict=True):
             (name, *said), rows, below = told(one)

@@ -114,7 +114,7 @@ def _has_no_gain(shares: Sequence[float], then: float) -> bool:
     if then <= SETTLED:
         return False
     rounds = len(shares) - PATIENCE
-    return not gains(shares[-1], then) or rounds > 0 and not gains(min(shares[:rounds]), min(shares[rounds:]))
+    return not gains(shares[-1], then) or (rounds > 0 and not gains(min(shares[:rounds]), min(shares[rounds:])))
 
 
 def _check(likelihood: Likelihood, place: Numbers, asked: Any, more: Runs | None) -> dict[str, Any]:

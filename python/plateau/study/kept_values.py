@@ -34,7 +34,7 @@ def _columns(table: TextTable, study: Study, *, strict: bool) -> tuple[dict[int,
     for at, head in enumerate(table.heads):
         name, unit = table.named(at)
         response = responses.get(head, responses.get(name))
-        if at in factors or (name, unit) == (REPLICATE, "") or name == "run" or response is None and not strict:
+        if at in factors or (name, unit) == (REPLICATE, "") or name == "run" or (response is None and not strict):
             continue
         if response is None:
             there = f"of these the study has {', '.join(one.name for one in imported) or 'none'}"

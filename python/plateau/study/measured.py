@@ -98,7 +98,7 @@ def _series(path: Path, response: Response, uncertainty: float | None, correlati
 
     def numbers(column: int, si: str, is_difference: bool = False) -> Numbers:
         # Uncertainties without a unit are in that of the values.
-        found, head, unit = [], table.heads[column], table.named(column)[1] or is_difference and table.named(value)[1]
+        found, head, unit = [], table.heads[column], table.named(column)[1] or (is_difference and table.named(value)[1])
         for row in range(len(table.rows)):
             if math.isnan(table.number(row, column)):
                 raise InputError(f'{table.place(row)}: "{head}" is empty, expected a number; leave out lines that were not measured')

@@ -62,7 +62,7 @@ class Coding:
         """Codes a factor as a model needs it."""
         if len(set(factor.levels)) < 2:
             raise NothingToFit(f"factor `{factor.name}`: at least two different levels are needed")
-        if factor.is_range or model == "quadratic" and factor.is_number:
+        if factor.is_range or (model == "quadratic" and factor.is_number):
             return cls(factor, None, 1)
         levels = [level for level in dict.fromkeys(factor.levels) if level in set(observed)]
         return cls(factor, tuple(sorted(levels) if factor.is_number else levels), len(levels) - 1)
@@ -70,7 +70,7 @@ class Coding:
     @property
     def is_straight(self) -> bool:
         """True if the model is straight along its numbers: along a range, and between two levels."""
-        return self.classes is None or self.factor.is_number and len(self.factor.levels) == len(self.classes) == 2
+        return self.classes is None or (self.factor.is_number and len(self.factor.levels) == len(self.classes) == 2)
 
     def numbers(self, values: pandas.Series) -> Numbers:
         """Columns for values."""

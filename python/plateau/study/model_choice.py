@@ -156,9 +156,9 @@ def of_missing(fit: Fitted) -> list[str]:
     name, part = max(parts, key=lambda one: lacks[one[1]].sum() - lacks.mean() * one[1].sum())
     is_even = lacks[part].mean() <= lacks.mean() * (1.0 + 1e-9)
     where = f" (run {runs.index[lacks][0]})" if fit.missing == 1 else "" if is_even else f" ({lacks[part].sum()} of the {part.sum()} with {name})"
-    said = f"{fit.missing} of {len(runs)} runs {'has' if fit.missing == 1 else 'have'} no value of it{where}: if such runs lack it because of how large it "
-    said += "is there, as those do that have not run in, results are biased, and intervals do not tell by how much; make these runs, or longer ones, "
-    return [said + "or take a response that all runs have"]
+    said = f"{fit.missing} of {len(runs)} runs {'has' if fit.missing == 1 else 'have'} no value of it{where}: if such runs lack it because of "
+    said += "how large it is there, as those do that have not run in, results are biased, and intervals do not tell by how much; "
+    return [said + "make these runs, or longer ones, or take a response that all runs have"]
 
 
 def cautions(fit: Fitted) -> list[str]:

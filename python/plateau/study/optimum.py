@@ -56,8 +56,8 @@ class Optimum(Answer):
         A row for each factor: ``factor``, ``unit``, ``value`` (SI or a word), ``text``.
     table : pandas.DataFrame
         A row for each response: ``unit``, ``value``, ``mean_low``, ``mean_high`` (of the mean), ``run_low``, ``run_high`` (of one more run),
-        ``leverage``, ``cautions`` (in short), ``desirability``; and of runs at the place ``confirmed_runs``, their mean ``confirmed``, its ``confirmed_error``, and whether
-        that mean ``is_within`` the interval of runs. SI units.
+        ``leverage``, ``cautions`` (in short), ``desirability``; and of runs at the place ``confirmed_runs``, their mean ``confirmed``, its
+        ``confirmed_error``, and whether that mean ``is_within`` the interval of runs. SI units.
     desirability : float
         The mean of all goals; 0 if a limit is missed.
     at_ends : list of str
@@ -335,7 +335,9 @@ def _profiler(problem: Problem, best: dict[str, Any], factors: Mapping[Factor, A
     """Responses and their desirability along each factor, and how much the desirability changes along it."""
     shown, level, spans = problem.wanted, f"{100 * problem.confidence:g} %", {}
     caption = "Responses and their desirability along each factor, the others at the best settings"
-    note = f"Bands: {level} interval of means; vertical lines: best settings" + ("; dotted: limits; grey: a limit is missed" if problem.limits else "")
+    note = f"Bands: {level} interval of means; vertical lines: best settings" + (
+        "; dotted: limits; grey: a limit is missed" if problem.limits else ""
+    )
     size = (WIDE if len(factors) > 2 else NARROW), 14 + 34 * (len(shown) + 1)
     figure, axes = new(*size, caption, len(shown) + 1, len(factors), note, sharex="col", sharey="row")
     for column, (factor, levels) in enumerate(factors.items()):

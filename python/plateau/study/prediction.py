@@ -18,8 +18,19 @@ from plateau.study.data import Answer, Study
 from plateau.study.kept_values import factor_value
 from plateau.study.results import analysed
 from plateau.study.runs import made_study
-from plateau.study.settings import SAME, axis_of, beyond_of, factor_named, held_values, in_short, joined, no_curve, region_of
-from plateau.study.settings import straight_between, value_of
+from plateau.study.settings import (
+    SAME,
+    axis_of,
+    beyond_of,
+    factor_named,
+    held_values,
+    in_short,
+    joined,
+    no_curve,
+    region_of,
+    straight_between,
+    value_of,
+)
 from plateau.study.surrogate import Surrogate, surrogates
 from plateau.text_tables import listed, read_text_table
 from plateau.units import Unit, unit_for, unit_of, with_digits, with_minus, with_unit
@@ -187,7 +198,7 @@ def predict(
     known = surrogates(opened, model, confidence)
     is_curved = all(one.fit.model == "quadratic" for one in known if one.fit)
     if not isinstance(at, Mapping) and not all(isinstance(text, str) for text in at):
-        raise InputTypeError(f"at = {at!r}: expected a dictionary, such as {{\"load\": \"7 N\"}}; several places are points=DataFrame(...)")
+        raise InputTypeError(f'at = {at!r}: expected a dictionary, such as {{"load": "7 N"}}; several places are points=DataFrame(...)')
     held = held_values(opened, at, "--at", is_curved)
     if points is not None:
         places, given = _rows(opened, points, held, is_curved)

@@ -116,7 +116,7 @@ class ResponseEffects:
         places: list[list[Any]] = []
         for coding in (codings[name] for name in factors):
             coded = np.unique(np.round(coding.factor.coded(fit.runs[coding.factor.name]), 9)) if coding.classes is None else np.array([])
-            if steps and not places or len(coded) > MOST_VALUES:
+            if (steps and not places) or len(coded) > MOST_VALUES:
                 coded = np.linspace(-1.0, 1.0, 5 if places or not steps else steps)
             places.append(list(coding.classes or coding.factor.value(coded)))
         cells = pandas.DataFrame(list(itertools.product(*places)), columns=list(factors))

@@ -129,7 +129,21 @@ def _with_imported(study: Study) -> Study:
 
 # Columns that stand beside those of factors in tables of runs and answers.
 COLUMNS = {"point", "replicate", "order", "same_as", "state", "error", "run", "place", "response", "unit", "value", "leverage", "beyond", "cautions"}
-COLUMNS |= {"mean", "low", "high", "observed", "runs", "round", "expected_improvement", "is_within", "confirmed", "check", "forecast", "deviation", "held"}
+COLUMNS |= {
+    "mean",
+    "low",
+    "high",
+    "observed",
+    "runs",
+    "round",
+    "expected_improvement",
+    "is_within",
+    "confirmed",
+    "check",
+    "forecast",
+    "deviation",
+    "held",
+}
 
 
 def _name(values: xarray.DataArray, role: str, taken: set[str]) -> str:
@@ -151,7 +165,7 @@ def _factor(values: xarray.DataArray) -> Factor:
         levels = tuple(labels or dict.fromkeys(values.values.tolist()))
     else:
         levels = ends if "low" in said else tuple(found)
-        if len(levels) == 2 and len(found) > 2 or not labels and len(found) > 2 or len(levels) > MOST_LEVELS:
+        if (len(levels) == 2 and len(found) > 2) or (not labels and len(found) > 2) or len(levels) > MOST_LEVELS:
             # Between two levels there are points of a response surface, and a table has values where they are.
             levels, is_range = (min(levels), max(levels)) if len(levels) > 2 else levels, True
     name, keys, unit = _name(values, "factor", COLUMNS), str(said["keys"]), str(said.get("units", ""))
@@ -179,5 +193,3 @@ def _directory(study: Path, given: str | os.PathLike[str] | None) -> Path:
         raise MissingFileError(f"{study}: there is no such study") from None
     except (OSError, ValueError) as error:
         raise InputError(f"{study}: cannot be read as a study: {error}") from error
-
-

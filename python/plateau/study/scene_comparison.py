@@ -129,7 +129,11 @@ class Comparison(Answer):
         figures: Figures = {}
         reference = next(iter(self.titles.values()))
         for series, curves in self.curves.groupby("series", sort=False):
-            known, of_time, window = series_of(str(series), curves["unit"].iloc[0], curves["mean"]), unit_of("s", curves["time"]), curves["window"].iloc[0]
+            known, of_time, window = (
+                series_of(str(series), curves["unit"].iloc[0], curves["mean"]),
+                unit_of("s", curves["time"]),
+                curves["window"].iloc[0],
+            )
             name, unit = known.title, known.unit
             level = f"{100 * self.confidence:g} %"
             caption = f"{name} against time: means over the seeds with the standard deviation of runs, and differences with {level} intervals"
@@ -226,7 +230,9 @@ def compare(
             warnings.warn(f"{name}: {one.message}", one.category, stacklevel=2)
     if len({scene["operation"].get("duration") for scene in resolved}) > 1:
         cautions.append("the scenes have different durations, so values at the end are at different times")
-    cells = [(quantity(mesh["outer_radius"], "m") - quantity(mesh["inner_radius"], "m")) / mesh["rows"] for scene in resolved for mesh in [scene["mesh"]]]
+    cells = [
+        (quantity(mesh["outer_radius"], "m") - quantity(mesh["inner_radius"], "m")) / mesh["rows"] for scene in resolved for mesh in [scene["mesh"]]
+    ]
     if np.ptp(cells) > SAME_CELLS * min(cells):
         sizes = ", ".join(f"{name} {1e6 * cell:.3g} µm" for name, cell in zip(names, cells, strict=True))
         cautions.append(f"the scenes have rows of different height ({sizes}), and results depend on the size of cells: give all the same")
@@ -305,7 +311,9 @@ def _words(of: str, unit: Unit, found: dict[str, float], confidence: float) -> s
     # Where its own interval is less sure than that of the difference, it would only confuse.
     ratio = f", {_ratio(found)} times" if found["ratio_low"] > 1.0 or found["ratio_high"] < 1.0 else ""
     is_ = "" if of.endswith(" runs in") else " is"
-    return f"{of}{is_} {more} by {unit.text(abs(change), half, is_difference=True)} ({100 * confidence:g} %){ratio}, sure at {_sure(found['sureness'])}"
+    return (
+        f"{of}{is_} {more} by {unit.text(abs(change), half, is_difference=True)} ({100 * confidence:g} %){ratio}, sure at {_sure(found['sureness'])}"
+    )
 
 
 def _sure(sureness: float) -> str:

@@ -100,7 +100,7 @@ def seeds_needed(
     for row in (row for row in every if np.isfinite(row["standard_error"])):
         asked = half_width.get(row["response"]) if isinstance(half_width, dict) else half_width
         if isinstance(asked, int | float) and row["unit"] != "1":
-            bare[row["response"]] = f'{row["response"]}: half_width = {asked:g} is taken in {row["unit"]}; give text with a unit'
+            bare[row["response"]] = f"{row['response']}: half_width = {asked:g} is taken in {row['unit']}; give text with a unit"
         try:
             wanted = abs(row["effect"]) if asked is None else quantity(asked, row["unit"], needs_unit=row["unit"] != "1")
         except InputError as error:
@@ -118,7 +118,9 @@ def seeds_needed(
     of_sizes = [name for name in dict.fromkeys(row["response"] for row in rows) if name not in stated]
     cautions, names = [f"{name}: {caution}" for name, own in of_each.items() for caution in own], ", ".join(of_sizes)
     if of_sizes:
-        said = f"half width is the size of each effect{'' if half_width is None else f' of {names}'}: with so many sets the interval of such an effect "
+        said = (
+            f"half width is the size of each effect{'' if half_width is None else f' of {names}'}: with so many sets the interval of such an effect "
+        )
         said += "leaves out 0 in about half of all cases, with very few sets in more; give half of its size as half_width, with which it does in 97 %"
         cautions.insert(0, said)
     short = {name: in_short([*(cautions[:1] if name in of_sizes else []), *own]) for name, own in of_each.items()}

@@ -61,11 +61,11 @@ def value_of(factor: Factor, said: Any, where: str, is_curved: bool) -> Any:
             value = float(number[0]) * factor.one + factor.zero if is_own else in_si(number[0], unit, factor.unit or "1")
         except InputError as error:
             raise InputError(f"{where}: {factor.name} = {said}: {error}") from None
-    if not np.isfinite(value) or factor.logarithmic and value <= 0:
+    if not np.isfinite(value) or (factor.logarithmic and value <= 0):
         raise InputError(f"{where}: {factor.name} = {said}: expected a {'number above 0' if factor.logarithmic else 'number'}")
     if not factor.is_range:
         same = [level for level in factor.levels if abs(level - value) <= SAME * max(map(abs, factor.levels))]
-        if not same and (factor.whole or len(factor.levels) > 2 and not is_curved):
+        if not same and (factor.whole or (len(factor.levels) > 2 and not is_curved)):
             levels = ", ".join(map(factor.text, factor.levels))
             advice = "" if factor.whole else "; --model quadratic tells what lies between them"
             raise InputError(f"{where}: {factor.name} = {said}: the model knows the levels {levels} alone{advice}")
@@ -75,7 +75,7 @@ def value_of(factor: Factor, said: Any, where: str, is_curved: bool) -> Any:
 
 def axis_of(factor: Factor, grid: int | None, is_curved: bool) -> list[Any]:
     """Values of a grid; the middle of a range or the first level without."""
-    is_between = factor.is_number and (factor.is_range or not factor.whole and (len(factor.levels) == 2 or is_curved))
+    is_between = factor.is_number and (factor.is_range or (not factor.whole and (len(factor.levels) == 2 or is_curved)))
     if not is_between:
         return list(factor.levels) if grid else [factor.levels[0]]
     values = factor.value(np.linspace(-1.0, 1.0, max(grid, 1)) if grid and grid > 1 else [-1.0 if grid else 0.0])

@@ -94,7 +94,11 @@ class Surrogate:
             p = f_test(self.fit.explained, self.fit.residual)[1] if self.fit else np.nan
             is_chance, how = self.fit is not None and p > 1.0 - self.fit.confidence, f"p = {p:.2g}"
         why = "what forecasts differ by, and where they are best, may be chance, of which intervals at the best place do not know"
-        return [f"the runs do not show that any factor has an effect ({how}): {why}; more sets of seeds or wider ranges may show one"] if is_chance else []
+        return (
+            [f"the runs do not show that any factor has an effect ({how}): {why}; more sets of seeds or wider ranges may show one"]
+            if is_chance
+            else []
+        )
 
     @cached_property
     def cautions(self) -> list[str]:

@@ -36,7 +36,7 @@ def add(words: Words) -> None:
     study = words.within("sweep")
 
     def word(group: Words, name: str, about: str, answer: Callable[[argparse.Namespace], str], example: str) -> Any:
-        made = group.word(name, about, answer, example)
+        made = group.word(name, about, answer, f"  plateau {'sweep ' if group is study else ''}{name} {example}")
         if name != "compare":
             what = " with measured values in its responses" if name == "fit" else ""
             made.add_argument("study", type=Path, metavar="STUDY", help=f"Study file (TOML){what}")
@@ -51,10 +51,12 @@ def add(words: Words) -> None:
         made.add_argument("--json", action="store_true", help="Print one JSON document instead of text")
         of_all(made, force)
 
-    made = word(study, "effects", "Tell what the factors do: effects, analysis of variance, figures", _effects, "  plateau sweep effects data/studies/published/factors.toml")
+    made = word(study, "effects", "Tell what the factors do: effects, analysis of variance, figures", _effects, "data/studies/published/factors.toml")
     shared(made, *MODEL, output='Folder for tables, figures and the page; "effects" in the study\'s own unless given')
 
-    made = word(study, "predict", "Tell what responses are expected to be where no run was made", _predict, "  plateau sweep predict data/studies/answer.toml --at load=\"7 N\"")
+    made = word(
+        study, "predict", "Tell what responses are expected to be where no run was made", _predict, 'data/studies/answer.toml --at load="7 N"'
+    )
     several(made, "--at", "FACTOR=VALUE", 'Set a factor, such as load="7 N"; may be repeated')
     made.add_argument("--grid", type=count, metavar="N", help="Predict at so many values of each range and at all levels")
     made.add_argument("--points", type=Path, metavar="FILE", help="Predict at the points of a table in CSV, a column for each factor")
@@ -63,7 +65,9 @@ def add(words: Words) -> None:
     made.add_argument("-o", "--output", type=Path, metavar="FILE", help="Write the predictions as a table in CSV")
     shared(made, *CORES, *MODEL, force="Replace that file if it exists")
 
-    made = word(study, "optimize", "Find the settings at which responses are best", _optimize, "  plateau sweep optimize data/studies/answer.toml --minimize \"worn off the pin\"")
+    made = word(
+        study, "optimize", "Find the settings at which responses are best", _optimize, 'data/studies/answer.toml --minimize "worn off the pin"'
+    )
     for flag, example in (("maximize", "contact area=1 mm2..2 mm2"), ("minimize", "worn=0..1 mm3"), ("target", "filled=0.5..0.7..0.8")):
         several(made, f"--{flag}", "RESPONSE", f'A goal, such as "{example}"; may be repeated')
     several(made, "--limit", "RESPONSE<=VALUE", 'Keep a response below or above a value: "filled<=0.9"')
@@ -72,28 +76,41 @@ def add(words: Words) -> None:
     several(made, "--hold", "FACTOR=VALUE", 'Hold a factor at a value, such as load="8 N"')
     several(made, "--importance", "RESPONSE=NUMBER", "How much a goal counts; 1 unless given")
     made.add_argument("--contour", metavar="FACTOR,FACTOR", help="Draw the desirability over two factors")
-    made.add_argument("--runs", type=count, metavar="N", help="Make so many runs on the way to the optimum, where improvement is expected, between levels of numbers, too")
+    made.add_argument(
+        "--runs",
+        type=count,
+        metavar="N",
+        help="Make so many runs on the way to the optimum, where improvement is expected, between levels of numbers, too",
+    )
     made.add_argument("--confirm", action="store_true", help="Make runs at the optimum, with all seeds of the study, and compare")
     shared(made, *CORES, *MODEL, output='Folder for figures and table; "optimum" in the study\'s own unless given')
 
-    made = word(study, "sensitivity", "Tell which part of a response's variation each factor has", _sensitivity, "  plateau sweep sensitivity data/studies/answer.toml")
+    made = word(study, "sensitivity", "Tell which part of a response's variation each factor has", _sensitivity, "data/studies/answer.toml")
     shared(made, "--confidence", output='Folder for table and figures; "sensitivity" in the study\'s own unless given')
 
-    made = word(study, "import", "Take in responses that were measured or computed elsewhere", _import, "  plateau sweep import study.toml measured.csv")
+    made = word(study, "import", "Take in responses that were measured or computed elsewhere", _import, "study.toml measured.csv")
     about = "Table (CSV) with a column for each factor and for each response with imported = true"
     made.add_argument("table", type=Path, metavar="TABLE", help=about)
     shared(made, force="Replace values that were imported before")
 
-    made = word(words, "fit", "Find the values of keys with which runs give what was measured", _fit, "  plateau fit data/studies/fit-captured-fraction.toml --plan")
+    made = word(
+        words, "fit", "Find the values of keys with which runs give what was measured", _fit, "data/studies/fit-captured-fraction.toml --plan"
+    )
     made.add_argument("--plan", action="store_true", help="Say what is fitted to what and what it will cost, without running any")
     made.add_argument("--retry", action="store_true", help="Make runs again that failed before")
     shared(made, *CORES, output='Folder for tables and figures; "fit" in the study\'s own unless given', force=OTHER)
 
-    made = word(words, "compare", "Tell what differs between scenes, and how sure that is: runs of each with the same seeds", _compare, "  plateau compare data/scenes/quick.toml data/scenes/stops.toml --seeds 3")
+    made = word(
+        words,
+        "compare",
+        "Tell what differs between scenes, and how sure that is: runs of each with the same seeds",
+        _compare,
+        "data/scenes/quick.toml data/scenes/stops.toml --seeds 3",
+    )
     made.add_argument("scenes", type=Path, nargs="+", metavar="SCENE", help="Scene files (TOML), two or more; the first is the reference")
     made.add_argument("--seeds", type=count, default=5, metavar="N", help="Sets of seeds with which each scene is run [default: 5]")
     several(made, "--set", "KEY=VALUE", "Change a key of all scenes; may be repeated")
-    about = "What is compared in place of what usually matters, such as mean_pressure, worn_pin:end or \"contact_area:reaches 0.8\"; without a "
+    about = 'What is compared in place of what usually matters, such as mean_pressure, worn_pin:end or "contact_area:reaches 0.8"; without a '
     about += "question the mean over the last tenth of the run, of totals and of filled_fraction the end; may be repeated"
     several(made, "--response", "DATASET[:QUESTION]", about)
     shared(made, *CORES, "--confidence", output='Folder for runs, tables, figures and the page; "comparison" unless given', force=OTHER)
@@ -197,7 +214,9 @@ def _goals(given: argparse.Namespace, study: Study) -> object:
 def _sensitivity(given: argparse.Namespace) -> str:
     study, folder, _ = _opened(given, "sensitivity")
     found = studies.sensitivity(study, confidence=given.confidence)
-    return _told(given, found, folder, {"sensitivity.csv": found.table, **saved(found.figures(), progress=progress(given))}, _inputs(study), study.title)
+    return _told(
+        given, found, folder, {"sensitivity.csv": found.table, **saved(found.figures(), progress=progress(given))}, _inputs(study), study.title
+    )
 
 
 def _import(given: argparse.Namespace) -> str:

@@ -15,11 +15,12 @@ sys.path[:0] = [str(HERE / folder) for folder in ("python", "tests/python", "tes
 
 from effects import cube
 from made_studies import number, span, stored, study_of, word
+
 from plateau.errors import PlateauWarning
 from plateau.study.analysis import effects
+from plateau.study.data import Study
 from plateau.study.level_differences import levels
 from plateau.study.model import Fitted
-from plateau.study.data import Study
 
 
 def columns(fit: Fitted, table: pandas.DataFrame) -> dict[str, Any]:

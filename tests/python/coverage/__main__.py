@@ -105,9 +105,7 @@ def of_forecasts():
         kind, *sizes = case
         alone = forecasts.process_coverage(*case, FUNCTIONS)
         shares, counts = forecasts.surrogate_coverage(*case, FUNCTIONS)
-        chosen = (
-            (percent(own, "") if count else "–") + f" ({count} functions)" * (count < FEW) for own, count in zip(shares, counts, strict=True)
-        )
+        chosen = ((percent(own, "") if count else "–") + f" ({count} functions)" * (count < FEW) for own, count in zip(shares, counts, strict=True))
         return [f"{kind} {'/'.join(map(str, sizes))}", percent(alone, ""), *chosen]
 
     table(["response", "process alone", "polynomial where it wins", "process where it wins"], map(row, RESPONSES))

@@ -3,8 +3,8 @@
 Simulates 2^3 designs with two to five sets of seeds, in which the effect of one factor differs between sets of seeds by 0, 0.5, 1 and 2
 of the noise: all runs there, and with a tenth of them missing. Beside it stands how often the test of lack of fit rejects a model that
 lacks nothing, where the product of all three factors differs so, zero in the mean. Of 240 real runs with 30 sets of seeds
-(data/studies/seeds.toml), it takes subsets of two to five and compares with the mean of all sets; subsets of 30 normal numbers are held in 91 to 98 %. The
-intervals from the residual, as they were before, stand beside.
+(data/studies/seeds.toml), it takes subsets of two to five and compares with the mean of all sets; subsets of 30 normal numbers are held in
+91 to 98 %. The intervals from the residual, as they were before, stand beside.
 """
 
 import itertools
@@ -14,10 +14,10 @@ from typing import Any
 
 import numpy as np
 import pandas
-from scipy import stats
-
 from checkout import ROOT
 from made_studies import number, study_of, word
+from scipy import stats
+
 from plateau.study.data import Study
 from plateau.study.level_differences import levels
 from plateau.study.model import Fitted

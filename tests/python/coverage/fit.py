@@ -40,12 +40,7 @@ class Experiment:
         a, b, c = x[:, 0], x[:, 1], self.shape
         bump = self.sharp * np.exp(-8.0 * ((a - 0.3) ** 2 + (b + 0.2) ** 2))
         return np.stack(
-            [
-                np.exp(0.7 * c[0] * a + 0.3 * b) + bump,
-                3.0 + c[1] * a + np.tanh(c[2] * b),
-                2.0 + c[3] * np.sin(c[4] * a) + b + c[5] * b * b / 2.0,
-            ],
-            -1,
+            [np.exp(0.7 * c[0] * a + 0.3 * b) + bump, 3.0 + c[1] * a + np.tanh(c[2] * b), 2.0 + c[3] * np.sin(c[4] * a) + b + c[5] * b * b / 2.0], -1
         )
 
     def curves(self, x):
@@ -67,12 +62,7 @@ class Experiment:
         measured = [Measurement(response, times, values, np.full(len(values), ERROR), correlation_time, "") for values in self.measured]
         first = self.runs(2.0 * qmc.Sobol(2, scramble=False).random(points) - 1.0)
         return calibrated(
-            Target(measured, [discrepancy] * len(measured), np.eye(len(measured))),
-            first,
-            self.runs,
-            self.seeds,
-            most,
-            [True] * len(measured),
+            Target(measured, [discrepancy] * len(measured), np.eye(len(measured))), first, self.runs, self.seeds, most, [True] * len(measured)
         )
 
 

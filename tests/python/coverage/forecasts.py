@@ -8,12 +8,12 @@ cannot tell it).
 
 import itertools
 
+import made_studies
 import numpy as np
 import pandas
 from scipy import linalg, stats
 from scipy.stats import qmc
 
-import made_studies
 from plateau.study.process import Process
 from plateau.study.surrogate import surrogates
 from plateau.study.variance_parts import sensitivity
@@ -109,7 +109,7 @@ def seeds_coverage(is_hypercube, seeds, ratio, functions, number=20261124):
         x, group = np.repeat(points, seeds, axis=0), np.tile(np.arange(seeds), len(points))
         y = (1.0 + ratio * random.standard_normal(seeds)[group]) * x[:, 0] + x[:, 1] + NOISE * random.standard_normal(len(x))
         table = sensitivity(study_of(x, y, group, "latin-hypercube" if is_hypercube else "central-composite")).table.iloc[:2]
-        covered.append(((table["first_order_low"] <= 0.503) & (0.497 <= table["first_order_high"])).mean())
+        covered.append(((table["first_order_low"] <= 0.503) & (table["first_order_high"] >= 0.497)).mean())
     return np.mean(covered)
 
 

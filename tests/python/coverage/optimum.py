@@ -8,9 +8,9 @@ import itertools
 import math
 
 import numpy as np
+from made_studies import span, study_of
 from scipy.stats import qmc
 
-from made_studies import span, study_of
 from plateau.study.goals import Goal, Problem, beyond_runs, improved, with_processes
 from plateau.study.results import analysed
 from plateau.study.scene_comparison import difference

@@ -1,6 +1,6 @@
 """Makes the tables, arrays and images of the folder surfaces: 5 columns (x) by 4 rows (y) of n = 4 x + y.
 
-    python make_tables.py            (numpy, pillow, tifffile, h5py)
+python make_tables.py            (numpy, pillow, tifffile, h5py)
 """
 
 import h5py
@@ -30,25 +30,15 @@ text = "\n".join("\t".join(f"{v:.6f}" for v in row) for row in lines)
 open("surfaces/gwyddion.txt", "w").write(f"# Channel: Height\n# Width: 250 µm\n# Height: 100 µm\n# Value units: um\n{text}\n")
 points = [(x, y) for x in range(5) for y in range(4) if (x, y) != (2, 1)]
 np.random.default_rng(1).shuffle(points)
-open("surfaces/list.csv", "w", encoding="utf-8-sig").write(
-    "x [um],y [um],z [um]\n" + "".join(f"{50 * x},{25 * y},{n[x, y]}\n" for x, y in points)
-)
-open("surfaces/list.xyz", "w").write(
-    "# unit: um\n" + "".join(f"{50 * x} {25 * y} {n[x, y] if (x, y) != (0, 3) else 'NaN'}\n" for x, y in points)
-)
+open("surfaces/list.csv", "w", encoding="utf-8-sig").write("x [um],y [um],z [um]\n" + "".join(f"{50 * x},{25 * y},{n[x, y]}\n" for x, y in points))
+open("surfaces/list.xyz", "w").write("# unit: um\n" + "".join(f"{50 * x} {25 * y} {n[x, y] if (x, y) != (0, 3) else 'NaN'}\n" for x, y in points))
 
 # One point missing, at (2, 1).
 cells = [["" if (x, y) == (2, 1) else f"{n[x, y]}" for x in range(5)] for y in range(4)]
 with_comma = [[cell and cell + ",0" for cell in line] for line in cells]
-open("surfaces/comma.csv", "w").write(
-    "# unit: um\n# pitch: 50,0 um; 25,0 um\n" + "".join(";".join(line) + "\n" for line in with_comma)
-)
-open("surfaces/comma.txt", "w").write(
-    "# unit: um\n" + "".join(" ".join(cell or "***" for cell in line) + "\n" for line in with_comma)
-)
-open("surfaces/utf16.csv", "w", encoding="utf-16").write(
-    "unit: µm\npitch: 50 µm\n" + "".join("\t".join(line) + "\n" for line in cells)
-)
+open("surfaces/comma.csv", "w").write("# unit: um\n# pitch: 50,0 um; 25,0 um\n" + "".join(";".join(line) + "\n" for line in with_comma))
+open("surfaces/comma.txt", "w").write("# unit: um\n" + "".join(" ".join(cell or "***" for cell in line) + "\n" for line in with_comma))
+open("surfaces/utf16.csv", "w", encoding="utf-16").write("unit: µm\npitch: 50 µm\n" + "".join("\t".join(line) + "\n" for line in cells))
 # Profiles of the heights 0 to 19, a sixth of a micrometre apart, in coordinates with one digit.
 open("surfaces/rounded.csv", "w").write("Lateral um,Raw Micrometer,\n" + "".join(f"{n / 6:.1f},{n}.00000,,\n" for n in range(20)))
 open("surfaces/profile.hfm", "w").write("X;Y;valid\n[mm];[um];[1/0]\n" + "".join(f"{8 + n / 1000};{n};1\n" for n in range(20)))

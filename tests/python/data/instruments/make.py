@@ -32,13 +32,15 @@ zygo = (
     '5 4 0 0 0 0 ""\n0 0 0 0 0 0 0 0 0 0\n1 1 20 2 0 0 0 0 0\n0 ""\n1 0\n""\n#\n'
 )
 open("zygo.xyz", "w").write(
-    "Zygo XYZ Data File - Format 1\n" + zygo
-    + "".join(f"{7 + x} {3 + y} {cells[y][x] or 'No Data'}\n" for y in range(4) for x in range(5)) + "#\n"
+    "Zygo XYZ Data File - Format 1\n" + zygo + "".join(f"{7 + x} {3 + y} {cells[y][x] or 'No Data'}\n" for y in range(4) for x in range(5)) + "#\n"
 )
 phases = [32768 * int(cell) if cell else 2147483640 for line in cells for cell in line]
 open("zygo.asc", "w").write(
-    "Zygo ASCII Data File - Format 2\n" + zygo + "#\n"
-    + "".join(" ".join(str(phase) for phase in phases[at : at + 10]) + " \n" for at in (0, 10)) + "#\n"
+    "Zygo ASCII Data File - Format 2\n"
+    + zygo
+    + "#\n"
+    + "".join(" ".join(str(phase) for phase in phases[at : at + 10]) + " \n" for at in (0, 10))
+    + "#\n"
 )
 open("spip.asc", "w").write(
     "# File Format = ASCII\n# Created by SPIP 6.3\n# x-pixels = 5\n# y-pixels = 4\n# x-length = 250000\n# y-length = 100000\n"
@@ -47,5 +49,6 @@ open("spip.asc", "w").write(
 # A profile of the heights 0 to 19, a sixth of a micrometre apart, in coordinates with one digit.
 open("dektak.csv", "w", newline="", encoding="latin-1").write(
     "Scan Parameters\r\r\nScan Type,Standard Scan\r\nStylus,Radius: 2.5 µm\r\n\r\r\nScan Data\r\r\nLateral um,Raw Micrometer,\r\n"
-    + "".join(f"{n / 6:.1f},{n}.00000,,\r\n" for n in range(20)) + "\r\r\n"
+    + "".join(f"{n / 6:.1f},{n}.00000,,\r\n" for n in range(20))
+    + "\r\r\n"
 )

@@ -1,8 +1,7 @@
 from pathlib import Path
 
-from spack_repo.builtin.build_systems.cargo import CargoPackage
-
 from spack.package import *
+from spack_repo.builtin.build_systems.cargo import CargoPackage
 
 
 class Plateau(CargoPackage):
