@@ -8,5 +8,7 @@ pub mod program;
 pub mod run_file;
 #[path = "../../crates/core/tests/scenes.rs"]
 pub mod scenes;
+#[path = "../../crates/io/tests/studies.rs"]
+pub mod studies;
 pub mod table;
 pub mod vector;

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::env;
 use std::ffi::{OsStr, OsString};
+use std::fmt::Display;
 use std::fs::{self, File};
 use std::io::{Read, Seek};
 use std::path::{Path, PathBuf};
@@ -10,8 +11,10 @@ use std::process::{Child, Command, Stdio};
 use std::thread;
 use std::time::{Duration, Instant};
 
+use serde_json::Value;
 use tempfile::TempDir;
 
+use crate::run_file::RunFile;
 use crate::scenes::Stream;
 
 /// What messages name the program, wherever it was built.
@@ -94,9 +97,29 @@ pub fn quick_scene_with(edits: &[(&str, &str)]) -> String {
     text
 }
 
+/// Settings as words of a command line: each behind `--set`.
+pub fn sets<'a>(settings: &[&'a str]) -> Vec<&'a str> {
+    settings.iter().flat_map(|setting| ["--set", setting]).collect()
+}
+
+/// Words that run a shipped scene into a file with these settings, and more words.
+pub fn run_words(name: &str, file: &str, settings: &[&str], more: &[&str]) -> Vec<String> {
+    let scene = scene(name);
+    let words = [&["run", &scene, "-o", file], &sets(settings)[..], more].concat();
+    words.into_iter().map(str::to_owned).collect()
+}
+
+/// The source of the disc's heights in `quick.toml`.
+pub const DISC: &str = "synthetic = { seed = 1, rms_height = \"3 um\", correlation_length = \"200 um\" }";
+
+/// Settings of a mesh so small that its runs take a moment.
+pub const SMALL_MESH: [&str; 3] = ["mesh.rows=8", "mesh.disc_columns=160", "mesh.pin_columns=16"];
+
 /// What a command said and how it ended.
 #[derive(Debug)]
 pub struct Outcome {
+    /// The command, so that a failed test names it.
+    pub command: String,
     /// Exit status; none if a signal ended it.
     pub status: Option<i32>,
     /// Standard output.
@@ -121,6 +144,15 @@ impl Outcome {
     pub fn quiet_success(self) -> String {
         assert_eq!((self.status, self.said().as_str()), (Some(0), ""), "standard output: {}", self.stdout);
         self.stdout
+    }
+
+    /// Standard output as one JSON document.
+    ///
+    /// # Panics
+    /// When it is none.
+    #[track_caller]
+    pub fn json(&self) -> Value {
+        serde_json::from_str(&self.stdout).unwrap_or_else(|error| panic!("{error}: {self:?}"))
     }
 
     /// The outcome, which has this exit status, and all of these texts on standard error.
@@ -151,6 +183,18 @@ impl WorkingDirectory {
         Self { directory: tempfile::tempdir().expect("a temporary directory") }
     }
 
+    /// A directory with one file.
+    pub fn with(name: &str, content: impl AsRef<[u8]>) -> Self {
+        let directory = Self::new();
+        directory.write(name, content);
+        directory
+    }
+
+    /// A directory with `scene.toml`, which is `quick.toml` with pieces of its text replaced.
+    pub fn with_scene(edits: &[(&str, &str)]) -> Self {
+        Self::with("scene.toml", quick_scene_with(edits))
+    }
+
     /// Absolute path of a name in the directory.
     pub fn path(&self, name: &str) -> PathBuf {
         self.directory.path().join(name)
@@ -162,6 +206,18 @@ impl WorkingDirectory {
         fs::create_dir_all(path.parent().expect("a directory")).expect("a directory for the file");
         fs::write(&path, content).expect("the file");
         path
+    }
+
+    /// The text of a file.
+    #[track_caller]
+    pub fn text(&self, name: &str) -> String {
+        fs::read_to_string(self.path(name)).unwrap_or_else(|error| panic!("{name}: {error}"))
+    }
+
+    /// A run file, or results of a study.
+    #[track_caller]
+    pub fn run_file(&self, name: &str) -> RunFile {
+        RunFile::open(self.path(name))
     }
 
     /// Every file below the directory, those with a leading dot too, with its content; the content of a link is its
@@ -231,6 +287,34 @@ impl WorkingDirectory {
     }
 }
 
+/// Starts a command, whose output is kept.
+///
+/// # Panics
+/// When it does not start.
+pub fn start(mut command: Command) -> Child {
+    command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().expect("the command")
+}
+
+/// What a command said that was started, and how it ended.
+///
+/// # Panics
+/// When it said what is no text.
+pub fn ended(child: Child) -> Outcome {
+    let output = child.wait_with_output().expect("its end");
+    let text = |bytes| String::from_utf8(bytes).expect("output in UTF-8");
+    let command = "started before".to_owned();
+    Outcome { command, status: output.status.code(), stdout: text(output.stdout), stderr: text(output.stderr) }
+}
+
+/// Sends a signal, such as `TERM`, to a process.
+///
+/// # Panics
+/// When there is no such process.
+pub fn send(signal: &str, process: impl Display) {
+    let sent = Command::new("kill").args(["-s", signal, &process.to_string()]).status();
+    assert!(sent.expect("kill").success(), "{signal} to {process}");
+}
+
 /// Runs a command to its end; standard output and standard error are no terminal.
 ///
 /// # Panics
@@ -250,7 +334,7 @@ pub fn run(mut command: Command) -> Outcome {
         panic!("{command:?} did not end within {PATIENCE:?}");
     }
     let [stdout, stderr] = output.each_mut().map(read_all);
-    Outcome { status: status.and_then(|status| status.code()), stdout, stderr }
+    Outcome { command: format!("{command:?}"), status: status.and_then(|status| status.code()), stdout, stderr }
 }
 
 /// Kills a process (SIGKILL: it gets no chance to tidy up) and waits for its end.
@@ -276,8 +360,7 @@ pub fn go_on_through_kills<A: AsRef<OsStr>>(
 ) -> usize {
     let mut killed = 0;
     while killed < kills {
-        let mut command = directory.command(arguments);
-        let mut child = command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
+        let mut child = start(directory.command(arguments));
         thread::sleep(Duration::from_secs_f64(seconds * random.uniform()));
         if child.try_wait().unwrap().is_some() {
             break;

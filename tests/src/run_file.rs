@@ -76,6 +76,19 @@ pub fn changed(path: impl AsRef<Path>) -> hdf5::File {
     without_lock(path, OpenMode::ReadWrite).expect("an HDF5 file")
 }
 
+/// Writes a text among the attributes of the root, in place of one of that name.
+///
+/// # Panics
+/// When it cannot be written.
+pub fn set_text(path: impl AsRef<Path>, attribute: &str, text: &str) {
+    let file = changed(path);
+    let _ = file.delete_attr(attribute);
+    let text: VarLenUnicode = text.parse().expect("a text without null");
+    let made = file.new_attr::<VarLenUnicode>().create(attribute).expect("an attribute");
+    made.write_scalar(&text).expect("its text");
+    file.close().expect("the end of the file");
+}
+
 /// An HDF5 file that is read. Whatever cannot be read ends the test.
 #[derive(Debug)]
 pub struct RunFile {

@@ -44,12 +44,12 @@ fn with_scene(edits: &[(&str, &str)]) -> WorkingDirectory {
 fn measured(directory: &WorkingDirectory, arguments: &[&str]) -> (String, Vec<Row>) {
     let all = ["accuracy", "scene.toml", "--force"].iter().chain(arguments);
     let text = directory.plateau(all).quiet_success();
-    (text, rows(&fs::read_to_string(directory.path("accuracy/accuracy.csv")).unwrap()))
+    (text, rows(&directory.text("accuracy/accuracy.csv")))
 }
 
 /// All that was found, as JSON.
 fn document(directory: &WorkingDirectory) -> serde_json::Value {
-    serde_json::from_str(&fs::read_to_string(directory.path("accuracy/accuracy.json")).unwrap()).unwrap()
+    serde_json::from_str(&directory.text("accuracy/accuracy.json")).unwrap()
 }
 
 fn number_of(value: &serde_json::Value) -> f64 {
@@ -60,7 +60,7 @@ fn number_of(value: &serde_json::Value) -> f64 {
 fn run(directory: &WorkingDirectory, file: &str, sets: &[String]) -> RunFile {
     let sets = sets.iter().flat_map(|set| ["--set", set]);
     directory.plateau(["run", "scene.toml", "-o", file, "--force"].into_iter().chain(sets)).quiet_success();
-    RunFile::open(directory.path(file))
+    directory.run_file(file)
 }
 
 /// Sum of series, from the start on, at the samples of a run.
@@ -92,7 +92,7 @@ fn expect_near(found: f64, expected: f64, tolerance: f64, what: &str) {
 /// What is wrong is said in one message, which is given, and nothing is written.
 fn refusal(directory: &WorkingDirectory, arguments: &[&str]) -> String {
     let before = directory.content();
-    let Outcome { status, stdout, stderr } = directory.plateau(["accuracy"].iter().chain(arguments));
+    let Outcome { status, stdout, stderr, .. } = directory.plateau(["accuracy"].iter().chain(arguments));
     assert_eq!((status, stdout.as_str()), (Some(2), ""), "{stderr}");
     assert!(stderr.starts_with("plateau: "), "{stderr}");
     assert!(directory.content() == before, "something was written");
@@ -212,7 +212,7 @@ fn every_file_has_the_same_numbers() {
     let arguments = ["accuracy", "scene.toml", "--ladder", "time_acceleration", "--ladder", "tolerance", "--json"];
     let json = directory.plateau(arguments).quiet_success();
     let json: serde_json::Value = serde_json::from_str(&json).unwrap();
-    let csv = fs::read_to_string(directory.path("accuracy/accuracy.csv")).unwrap();
+    let csv = directory.text("accuracy/accuracy.csv");
     assert_eq!(document(&directory), json);
     let runs = json["runs"].as_array().unwrap();
     let names: Vec<&str> = csv.lines().next().unwrap().split(',').collect();

@@ -5,7 +5,7 @@ use std::thread;
 use plateau_core::simulation::{Execution, Simulation};
 use plateau_io::{scene as scene_file, surface};
 use plateau_tests::divergence::differences;
-use plateau_tests::program::{WorkingDirectory, scene};
+use plateau_tests::program::{WorkingDirectory, run_words, scene};
 use plateau_tests::run_file::RunFile;
 use plateau_tests::scenes::{all_primary, few_or_all, wear_only};
 use plateau_tests::table::relative_error;
@@ -78,16 +78,15 @@ fn run(duration: u32, sets: &[String]) -> RunFile {
 /// The same with so many workers, maybe more than there are cores.
 fn run_on(workers: u32, duration: u32, sets: &[String]) -> RunFile {
     let directory = WorkingDirectory::new();
-    let mut arguments = vec!["run".to_owned(), scene("quick.toml"), "-o".into(), "run.h5".into()];
-    let usual =
-        [format!("operation.duration={duration} s"), "output.maps=[]".into(), "output.sample_every=0.5 s".into()];
-    arguments.extend(usual.iter().chain(sets).flat_map(|set| ["--set".to_owned(), set.clone()]));
-    arguments.extend(["--workers".to_owned(), workers.to_string()]);
-    let done = directory.plateau(arguments).ends(0, &[]);
+    let duration = format!("operation.duration={duration} s");
+    let settings = [&duration, "output.maps=[]", "output.sample_every=0.5 s"].into_iter();
+    let settings: Vec<&str> = settings.chain(sets.iter().map(String::as_str)).collect();
+    let words = run_words("quick.toml", "run.h5", &settings, &["--workers", &workers.to_string()]);
+    let done = directory.plateau(words).ends(0, &[]);
     assert!(workers > 1 || !done.stderr.contains("warning"), "{}", done.stderr);
     let is_chosen = sets.iter().any(|set| set == CHOSEN);
     assert_eq!(done.stdout.contains("tolerance 1 % "), is_chosen, "{}", done.stdout);
-    RunFile::open(directory.path("run.h5"))
+    directory.run_file("run.h5")
 }
 
 /// Means of the contact area over windows of `width` seconds, m².
@@ -155,9 +154,7 @@ fn no_bit_of_a_run_that_chooses_depends_on_the_workers() {
     let chosen = |workers: u32| {
         let run = run_on(workers, 12, &[CHOSEN.to_owned()]);
         let series = ["time_acceleration", "acceleration_error", "contact_area_integral", "filled_fraction"];
-        let bits =
-            |name: &str| run.floats(&format!("/series/{name}")).into_iter().map(f64::to_bits).collect::<Vec<_>>();
-        series.map(bits)
+        series.map(|name| run.floats(&format!("/series/{name}")).into_iter().map(f64::to_bits).collect::<Vec<_>>())
     };
     let one = chosen(1);
     let accelerations: Vec<f64> = one[0].iter().copied().map(f64::from_bits).collect();
@@ -198,10 +195,8 @@ fn a_run_goes_on_with_a_larger_acceleration_after_the_error_was_estimated_too_la
     // Here the estimate exceeds the tolerance, from some 90 s on.
     let directory = WorkingDirectory::new();
     let sets = ["operation.normal_force=20 N", "operation.duration=300 s", "output.maps=[]", CHOSEN];
-    let mut arguments = vec!["run".to_owned(), scene("quick.toml"), "-o".into(), "run.h5".into()];
-    arguments.extend(sets.iter().flat_map(|set| ["--set".to_owned(), (*set).to_owned()]));
-    let told = directory.plateau([&arguments[..], &["--json".to_owned()]].concat()).ends(0, &[]);
-    let run = RunFile::open(directory.path("run.h5"));
+    let told = directory.plateau(run_words("quick.toml", "run.h5", &sets, &["--json"])).ends(0, &[]);
+    let run = directory.run_file("run.h5");
     let (time, accelerations) = (run.floats("/time"), run.floats("/series/time_acceleration"));
     let late: Vec<f64> = time.iter().zip(&accelerations).filter(|(time, _)| **time > 200.0).map(|(_, m)| *m).collect();
     let returns = late.windows(2).filter(|two| two[0] == 1.0 && two[1] > 1.0).count();
@@ -218,8 +213,7 @@ fn a_run_goes_on_with_a_larger_acceleration_after_the_error_was_estimated_too_la
     let all = 300.0 / (60.0 / 850.0);
     assert!(revolutions < 0.5 * all, "{revolutions} of {all}");
     // What it did is in the summary, in the file and in the report: the same.
-    let answer: serde_json::Value = serde_json::from_str(&told.stdout).unwrap();
-    let summary = &answer["time_acceleration"];
+    let summary = &told.json()["time_acceleration"];
     let of_file: serde_json::Value = serde_json::from_str(&run.text("time_acceleration")).unwrap();
     assert_eq!(*summary, of_file);
     assert_eq!((&summary["tolerance"], &summary["smallest"]), (&0.01.into(), &1.0.into()));
@@ -243,11 +237,9 @@ fn a_disc_too_smooth_is_not_accelerated_where_debris_is_pooled() {
     // below it, one of 3 µm above.
     let directory = WorkingDirectory::new();
     let run = |sets: &[&str]| {
-        let mut arguments = vec!["run".to_owned(), scene("quick.toml"), "--force".into(), "-o".into(), "run.h5".into()];
-        let usual = [CHOSEN, "operation.duration=0.5 s"];
-        arguments.extend(usual.iter().chain(sets).flat_map(|set| ["--set".to_owned(), (*set).to_owned()]));
-        let done = directory.plateau(arguments).ends(0, &[]);
-        let chosen = RunFile::open(directory.path("run.h5")).has("/series/time_acceleration");
+        let settings = [&[CHOSEN, "operation.duration=0.5 s"], sets].concat();
+        let done = directory.plateau(run_words("quick.toml", "run.h5", &settings, &["--force"])).ends(0, &[]);
+        let chosen = directory.run_file("run.h5").has("/series/time_acceleration");
         assert_eq!(done.stderr.contains("as smooth as this"), !chosen, "{}", done.stderr);
         chosen
     };
@@ -267,11 +259,7 @@ fn a_disc_too_smooth_is_not_accelerated_where_debris_is_pooled() {
 #[test]
 fn what_leaves_nothing_to_choose_is_said() {
     let directory = WorkingDirectory::new();
-    let run = |sets: &[&str]| {
-        let mut arguments = vec!["run".to_owned(), scene("quick.toml"), "-o".into(), "run.h5".into()];
-        arguments.extend(sets.iter().flat_map(|set| ["--set".to_owned(), (*set).to_owned()]));
-        directory.plateau(arguments)
-    };
+    let run = |settings: &[&str]| directory.plateau(run_words("quick.toml", "run.h5", settings, &[]));
     run(&[CHOSEN, "operation.steps=10"]).ends(2, &["give operation.duration"]);
     run(&["numerics.time_acceleration={ tolerance = 0.01, max = 1 }", "operation.duration=0.1 s"])
         .ends(0, &["nothing to choose"]);

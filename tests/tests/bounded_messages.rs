@@ -4,9 +4,9 @@ use std::fs;
 use std::os::fd::OwnedFd;
 use std::os::unix::net::UnixDatagram;
 
-use hdf5::types::VarLenUnicode;
-use plateau_tests::program::{Outcome, WorkingDirectory, quick_scene_with, scene};
-use plateau_tests::run_file::changed;
+use plateau_tests::program::{Outcome, WorkingDirectory, quick_scene_with, run_words, scene};
+use plateau_tests::run_file::set_text;
+use plateau_tests::studies::Study;
 
 /// Bytes of a message in all, and more than the longest of these has.
 const LONGEST: usize = 6000;
@@ -51,10 +51,10 @@ fn of_many_mistakes_in_a_scene_the_first_are_told() {
 #[test]
 fn of_many_mistakes_in_a_study_the_first_are_told() {
     let directory = WorkingDirectory::new();
-    let head = format!("version = 1\nbase = \"{}\"\ndesign = \"full-factorial\"\n", scene("quick.toml"));
-    let factor = |name: &str| format!("[[factor]]\nname = \"{name}\"\nkey = \"nothing.{name}\"\nlevels = [1, 2]\n");
-    let many: String = (0..150).map(|number| factor(&format!("{}{number} ", "n".repeat(5000)))).collect();
-    directory.write("study.toml", format!("{head}{many}"));
+    let study = |keys: &str| Study::new(&scene("quick.toml"), "full-factorial", keys);
+    let with_factor = |study: Study, name: &str| study.factor(name, &format!("nothing.{name}"), "levels = [1, 2]");
+    let names = (0..150).map(|number| format!("{}{number} ", "n".repeat(5000)));
+    directory.write("study.toml", names.fold(study(""), |study, name| with_factor(study, &name)));
     let said = refused(&directory, &["sweep", "plan", "study.toml"], " more, at least\n").stderr;
     assert!(said.contains("has a blank at an end"), "{said}");
     let long = "w".repeat(100_000);
@@ -64,7 +64,7 @@ fn of_many_mistakes_in_a_study_the_first_are_told() {
         (format!("version = \"{long}\"\n"), "version"),
         (format!("series = [\"{long}\"]\n"), "is not a series"),
     ] {
-        directory.write("study.toml", format!("{head}{line}{}", factor("f")));
+        directory.write("study.toml", with_factor(study(&line), "f"));
         refused(&directory, &["sweep", "plan", "study.toml"], expected);
     }
 }
@@ -72,13 +72,8 @@ fn of_many_mistakes_in_a_study_the_first_are_told() {
 #[test]
 fn the_state_of_a_strangers_run_is_cut_where_it_is_shown() {
     let directory = WorkingDirectory::new();
-    let short = ["--set", "operation.duration=1 s"];
-    directory.plateau(["run", &scene("quick.toml"), "-o", "run.h5"].iter().chain(&short)).quiet_success();
-    let file = changed(directory.path("run.h5"));
-    file.delete_attr("state").unwrap();
-    let state: VarLenUnicode = "S".repeat(3_000_000).parse().unwrap();
-    file.new_attr::<VarLenUnicode>().create("state").unwrap().write_scalar(&state).unwrap();
-    file.close().unwrap();
+    directory.plateau(run_words("quick.toml", "run.h5", &["operation.duration=1 s"], &[])).quiet_success();
+    set_text(directory.path("run.h5"), "state", &"S".repeat(3_000_000));
     let said = "its state is \"SSSSSS";
     for arguments in [&["summary", "run.h5"][..], &["surface", "run.h5"], &["watch", "run.h5", "--once"]] {
         let outcome = refused(&directory, arguments, said);

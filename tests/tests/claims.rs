@@ -9,17 +9,14 @@ use std::process::{Child, Command, Stdio};
 use std::thread;
 use std::time::Duration;
 
-use plateau_tests::program::{WorkingDirectory, kill, run, scene, wait_until};
+use plateau_tests::program::{SMALL_MESH, WorkingDirectory, kill, run, run_words, send, wait_until};
 use plateau_tests::run_file::{Content, RunFile, differences};
 use plateau_tests::scenes::Stream;
 use plateau_tests::scenes::few_or_all;
 
 /// A run of about a second with many samples and checkpoints.
 fn racer(directory: &WorkingDirectory, file: &str, more: &str) -> Command {
-    let sets = [
-        "mesh.rows=8",
-        "mesh.disc_columns=160",
-        "mesh.pin_columns=16",
+    let settings = [
         "disc.surface.synthetic.correlation_length=2 mm",
         "pin.surface.synthetic.correlation_length=2 mm",
         "operation.duration=60 s",
@@ -28,13 +25,11 @@ fn racer(directory: &WorkingDirectory, file: &str, more: &str) -> Command {
         "output.maps_at=[\"0 s\", \"20 s\"]",
         "output.checkpoint_every=0.004 s",
     ];
-    let mut command = directory.command(["run", &scene("quick.toml"), "-o", file]);
-    command.args(sets.iter().flat_map(|set| ["--set", set])).arg(more);
-    command
+    directory.command(run_words("quick.toml", file, &[&SMALL_MESH[..], &settings].concat(), &[more]))
 }
 
 /// Starts a command whose standard error goes to a file.
-fn start(directory: &WorkingDirectory, mut command: Command, said: &str) -> Child {
+fn begin(directory: &WorkingDirectory, mut command: Command, said: &str) -> Child {
     let said = fs::File::create(directory.path(said)).unwrap();
     command.stdin(Stdio::null()).stdout(Stdio::null()).stderr(said).spawn().unwrap()
 }
@@ -58,8 +53,8 @@ fn of_processes_that_go_on_at_once_one_writes_and_the_others_say_so() {
     let races = std::env::var("PLATEAU_RACES").map_or(few_or_all(4, 500), |races| races.parse().unwrap());
     let whole = {
         let directory = WorkingDirectory::new();
-        assert!(racer(&directory, "run.h5", "--resume").stderr(Stdio::null()).status().unwrap().success());
-        RunFile::open(directory.path("run.h5")).content()
+        run(racer(&directory, "run.h5", "--resume")).ends(0, &[]);
+        directory.run_file("run.h5").content()
     };
     let (mut random, mut refused) = (Stream(17), 0);
     for race in 0..races {
@@ -74,7 +69,7 @@ fn let_race(whole: &BTreeMap<String, Content>, race: usize, random: &mut Stream)
     let directory = WorkingDirectory::new();
     // Most find what a killed process left, with its lock; the others nothing.
     if !race.is_multiple_of(4) {
-        let child = start(&directory, racer(&directory, "run.h5", "--resume"), "killed");
+        let child = begin(&directory, racer(&directory, "run.h5", "--resume"), "killed");
         assert!(wait_until(|| directory.path("run.h5.checkpoint").exists()));
         thread::sleep(Duration::from_secs_f64(0.05 * random.uniform()));
         kill(child);
@@ -83,7 +78,7 @@ fn let_race(whole: &BTreeMap<String, Content>, race: usize, random: &mut Stream)
     let mut racers: Vec<_> = (0..2 + race % 2)
         .map(|number| {
             let way = ways[((2.0 * random.uniform()) as usize).min(1)];
-            let child = start(&directory, racer(&directory, "run.h5", way), &number.to_string());
+            let child = begin(&directory, racer(&directory, "run.h5", way), &number.to_string());
             thread::sleep(Duration::from_secs_f64(0.004 * random.uniform()));
             child
         })
@@ -116,7 +111,7 @@ fn let_race(whole: &BTreeMap<String, Content>, race: usize, random: &mut Stream)
         }
     }
     assert!(refused < numbers.len(), "race {race}: all were refused");
-    assert_eq!(differences(whole, &RunFile::open(directory.path("run.h5")).content()), [""; 0], "race {race}");
+    assert_eq!(differences(whole, &directory.run_file("run.h5").content()), [""; 0], "race {race}");
     directory.plateau(["verify", "run.h5"]).quiet_success();
     let left = |name: &String| name.ends_with(".tmp") || name.contains(".lock");
     assert_eq!(directory.names().into_iter().find(left), None, "race {race}");
@@ -136,18 +131,18 @@ fn a_lock_goes_with_its_run_however_that_ends() {
     let state = || fs::metadata(directory.path("run.h5.checkpoint")).and_then(|file| file.modified()).ok();
     for (signal, status) in [("INT", 130), ("TERM", 143)] {
         let before = state();
-        let mut child = start(&directory, endless("--resume"), "said");
+        let mut child = begin(&directory, endless("--resume"), "said");
         assert!(wait_until(|| is_running() && state() != before && directory.path("run.h5.lock").exists()));
         // Also who only wants to close the file, or to begin anew, is refused, and changes nothing.
         let lock = fs::read(directory.path("run.h5.lock")).unwrap();
         directory.plateau(["repair", "run.h5"]).ends(2, &["is being written by process"]);
         assert_eq!(fs::read(directory.path("run.h5.lock")).unwrap(), lock);
-        assert!(Command::new("kill").args(["-s", signal, &child.id().to_string()]).status().unwrap().success());
+        send(signal, child.id());
         assert_eq!(child.wait().unwrap().code(), Some(status));
         assert!(!directory.path("run.h5.lock").exists(), "after {signal}");
     }
     let before = state();
-    let child = start(&directory, endless("--resume"), "said");
+    let child = begin(&directory, endless("--resume"), "said");
     assert!(wait_until(|| is_running() && state() != before && directory.path("run.h5.lock").exists()));
     kill(child);
     assert!(directory.path("run.h5.lock").exists(), "a killed process leaves its lock");
@@ -158,23 +153,20 @@ fn a_lock_goes_with_its_run_however_that_ends() {
 #[test]
 fn a_lock_of_another_machine_is_left_to_the_user() {
     let directory = WorkingDirectory::new();
-    let mut child = start(&directory, racer(&directory, "run.h5", "--resume"), "said");
+    let mut child = begin(&directory, racer(&directory, "run.h5", "--resume"), "said");
     assert!(wait_until(|| directory.path("run.h5.lock").exists()));
-    let lock = fs::read_to_string(directory.path("run.h5.lock")).unwrap();
+    let lock = directory.text("run.h5.lock");
     child.wait().unwrap();
     let mut lock: serde_json::Value = serde_json::from_str(&lock).unwrap();
     lock["writer"]["machine"]["host"] = "node17".into();
     directory.write("run.h5.lock", format!("{lock}\n"));
     let before = directory.content();
     for more in ["--resume", "--force"] {
-        let refused = racer(&directory, "run.h5", more).output().unwrap();
-        let said = String::from_utf8(refused.stderr).unwrap();
-        assert_eq!(refused.status.code(), Some(2), "{said}");
-        assert!(said.contains("of the machine node17") && said.contains("remove run.h5.lock"), "{said}");
+        run(racer(&directory, "run.h5", more)).ends(2, &["of the machine node17", "remove run.h5.lock"]);
     }
     assert!(directory.content() == before);
     fs::remove_file(directory.path("run.h5.lock")).unwrap();
-    assert!(racer(&directory, "run.h5", "--force").stderr(Stdio::null()).status().unwrap().success());
+    run(racer(&directory, "run.h5", "--force")).ends(0, &[]);
 }
 
 /// Only the superuser can be another user: elsewhere this tests nothing.
@@ -183,7 +175,7 @@ fn what_another_user_may_be_writing_is_not_repaired() {
     const NOBODY: u32 = 65_534;
     let directory = WorkingDirectory::new();
     fs::set_permissions(directory.path(""), fs::Permissions::from_mode(0o777)).unwrap();
-    let child = start(&directory, racer(&directory, "run.h5", "--resume"), "said");
+    let child = begin(&directory, racer(&directory, "run.h5", "--resume"), "said");
     assert!(wait_until(|| directory.path("run.h5.checkpoint").exists()));
     kill(child);
     let lock = fs::read(directory.path("run.h5.lock")).unwrap();

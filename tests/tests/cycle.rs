@@ -1,11 +1,11 @@
 //! Load and speed as a cycle, through the whole program: closed forms, pauses, events, errors, and runs that are killed.
 
 use std::f64::consts::TAU;
-use std::fs;
 
-use plateau_tests::program::{WorkingDirectory, go_on_through_kills, quick_scene_with, scene};
-use plateau_tests::run_file::{RunFile, differences};
+use plateau_tests::program::{WorkingDirectory, go_on_through_kills, quick_scene_with, run_words, scene};
+use plateau_tests::run_file::differences;
 use plateau_tests::scenes::{Stream, few_or_all};
+use plateau_tests::studies::Study;
 
 /// The quick scene with other lines in place of its load, speed and duration.
 fn quick_with_operation(lines: &str) -> String {
@@ -29,7 +29,7 @@ fn a_cycle_that_never_changes_is_constant_operation_bit_for_bit() {
         directory.plateau(["run", &format!("{name}.toml"), "-o", &format!("{name}.h5")]).quiet_success();
     }
     let content = |name: &str| {
-        let mut content = RunFile::open(directory.path(name)).content();
+        let mut content = directory.run_file(name).content();
         content.retain(|path, _| {
             let of_cycle = ["normal_force", "rotational_speed", "contact_time"];
             !path.starts_with("/event") && !of_cycle.iter().any(|series| path.ends_with(series))
@@ -38,7 +38,7 @@ fn a_cycle_that_never_changes_is_constant_operation_bit_for_bit() {
     };
     assert_eq!(differences(&content("plain.h5"), &content("rows.h5")), [""; 0]);
     assert_eq!(differences(&content("plain.h5"), &content("table.h5")), [""; 0]);
-    let run = RunFile::open(directory.path("rows.h5"));
+    let run = directory.run_file("rows.h5");
     assert!(run.floats("/series/normal_force").iter().all(|force| *force == 5.0));
     assert_eq!((run.floats("/event/start"), run.floats("/event/end")), (vec![0.0], vec![20.0]));
 }
@@ -53,7 +53,7 @@ fn a_cycle_that_never_changes_takes_no_step_beyond_its_end() {
         let set = format!("numerics.time_acceleration={m}");
         let sets = ["--set", &set, "--set", "output.sample_every_steps=1"];
         directory.plateau([&["run", "scene.toml", "-o", "run.h5", "--force"][..], &sets].concat()).ends(0, &[]);
-        let time = RunFile::open(directory.path("run.h5")).floats("/time");
+        let time = directory.run_file("run.h5").floats("/time");
         let steps = 9.99 * 850.0 / 60.0 * 690.0 / f64::from(m);
         assert_eq!(time.len() as f64, (steps + 1e-9).floor(), "m = {m}");
         assert!(time.last().is_some_and(|end| *end <= 9.99 * (1.0 + 1e-12)), "m = {m}: {:?}", time.last());
@@ -95,14 +95,11 @@ fn the_work_of_a_run_is_that_of_its_cycle_for_every_acceleration() {
     for m in [3.0, 10.0, 45.0] {
         let set = format!("numerics.time_acceleration={m}");
         let sets = ["--set", &set, "--set", "output.sample_every_steps=1"];
-        let outcome = directory.plateau([&["run", "scene.toml", "-o", "run.h5", "--force"][..], &sets].concat());
+        let outcome =
+            directory.plateau([&["run", "scene.toml", "-o", "run.h5", "--force"][..], &sets].concat()).ends(0, &[]);
         // An event has 30 revolutions.
-        assert_eq!(
-            (outcome.status, outcome.stderr.contains("3 is the largest acceleration")),
-            (Some(0), m > 3.0),
-            "{outcome:?}"
-        );
-        let run = RunFile::open(directory.path("run.h5"));
+        assert_eq!(outcome.stderr.contains("3 is the largest acceleration"), m > 3.0, "{outcome:?}");
+        let run = directory.run_file("run.h5");
         let (time, force) = (run.floats("/time"), run.floats("/series/normal_force"));
         let step = m * TAU / 690.0;
         let steps = (angle / step + 1e-9).floor();
@@ -124,7 +121,7 @@ fn the_work_of_a_run_is_that_of_its_cycle_for_every_acceleration() {
 fn a_pause_costs_no_step_and_reports_what_rests() {
     let directory = WorkingDirectory::new();
     directory.plateau(["run", &scene("stops.toml"), "-o", "run.h5", "--set", "output.roughness=true"]).quiet_success();
-    let run = RunFile::open(directory.path("run.h5"));
+    let run = directory.run_file("run.h5");
     let time = run.floats("/time");
     let at = |series: &str, from: f64, to: f64| -> Vec<f64> {
         let values = run.floats(&format!("/series/{series}"));
@@ -158,10 +155,8 @@ fn a_pause_costs_no_step_and_reports_what_rests() {
     assert_eq!(distances.len(), 6);
     assert!((distances[0] / expected[0] - 1.0).abs() < 1e-12 && (distances[5] / expected[1] - 1.0).abs() < 1e-12);
     let worn: f64 = run.floats("/event/worn").iter().sum();
-    let all: f64 = ["worn_pin", "worn_resin", "worn_disc"]
-        .iter()
-        .map(|name| *run.floats(&format!("/series/{name}")).last().unwrap())
-        .sum();
+    let parts = ["worn_pin", "worn_resin", "worn_disc"];
+    let all: f64 = parts.iter().map(|name| *run.floats(&format!("/series/{name}")).last().unwrap()).sum();
     assert!((worn / all - 1.0).abs() < 1e-12);
     directory.plateau(["verify", "run.h5"]).quiet_success();
 }
@@ -170,11 +165,9 @@ fn a_pause_costs_no_step_and_reports_what_rests() {
 fn workers_and_instruction_sets_agree_on_a_cycle() {
     let directory = WorkingDirectory::new();
     let run = |name: &str, options: &[&str]| {
-        let stops = scene("stops.toml");
-        let arguments =
-            ["run", &stops, "-o", name, "--set", "operation.duration=24 s", "--set", "numerics.time_acceleration=40"];
-        assert_eq!(directory.plateau([&arguments[..], options].concat()).status, Some(0));
-        RunFile::open(directory.path(name)).content()
+        let settings = ["operation.duration=24 s", "numerics.time_acceleration=40"];
+        directory.plateau(run_words("stops.toml", name, &settings, options)).ends(0, &[]);
+        directory.run_file(name).content()
     };
     let one = run("one.h5", &[]);
     for options in [["--workers", "2"], ["--workers", "3"], ["--isa", "portable"]] {
@@ -187,9 +180,8 @@ fn workers_and_instruction_sets_agree_on_a_cycle() {
 #[test]
 fn a_run_with_a_cycle_that_is_killed_ends_like_an_undisturbed_one() {
     let directory = WorkingDirectory::new();
-    let stops = scene("stops.toml");
-    let arguments = |name: &'static str, more: &[&'static str]| {
-        let sets = [
+    let arguments = |name: &str, more: &[&str]| {
+        let settings = [
             "operation.cycle.repeat=2",
             "operation.duration=116 s",
             "numerics.time_acceleration=1",
@@ -197,26 +189,18 @@ fn a_run_with_a_cycle_that_is_killed_ends_like_an_undisturbed_one() {
             "output.maps_at=[\"12 s\", \"16 s\", \"55 s\", \"100 s\", \"116 s\"]",
             "output.checkpoint_every=0.03 s",
         ];
-        let mut arguments = vec!["run".to_owned(), stops.clone(), "-o".to_owned(), name.to_owned()];
-        arguments.extend(sets.iter().flat_map(|set| ["--set".to_owned(), (*set).to_owned()]));
-        arguments.extend(more.iter().map(|word| (*word).to_owned()));
-        arguments
+        run_words("stops.toml", name, &settings, more)
     };
     directory.plateau(arguments("whole.h5", &[])).quiet_success();
     let killed =
         go_on_through_kills(&directory, &arguments("run.h5", &["--resume"]), few_or_all(3, 40), 0.4, Stream(21));
-    let [whole, run] = ["whole.h5", "run.h5"].map(|name| RunFile::open(directory.path(name)).content());
+    let [whole, run] = ["whole.h5", "run.h5"].map(|name| directory.run_file(name).content());
     assert!(whole.contains_key("/event/worn"));
     assert_eq!(differences(&whole, &run), [""; 0], "after {killed} kills");
     // It goes on beyond its end, which lies in a pause, as a longer run goes on there.
-    let extended = ["--extend-to", "120 s"];
-    assert_eq!(
-        directory.plateau([arguments("run.h5", &[]), extended.map(str::to_owned).to_vec()].concat()).status,
-        Some(0)
-    );
-    let longer = ["--set", "operation.duration=120 s"];
-    directory.plateau(arguments("longer.h5", &longer)).quiet_success();
-    let values = |name: &str, path: &str| RunFile::open(directory.path(name)).floats(path);
+    directory.plateau(arguments("run.h5", &["--extend-to", "120 s"])).ends(0, &[]);
+    directory.plateau(arguments("longer.h5", &["--set", "operation.duration=120 s"])).quiet_success();
+    let values = |name: &str, path: &str| directory.run_file(name).floats(path);
     for path in ["/event/worn", "/event/contact_area_end"] {
         assert_eq!(values("run.h5", path), values("longer.h5", path), "{path}");
     }
@@ -227,12 +211,11 @@ fn a_run_with_a_cycle_that_is_killed_ends_like_an_undisturbed_one() {
 #[test]
 fn every_multiple_in_a_pause_has_its_sample() {
     let directory = WorkingDirectory::new();
-    let stops = scene("stops.toml");
     for (every, m) in [(0.07, 2), (0.1, 40), (0.01, 1)] {
-        let sets = [format!("output.sample_every={every} s"), format!("numerics.time_acceleration={m}")];
-        let arguments = ["run", &stops, "-o", "run.h5", "--force", "--set", &sets[0], "--set", &sets[1]];
-        assert_eq!(directory.plateau(arguments).status, Some(0));
-        let times = RunFile::open(directory.path("run.h5")).floats("/time");
+        let settings = [format!("output.sample_every={every} s"), format!("numerics.time_acceleration={m}")];
+        let settings = settings.each_ref().map(String::as_str);
+        directory.plateau(run_words("stops.toml", "run.h5", &settings, &["--force"])).ends(0, &[]);
+        let times = directory.run_file("run.h5").floats("/time");
         assert!(times.is_sorted_by(|one, other| one < other), "every {every} s, m = {m}");
         for [start, end] in [[10.0, 14.0], [17.0, 22.0], [25.0, 30.0], [33.0, 38.0], [41.0, 46.0], [49.0, 60.0]] {
             let multiples = |time: f64| (time / every + 1e-9).floor();
@@ -250,13 +233,13 @@ fn the_table_of_a_run_is_neither_exchanged_nor_replaced() {
     directory.write("stops.csv", table);
     directory.write("stops.toml", quick_with_operation("[operation.cycle]\nfile = \"stops.csv\"\n"));
     let run = ["run", "stops.toml", "-o", "stops.h5", "--set", "operation.duration=3 s"];
-    assert_eq!(directory.plateau(run).status, Some(0));
+    directory.plateau(run).ends(0, &[]);
     directory.write("stops.csv", table.replace("8,5,0", "8,9,0"));
     for options in [&["--resume"][..], &["--extend-to", "6 s"]] {
         directory.plateau([&run[..], options].concat()).ends(2, &["files that it reads have changed: ", "stops.csv"]);
     }
     directory.write("stops.csv", table);
-    assert_eq!(fs::read_to_string(directory.path("stops.csv")).unwrap(), table);
+    assert_eq!(directory.text("stops.csv"), table);
 }
 
 /// Ended in an event and in a pause, and extended: times never go back, and events are as if it had never ended.
@@ -276,7 +259,7 @@ fn a_run_that_is_extended_again_and_again_accounts_for_every_event() {
     for end in ["1.5 s", "2.5 s", "5 s"] {
         run("run.h5", &["--extend-to", end]);
     }
-    let [whole, extended] = ["whole.h5", "run.h5"].map(|name| RunFile::open(directory.path(name)));
+    let [whole, extended] = ["whole.h5", "run.h5"].map(|name| directory.run_file(name));
     assert!(extended.floats("/time").is_sorted_by(|one, other| one < other));
     for path in ["/event/start", "/event/end", "/event/worn", "/event/contact_area_start", "/event/contact_area_end"] {
         assert_eq!(extended.floats(path), whole.floats(path), "{path}");
@@ -287,36 +270,18 @@ fn a_run_that_is_extended_again_and_again_accounts_for_every_event() {
 #[test]
 fn a_study_asks_single_events_and_all_of_them() {
     let directory = WorkingDirectory::new();
-    let study = format!(
-        r#"version = 1
-base = "{}"
-design = "full-factorial"
-directory = "results"
-[[factor]]
-name = "load"
-key = "operation.cycle.force_scale"
-levels = [1.0, 2.0]
-[[response]]
-name = "third"
-dataset = "/event/worn"
-event = 3
-[[response]]
-name = "last"
-dataset = "/event/worn"
-event = "last"
-[[response]]
-name = "mean"
-dataset = "/event/contact_area_end"
-event = "mean"
-"#,
-        scene("stops.toml")
-    );
+    let study = Study::new(&scene("stops.toml"), "full-factorial", "")
+        .factor("load", "operation.cycle.force_scale", "levels = [1.0, 2.0]")
+        .response("third", "/event/worn", "event = 3")
+        .response("last", "/event/worn", "event = \"last\"")
+        .response("mean", "/event/contact_area_end", "event = \"mean\"")
+        .text();
     directory.write("study.toml", &study);
     directory.plateau(["sweep", "run", "study.toml", "--jobs", "1"]).quiet_success();
     directory.plateau(["sweep", "collect", "study.toml"]).quiet_success();
-    let results = RunFile::open(directory.path("results/results.h5"));
+    let results = directory.run_file("results/results.h5");
     directory.plateau(["run", &scene("stops.toml"), "-o", "run.h5"]).quiet_success();
-    let run = RunFile::open(directory.path("run.h5"));
+    let run = directory.run_file("run.h5");
     let (worn, areas) = (run.floats("/event/worn"), run.floats("/event/contact_area_end"));
     let first = |name: &str| results.floats(name)[0];
     assert_eq!((first("/third"), first("/last")), (worn[2], worn[5]));
@@ -324,37 +289,35 @@ event = "mean"
     // Twice the load wears twice as much, but for films that are worn through.
     assert!((results.floats("/third")[1] / worn[2] / 2.0 - 1.0).abs() < 0.02);
     directory.write("study.toml", study.replace("event = 3", "event = \"third\""));
-    directory
-        .plateau(["sweep", "plan", "study.toml"])
-        .ends(2, &["expected the number of an event, \"last\" or \"mean\""]);
+    let expected = "expected the number of an event, \"last\" or \"mean\"";
+    directory.plateau(["sweep", "plan", "study.toml"]).ends(2, &[expected]);
 }
 
 #[test]
 fn the_contact_area_of_a_cycle_is_its_mean_over_the_time_in_contact() {
     let directory = WorkingDirectory::new();
-    let scene = scene("stops.toml");
-    let arguments = ["run", &scene, "-o", "run.h5", "--force", "--set", "operation.duration=44 s"];
-    let told = directory.plateau([&arguments[..], &["--json"]].concat());
-    let run = RunFile::open(directory.path("run.h5"));
+    let run = |more: &[&str]| {
+        let words = run_words("stops.toml", "run.h5", &["operation.duration=44 s"], &[&["--force"], more].concat());
+        directory.plateau(words)
+    };
+    let told = run(&["--json"]);
+    let text = run(&[]).quiet_success();
+    let run = directory.run_file("run.h5");
     let (time, contact, integral) =
         (run.floats("/time"), run.floats("/series/contact_time"), run.floats("/series/contact_area_integral"));
     // By hand: of 44 s the pin is lifted for 4 s, three times 5 s and 3 s.
     assert!((contact.last().unwrap() - 22.0).abs() < 1e-9, "{contact:?}");
     let at = |moment: f64| time.iter().position(|time| (time - moment).abs() < 1e-9).unwrap();
     // The last tenth has no ten revolutions, so it begins earlier.
-    let summary: serde_json::Value = serde_json::from_str(&told.stdout).unwrap();
-    let window = &summary["contact_area_last_tenth"];
+    let window = &told.json()["contact_area_last_tenth"];
     let number = |name: &str| window[name].as_f64().unwrap();
     let (from, to) = (at(number("from")), at(number("to")));
     let in_contact = contact[to] - contact[from];
     assert!((number("contact_time") / in_contact - 1.0).abs() < 1e-12 && in_contact < time[to] - time[from]);
     let mean = (integral[to] - integral[from]) / in_contact;
     assert!((number("mean") / mean - 1.0).abs() < 1e-12, "{window}, expected {mean}");
-    let text = directory.plateau(arguments).quiet_success();
-    assert!(
-        text.contains("in contact: the time in which the pin is lifted, and before the first step, does not count"),
-        "{text}"
-    );
+    let counted = "in contact: the time in which the pin is lifted, and before the first step, does not count";
+    assert!(text.contains(counted), "{text}");
 }
 
 #[test]
@@ -369,11 +332,9 @@ fn a_pin_that_stands_before_the_first_step_counts_for_nothing_in_the_mean() {
         directory.write(&format!("{name}.toml"), quick_with_operation(&lines));
         // A sample every 0.5 s; 7.08 revolutions, so the window is the whole run.
         let arguments = ["--json", "--set", "numerics.time_acceleration=20", "--set", "output.sample_every=0.5 s"];
-        let outcome = directory
-            .plateau([&["run", &format!("{name}.toml"), "-o", &format!("{name}.h5")][..], &arguments].concat())
-            .ends(0, &[]);
-        let found: serde_json::Value = serde_json::from_str(&outcome.stdout).unwrap();
-        found["contact_area_last_tenth"].clone()
+        let [scene, file] = ["toml", "h5"].map(|ending| format!("{name}.{ending}"));
+        let told = directory.plateau([&["run", &scene, "-o", &file][..], &arguments].concat()).ends(0, &[]);
+        told.json()["contact_area_last_tenth"].clone()
     };
     let (stands, moves) = (summary("stands", 5.0), summary("moves", 0.0));
     for name in ["mean", "standard_error"] {
@@ -382,7 +343,7 @@ fn a_pin_that_stands_before_the_first_step_counts_for_nothing_in_the_mean() {
     }
     assert_eq!((stands["from"].as_f64(), stands["to"].as_f64()), (Some(0.0), Some(17.0)));
     assert!((stands["contact_time"].as_f64().unwrap() - 12.0).abs() < 1e-9, "{stands}");
-    let times = RunFile::open(directory.path("stands.h5")).floats("/series/contact_time");
+    let times = directory.run_file("stands.h5").floats("/series/contact_time");
     assert!(times[..9].iter().all(|time| *time == 0.0), "{times:?}");
 }
 
@@ -405,31 +366,22 @@ fn the_end_of_a_cycle_is_a_time_of_its_run() {
     // It ends within a step: the speed falls to nothing at 30 s.
     let operation = "[operation.cycle]\npoints = [[\"0 s\", \"5 N\", \"850 rpm\"], [\"30 s\", \"5 N\", \"0 rpm\"]]\n";
     directory.write("scene.toml", quick_with_operation(operation));
-    let responses = [
-        ("at", "filled_fraction", "at = \"30 s\""),
-        ("end", "filled_fraction", "at = \"end\""),
-        ("mean", "contact_area", "mean = [\"10 s\", \"30 s\"]"),
-        ("late", "filled_fraction", "at = \"31 s\""),
-        ("runs in", "worn_pin", "reaches = 0.9"),
-    ];
-    let asked: String = (responses.iter())
-        .map(|(name, series, question)| {
-            format!("[[response]]\nname = \"{name}\"\ndataset = \"/series/{series}\"\n{question}\n")
-        })
-        .collect();
-    let study = "version = 1\nbase = \"scene.toml\"\ndesign = \"full-factorial\"\ndirectory = \"results\"\n\
-                 set = [\"output.sample_every = '0.5 s'\", \"numerics.time_acceleration = 1\"]\n\
-                 [[factor]]\nname = \"height\"\nkey = \"contact.foundation_height\"\nlevels = [\"40 um\", \"50 um\"]\n";
-    directory.write("study.toml", format!("{study}{asked}"));
-    let made = directory.plateau(["sweep", "run", "study.toml", "--jobs", "1"]);
+    let set = "set = [\"output.sample_every = '0.5 s'\", \"numerics.time_acceleration = 1\"]";
+    let study = Study::new("scene.toml", "full-factorial", set)
+        .factor("height", "contact.foundation_height", "levels = [\"40 um\", \"50 um\"]")
+        .response("at", "/series/filled_fraction", "at = \"30 s\"")
+        .response("end", "/series/filled_fraction", "at = \"end\"")
+        .response("mean", "/series/contact_area", "mean = [\"10 s\", \"30 s\"]")
+        .response("late", "/series/filled_fraction", "at = \"31 s\"")
+        .response("runs in", "/series/worn_pin", "reaches = 0.9");
+    directory.write("study.toml", study);
     let rises = "response \"runs in\" has no value: not defined: still rises at the end, by ";
-    assert!(made.status == Some(0) && made.stderr.contains(rises), "{}", made.stderr);
-    assert!(made.stderr.contains("(so in 2 of 2 runs that were made now)"), "{}", made.stderr);
-    let collected = directory.plateau(["sweep", "collect", "study.toml"]);
+    let made = directory.plateau(["sweep", "run", "study.toml", "--jobs", "1"]);
+    made.ends(0, &[rises, "(so in 2 of 2 runs that were made now)"]);
     let late = "response \"late\" has no value: the run ends at 30 s, before 31 s (so in 2 of 2 finished runs)";
-    assert!(collected.stderr.contains(rises) && collected.stderr.contains(late), "{}", collected.stderr);
+    let collected = directory.plateau(["sweep", "collect", "study.toml"]).ends(0, &[rises, late]);
     assert!(!collected.stderr.contains("\"at\"") && !collected.stderr.contains("\"mean\""), "{}", collected.stderr);
-    let results = RunFile::open(directory.path("results/results.h5"));
+    let results = directory.run_file("results/results.h5");
     assert_eq!(results.floats("/at"), results.floats("/end"));
     assert!(results.floats("/mean").iter().all(|area| *area > 0.0));
 }

@@ -10,7 +10,7 @@ use std::path::Path;
 use std::process::Command;
 
 use plateau_tests::fault::{Fault, count, strike};
-use plateau_tests::program::{WorkingDirectory, run, scene};
+use plateau_tests::program::{SMALL_MESH, WorkingDirectory, run, run_words};
 use plateau_tests::run_file::{Content, RunFile, differences, differences_of_start};
 use plateau_tests::scenes::few_or_all;
 
@@ -19,19 +19,14 @@ mod clock;
 
 /// A short run with many samples, maps of three moments, and as many checkpoints as can be written.
 fn short_run(directory: &WorkingDirectory, more: &[&str]) -> Command {
-    let sets = [
-        "mesh.rows=8",
-        "mesh.disc_columns=160",
-        "mesh.pin_columns=16",
+    let settings = [
         "operation.duration=2 s",
         "numerics.time_acceleration=1",
         "output.sample_every=0.02 s",
         "output.maps_at=[\"0 s\", \"1 s\"]",
         "output.checkpoint_every=0.004 s",
     ];
-    let mut command = directory.command(["run", &scene("quick.toml"), "-o", "run.h5"]);
-    command.args(sets.iter().flat_map(|set| ["--set", set])).args(more);
-    command
+    directory.command(run_words("quick.toml", "run.h5", &[&SMALL_MESH[..], &settings].concat(), more))
 }
 
 /// The calls to look at, each with a fault: unless all are asked for every `step`th, which is no multiple of the number of faults.
@@ -46,7 +41,7 @@ fn strikes(calls: usize, step: usize) -> Vec<(Fault, usize)> {
 fn whole() -> BTreeMap<String, Content> {
     let directory = WorkingDirectory::new();
     run(short_run(&directory, &[])).ends(0, &[]);
-    RunFile::open(directory.path("run.h5")).content()
+    directory.run_file("run.h5").content()
 }
 
 /// Checks that what is there can be read and gone on with.
@@ -89,7 +84,7 @@ fn a_run_loses_nothing() {
         let outcome = strike(short_run(&directory, &[]), fault, call);
         let what = format!("{fault:?} at call {call} of {calls}: {outcome:?}");
         if outcome.status == Some(0) {
-            assert_eq!(differences(&whole, &RunFile::open(directory.path("run.h5")).content()), [""; 0], "{what}");
+            assert_eq!(differences(&whole, &directory.run_file("run.h5").content()), [""; 0], "{what}");
         }
         check(&directory, &whole, &what);
     }

@@ -8,17 +8,21 @@ use plateau_tests::program::{Outcome, WorkingDirectory, run};
 /// A program that says its name, its arguments and which program calls it.
 const ANSWER: &str = "#!/bin/sh\nprintf '%s\\n' \"${0##*/}\" \"$@\" \"${PLATEAU_PROGRAM##*/}\"\nexit 7\n";
 
-/// Calls the program where the answering programs of these words are on the path.
-fn call(words: &[&str], arguments: &[&str]) -> Outcome {
+/// Calls the program where programs of these words are on the path, which answer so.
+fn call_with(words: &[&str], answer: &str, arguments: &[&str]) -> Outcome {
     let directory = WorkingDirectory::new();
     for word in words {
         let name = format!("bin/plateau-{word}");
-        directory.write(&name, ANSWER);
+        directory.write(&name, answer);
         fs::set_permissions(directory.path(&name), fs::Permissions::from_mode(0o755)).unwrap();
     }
     let mut command = directory.command(arguments);
     command.env("PATH", format!("{}:/usr/bin:/bin", directory.path("bin").display()));
     run(command)
+}
+
+fn call(words: &[&str], arguments: &[&str]) -> Outcome {
+    call_with(words, ANSWER, arguments)
 }
 
 #[test]
@@ -34,44 +38,24 @@ fn words_of_others_are_answered_by_them() {
         (&["surface", "convert", "a.al3d", "-o", "a.h5"], "plateau-surface\nconvert\na.al3d\n-o\na.h5\n"),
         (&["own-word", "-x", ""], "plateau-own-word\n-x\n\n"),
     ] {
-        let outcome = call(&["fit", "compare", "sweep", "surface", "own-word"], arguments);
-        assert_eq!(outcome.status, Some(7), "{arguments:?}: {outcome:?}");
-        let expected = format!("{answer}plateau\n");
-        assert_eq!(outcome.stdout, expected, "{arguments:?}: {outcome:?}");
+        let outcome = call(&["fit", "compare", "sweep", "surface", "own-word"], arguments).ends(7, &[]);
+        assert_eq!(outcome.stdout, format!("{answer}plateau\n"), "{arguments:?}");
     }
 }
 
 #[test]
 fn who_asks_back_is_told_and_help_is_the_programs_own() {
-    let directory = WorkingDirectory::new();
-    for (name, text) in
-        [("bin/plateau-fit", "#!/bin/sh\nexec \"$PLATEAU_PROGRAM\" fit \"$@\"\n"), ("bin/plateau-help", ANSWER)]
-    {
-        directory.write(name, text);
-        fs::set_permissions(directory.path(name), fs::Permissions::from_mode(0o755)).unwrap();
-    }
-    let call = |word: &str| {
-        let mut command = directory.command([word]);
-        command.env("PATH", format!("{}:/usr/bin:/bin", directory.path("bin").display()));
-        run(command)
-    };
-    call("fit").ends(1, &["but asks this program again"]);
-    assert!(call("help").quiet_success().contains("Usage: plateau"));
+    let asks_back = "#!/bin/sh\nexec \"$PLATEAU_PROGRAM\" fit \"$@\"\n";
+    call_with(&["fit"], asks_back, &["fit"]).ends(1, &["but asks this program again"]);
+    assert!(call(&["help"], &["help"]).quiet_success().contains("Usage: plateau"));
 }
 
 #[test]
 fn without_who_answers_it_is_said_what_to_install() {
-    for arguments in [
-        &["fit", "study.toml"][..],
-        &["plot", "a.h5"],
-        &["sweep", "effects", "s.toml"],
-        &["surface", "convert", "a.al3d"],
-    ] {
-        let outcome = call(&[], arguments).ends(1, &[]);
-        assert!(
-            outcome.stderr.contains("pip install 'plateau-brake[all]'") && outcome.stderr.lines().count() == 1,
-            "{outcome:?}"
-        );
+    for line in ["fit study.toml", "plot a.h5", "sweep effects s.toml", "surface convert a.al3d"] {
+        let arguments: Vec<&str> = line.split(' ').collect();
+        let outcome = call(&[], &arguments).ends(1, &["pip install 'plateau-brake[all]'"]);
+        assert_eq!(outcome.stderr.lines().count(), 1, "{outcome:?}");
     }
     // A word that nobody has is told as ever, and no word of the program is taken over.
     call(&["run"], &["rn", "scene.toml"]).ends(2, &["did you mean"]);

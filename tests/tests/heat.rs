@@ -1,10 +1,9 @@
 //! Friction, heat and emission through the whole program: closed forms, the same bits, kills, and what is refused.
 
-use std::fs;
-
-use plateau_tests::program::{WorkingDirectory, go_on_through_kills, scene};
-use plateau_tests::run_file::{RunFile, differences};
+use plateau_tests::program::{WorkingDirectory, go_on_through_kills, run_words, scene};
+use plateau_tests::run_file::differences;
 use plateau_tests::scenes::{Stream, few_or_all};
+use plateau_tests::studies::Study;
 
 /// All parts, with feedback on wear and friction that is felt at a few kelvins.
 const PARTS: &str = r#"
@@ -58,7 +57,7 @@ pub fn hot(base: &str, output: &str) -> String {
 fn a_scene_without_the_parts_has_nothing_of_them() {
     let directory = WorkingDirectory::new();
     directory.plateau(["run", &scene("stops.toml"), "-o", "run.h5"]).quiet_success();
-    let content = RunFile::open(directory.path("run.h5")).content();
+    let content = directory.run_file("run.h5").content();
     let words = ["friction", "temperature", "heat", "pm10", "pm25", "particle", "emitted_mass", "work"];
     let found: Vec<_> = content.keys().filter(|path| words.iter().any(|word| path.contains(word))).collect();
     assert_eq!(found, [""; 0]);
@@ -72,11 +71,10 @@ fn wear_and_contact_do_not_see_friction_and_emission() {
     let without_heat = without_heat.replace("number_factor", "# number_factor");
     directory.write("cold.toml", format!("version = 1\nextends = \"{}\"\n{without_heat}", scene("stops.toml")));
     // With another law for build-ups they are told apart, which rounds sums in another place.
-    directory
-        .write("alike.toml", fs::read_to_string(directory.path("cold.toml")).unwrap().replace("0.9 MPa", "0.75 MPa"));
+    directory.write("alike.toml", directory.text("cold.toml").replace("0.9 MPa", "0.75 MPa"));
     let run = |scene: &str, name: &str| {
         directory.plateau(["run", scene, "-o", name]).quiet_success();
-        RunFile::open(directory.path(name))
+        directory.run_file(name)
     };
     let (plain, cold, alike) =
         (run(&scene("stops.toml"), "plain.h5"), run("cold.toml", "cold.h5"), run("alike.toml", "alike.h5"));
@@ -137,7 +135,7 @@ fn a_brake_is_its_pin_in_the_ratio_of_areas_and_radii() {
         let text = format!("version = 1\nextends = \"{quick}\"\n{operation}{brake}{parts}{output}");
         directory.write("scene.toml", text);
         directory.plateau(["run", "scene.toml", "-o", &run]).quiet_success();
-        RunFile::open(directory.path(&run))
+        directory.run_file(&run)
     };
     for (whole, by_hand) in [("brake", "pin"), ("line", "pressed")] {
         let (whole, pin) = (run(whole, 1.0, 1.0, brake), run(by_hand, share, share * mean_radius / 0.115, ""));
@@ -147,15 +145,8 @@ fn a_brake_is_its_pin_in_the_ratio_of_areas_and_radii() {
                 assert!(is_close, "{what}: {found} against {expected}");
             }
         };
-        for name in [
-            "worn_pin",
-            "contact_area",
-            "friction_work",
-            "disc_temperature",
-            "pin_temperature",
-            "pm10_mass",
-            "heat_lost",
-        ] {
+        let of_forces = ["worn_pin", "contact_area", "friction_work", "pm10_mass"];
+        for name in of_forces.into_iter().chain(["disc_temperature", "pin_temperature", "heat_lost"]) {
             let path = format!("/series/{name}");
             same(name, &whole.floats(&path), &pin.floats(&path));
         }
@@ -192,11 +183,9 @@ fn flat_on_flat_has_the_coefficient_of_the_closed_form() {
     let flat = [friction, "disc.surface.flat=true", "pin.surface.flat=true", "pin.base.uniform=primary"];
     for force in [60.0, 30.0, 3.0] {
         let (force_set, name) = (format!("operation.normal_force={force} N"), format!("{force}.h5"));
-        let sets = [&flat[..], &["operation.duration=1 s", &force_set]].concat();
-        let sets: Vec<&str> = sets.into_iter().flat_map(|set| ["--set", set]).collect();
-        let quick = scene("quick.toml");
-        directory.plateau([&["run", &quick, "-o", &name][..], &sets].concat()).quiet_success();
-        let run = RunFile::open(directory.path(&name));
+        let settings = [&flat[..], &["operation.duration=1 s", &force_set]].concat();
+        directory.plateau(run_words("quick.toml", &name, &settings, &[])).quiet_success();
+        let run = directory.run_file(&name);
         // The pin covers 40 of 690 columns of a ring from 20 to 21 mm.
         let area = std::f64::consts::PI * (21e-3_f64.powi(2) - 20e-3_f64.powi(2)) * 40.0 / 690.0;
         let expected = (0.33 + 0.75e6 * area / force).min(0.6);
@@ -211,12 +200,14 @@ fn flat_on_flat_has_the_coefficient_of_the_closed_form() {
 
 #[test]
 fn workers_and_instruction_sets_agree_on_heat() {
-    let directory = WorkingDirectory::new();
-    directory.write("hot.toml", hot("stops.toml", "sample_every = \"0.3 s\"\nmaps_at = [\"12 s\", \"16 s\"]"));
+    let directory = WorkingDirectory::with(
+        "hot.toml",
+        hot("stops.toml", "sample_every = \"0.3 s\"\nmaps_at = [\"12 s\", \"16 s\"]"),
+    );
     let run = |name: &str, options: &[&str]| {
         let arguments = ["run", "hot.toml", "-o", name, "--set", "numerics.time_acceleration=20"];
-        assert_eq!(directory.plateau([&arguments[..], options].concat()).status, Some(0));
-        RunFile::open(directory.path(name)).content()
+        directory.plateau([&arguments[..], options].concat()).ends(0, &[]);
+        directory.run_file(name).content()
     };
     let one = run("one.h5", &[]);
     assert!(one.contains_key("/pin/temperature") && one.contains_key("/event/temperature_peak"));
@@ -224,7 +215,7 @@ fn workers_and_instruction_sets_agree_on_heat() {
         let name = format!("{}.h5", options[1]);
         assert_eq!(differences(&one, &run(&name, &options)), [""; 0], "{options:?}");
     }
-    let run = RunFile::open(directory.path("one.h5"));
+    let run = directory.run_file("one.h5");
     let contact = run.floats("/series/contact_temperature");
     // It warms up, and the feedback is felt.
     assert!(contact.iter().copied().fold(0.0, f64::max) > 300.0);
@@ -248,19 +239,18 @@ fn a_hot_run_that_is_killed_ends_like_an_undisturbed_one() {
     directory.plateau(arguments("whole.h5", &[])).quiet_success();
     let killed =
         go_on_through_kills(&directory, &arguments("run.h5", &["--resume"]), few_or_all(3, 40), 0.6, Stream(22));
-    let [whole, run] = ["whole.h5", "run.h5"].map(|name| RunFile::open(directory.path(name)).content());
+    let [whole, run] = ["whole.h5", "run.h5"].map(|name| directory.run_file(name).content());
     assert_eq!(differences(&whole, &run), [""; 0], "after {killed} kills");
 }
 
 #[test]
 fn the_program_and_the_model_as_it_is_read_agree_on_heat() {
-    let directory = WorkingDirectory::new();
-    directory.write("hot.toml", hot("stops.toml", "sample_every = \"0.7 s\""));
+    let directory = WorkingDirectory::with("hot.toml", hot("stops.toml", "sample_every = \"0.7 s\""));
     let run = |engine: &str| {
         let name = format!("{engine}.h5");
         let arguments = ["run", "hot.toml", "-o", &name, "--set", "numerics.time_acceleration=50", "--engine", engine];
-        assert_eq!(directory.plateau(arguments).status, Some(0));
-        RunFile::open(directory.path(&name))
+        directory.plateau(arguments).ends(0, &[]);
+        directory.run_file(&name)
     };
     let (fast, plain) = (run("fast"), run("plain"));
     for path in fast.content().keys().filter(|path| path.starts_with("/series/") || path.starts_with("/event/")) {
@@ -287,10 +277,9 @@ fn events_add_up_to_the_run() {
     for m in [1, 3, 7, 20, 49] {
         for (end, rests) in [("20 s", true), ("15 s", true), ("16.31 s", false), ("12 s", false), ("6.5 s", true)] {
             let sets = [format!("operation.duration={end}"), format!("numerics.time_acceleration={m}")];
-            directory
-                .plateau(["run", "scene.toml", "-o", "run.h5", "--force", "--set", &sets[0], "--set", &sets[1]])
-                .ends(0, &[]);
-            let (run, what) = (RunFile::open(directory.path("run.h5")), format!("m = {m} until {end}"));
+            let words = ["run", "scene.toml", "-o", "run.h5", "--force", "--set", &sets[0], "--set", &sets[1]];
+            directory.plateau(words).ends(0, &[]);
+            let (run, what) = (directory.run_file("run.h5"), format!("m = {m} until {end}"));
             let last = |names: &[&str]| -> f64 {
                 names.iter().map(|name| *run.floats(&format!("/series/{name}")).last().unwrap()).sum()
             };
@@ -326,18 +315,17 @@ fn events_add_up_to_the_run() {
 
 #[test]
 fn a_study_asks_friction_and_events_are_exported() {
-    let directory = WorkingDirectory::new();
-    directory.write("hot.toml", hot("stops.toml", "sample_every = \"1 s\""));
-    let study = "version = 1\nbase = \"hot.toml\"\ndesign = \"full-factorial\"\ndirectory = \"results\"\n\
-                 [[factor]]\nname = \"load\"\nkey = \"operation.cycle.force_scale\"\nlevels = [1.0, 2.0]\n\
-                 [[factor]]\nname = \"strength\"\nkey = \"friction.shear_strength\"\nlevels = [\"0.5 MPa\", \"1 MPa\"]\n\
-                 [[response]]\nname = \"friction\"\ndataset = \"/series/friction_coefficient_mean\"\nat = \"end\"\n\
-                 [[response]]\nname = \"peak\"\ndataset = \"/event/temperature_peak\"\nevent = \"last\"\n\
-                 [[response]]\nname = \"work\"\ndataset = \"/event/work\"\nevent = \"mean\"\n";
+    let directory = WorkingDirectory::with("hot.toml", hot("stops.toml", "sample_every = \"1 s\""));
+    let study = Study::new("hot.toml", "full-factorial", "")
+        .factor("load", "operation.cycle.force_scale", "levels = [1.0, 2.0]")
+        .factor("strength", "friction.shear_strength", "levels = [\"0.5 MPa\", \"1 MPa\"]")
+        .response("friction", "/series/friction_coefficient_mean", "at = \"end\"")
+        .response("peak", "/event/temperature_peak", "event = \"last\"")
+        .response("work", "/event/work", "event = \"mean\"");
     directory.write("study.toml", study);
     directory.plateau(["sweep", "run", "study.toml", "--jobs", "1"]).quiet_success();
     directory.plateau(["sweep", "collect", "study.toml"]).quiet_success();
-    let results = RunFile::open(directory.path("results/results.h5"));
+    let results = directory.run_file("results/results.h5");
     let friction = results.floats("/friction");
     // The first factor changes first: friction falls with load and rises with the shear strength.
     let [falls, rises] = [[(0, 1), (2, 3)], [(0, 2), (1, 3)]];
@@ -345,7 +333,7 @@ fn a_study_asks_friction_and_events_are_exported() {
     assert!(rises.iter().all(|(one, other)| friction[*one] < friction[*other]), "{friction:?}");
     assert!(results.floats("/peak").iter().all(|peak| *peak > 296.15));
     directory.plateau(["run", "hot.toml", "-o", "run.h5"]).quiet_success();
-    let run = RunFile::open(directory.path("run.h5"));
+    let run = directory.run_file("run.h5");
     // What the events did is what was done in all.
     let of_events: f64 = run.floats("/event/work").iter().sum();
     assert!((of_events / run.floats("/series/friction_work").last().unwrap() - 1.0).abs() < 1e-12);
@@ -354,17 +342,15 @@ fn a_study_asks_friction_and_events_are_exported() {
 
 #[test]
 fn a_run_whose_heat_is_no_number_any_more_has_failed() {
-    let directory = WorkingDirectory::new();
-    directory.write("hot.toml", hot("stops.toml", "sample_every = \"1 s\""));
+    let directory = WorkingDirectory::with("hot.toml", hot("stops.toml", "sample_every = \"1 s\""));
     let set = "thermal.friction_factor=[[\"24 degC\", 1.0], [\"25 degC\", 1e308]]";
     directory.plateau(["run", "hot.toml", "-o", "run.h5", "--set", set]).ends(1, &["the work of friction"]);
-    assert_eq!(RunFile::open(directory.path("run.h5")).text("state"), "failed");
+    assert_eq!(directory.run_file("run.h5").text("state"), "failed");
 }
 
 #[test]
 fn a_stiffness_number_that_grows_with_temperature_is_warned_of() {
-    let directory = WorkingDirectory::new();
-    directory.write("hot.toml", hot("quick.toml", "maps = []"));
+    let directory = WorkingDirectory::with("hot.toml", hot("quick.toml", "maps = []"));
     // By hand: Π = κ k m r Δθ = 5e-14 1/Pa · (1e9 Pa/(1 − 0.27²) in series with 1e11 Pa/(1 − 0.27²) over 50 µm) · 20 · 20.975 mm · 2π/690.
     let modulus = 1.0 / ((1.0 - 0.27_f64.powi(2)) * (1e-9 + 1e-11));
     let cold = 5e-14 * modulus / 50e-6 * 20.0 * 20.975e-3 * std::f64::consts::TAU / 690.0;

@@ -3,7 +3,6 @@
 use std::os::unix::fs::symlink;
 
 use plateau_tests::program::{WorkingDirectory, own_commands, path, program, repository, run};
-use plateau_tests::run_file::RunFile;
 
 /// The lines of a help text below "Example:" or "Examples:".
 fn examples(help: &str) -> Vec<&str> {
@@ -16,15 +15,10 @@ fn examples(help: &str) -> Vec<&str> {
 fn runs(directory: &WorkingDirectory, example: &str) {
     let arguments = example.strip_prefix("plateau ").unwrap_or_else(|| panic!("{example:?} does not run plateau"));
     let mut shell = std::process::Command::new("sh");
-    shell
-        .current_dir(directory.path("."))
-        .arg("-c")
-        .arg(format!("\"$0\" {arguments}"))
-        .arg(program())
-        .env("PATH", path());
+    shell.current_dir(directory.path(".")).env("PATH", path());
+    shell.args(["-c", &format!("\"$0\" {arguments}")]).arg(program());
     let outcome = run(shell);
-    assert_eq!(outcome.status, Some(0), "{example}: {}", outcome.stderr);
-    assert_eq!(outcome.stderr, "", "{example}");
+    assert_eq!((outcome.status, outcome.stderr.as_str()), (Some(0), ""), "{example}");
     assert!(!outcome.stdout.trim().is_empty(), "{example} says nothing");
 }
 
@@ -44,7 +38,7 @@ fn the_example_of_every_command_works() {
             if command == "run" {
                 let written = directory.names().into_iter().find(|name| name != "data").expect("a run file");
                 assert!(example.contains(&written), "{example} wrote {written}");
-                assert_eq!(RunFile::open(directory.path(&written)).text("state"), "finished");
+                assert_eq!(directory.run_file(&written).text("state"), "finished");
             }
         }
     }
@@ -62,7 +56,5 @@ fn help_and_version_go_to_standard_output() {
     let is_hash = hash.len() == 40 && hash.bytes().all(|byte| byte.is_ascii_hexdigit());
     assert!(is_hash || revision == "unknown", "{version}");
     // Without a command there is nothing to do, which is an error, but one for which help is the answer.
-    let outcome = directory.plateau([""; 0]);
-    assert_eq!((outcome.status, outcome.stdout.as_str()), (Some(2), ""));
-    assert!(outcome.stderr.contains("Usage: plateau"), "{}", outcome.stderr);
+    assert_eq!(directory.plateau([""; 0]).ends(2, &["Usage: plateau"]).stdout, "");
 }

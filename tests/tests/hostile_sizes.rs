@@ -5,8 +5,9 @@ use std::path::Path;
 use std::process::Command;
 
 use plateau_tests::fault::without_threads;
-use plateau_tests::program::{Outcome, WorkingDirectory, quick_scene_with, run, scene};
+use plateau_tests::program::{DISC, Outcome, WorkingDirectory, quick_scene_with, run, scene};
 use plateau_tests::scenes::few_or_all;
+use plateau_tests::studies::Study;
 
 /// Bytes that nobody reads.
 const HUGE: u64 = 1 << 40;
@@ -22,16 +23,18 @@ fn limited(directory: &WorkingDirectory, command: &[&str]) -> Outcome {
     run(directory.command_after("ulimit -c 0; ulimit -v 1000000", command))
 }
 
+/// Two runs of a moment.
+fn loads() -> Study {
+    let set = "set = [\"operation.duration = '1 s'\"]";
+    Study::new(&scene("quick.toml"), "full-factorial", set).load("levels = [\"5 N\", \"6 N\"]")
+}
+
 fn assert_refused(outcome: &Outcome, said: &str) {
     assert!(outcome.status == Some(2) && outcome.stderr.contains(said), "expected {said}: {outcome:?}");
 }
 
 fn surface_scene(directory: &WorkingDirectory, file: &str, more: &str) {
-    let text = quick_scene_with(&[]);
-    let start = text.find("[disc.surface]").unwrap();
-    let end = start + text[start..].find("\n[").unwrap();
-    let disc = format!("[disc.surface]\nfile = \"{file}\"\n{more}");
-    directory.write("scene.toml", [&text[..start], &disc, &text[end..]].concat());
+    directory.write("scene.toml", quick_scene_with(&[(DISC, &format!("file = \"{file}\"\n{more}"))]));
 }
 
 #[test]
@@ -39,11 +42,8 @@ fn surface_scene(directory: &WorkingDirectory, file: &str, more: &str) {
 fn a_design_of_as_many_points_as_there_may_be_is_planned() {
     let directory = WorkingDirectory::new();
     let study = |points: usize| {
-        format!(
-            "version = 1\nbase = \"{}\"\ndesign = \"sobol\"\npoints = {points}\n[[factor]]\n\
-             key = \"operation.normal_force\"\nrange = [\"5 N\", \"60 N\"]\n",
-            scene("quick.toml")
-        )
+        let study = Study::new(&scene("quick.toml"), "sobol", &format!("points = {points}"));
+        study.load("range = [\"5 N\", \"60 N\"]")
     };
     directory.write("study.toml", study(10_000_000));
     let planned = directory.plateau(["sweep", "plan", "study.toml"]);
@@ -66,12 +66,7 @@ fn files_that_are_too_large_are_refused_with_both_numbers() {
         assert_refused(&limited(&directory, &[command, "big.toml"]), "larger than 1 MiB");
     }
     huge(&directory, "points.csv", b"load\n5 N\n", HUGE);
-    let study = format!(
-        "version = 1\nbase = \"{}\"\ndesign = \"csv\"\nfile = \"points.csv\"\n[[factor]]\nname = \"load\"\n\
-         key = \"operation.normal_force\"\n",
-        scene("quick.toml")
-    );
-    directory.write("points.toml", study);
+    directory.write("points.toml", Study::new(&scene("quick.toml"), "csv", "file = \"points.csv\"").load(""));
     assert_refused(&limited(&directory, &["sweep", "plan", "points.toml"]), most);
     huge(&directory, "stops.csv", b"time [s]\n0\n1\n", HUGE);
     let cycle = ["check", &scene("quick.toml"), "--set"];
@@ -102,7 +97,7 @@ fn files_that_are_too_large_are_refused_with_both_numbers() {
 fn checkpoints_and_journals_take_no_more_memory_than_they_hold() {
     let directory = WorkingDirectory::new();
     let short = ["run", &scene("quick.toml"), "-o", "run.h5", "--set", "operation.duration=2 s"];
-    assert_eq!(directory.plateau(short).status, Some(0));
+    directory.plateau(short).ends(0, &[]);
     let before = fs::read(directory.path("run.h5")).unwrap();
     let content = (HUGE - 16 - 8 - 32).to_le_bytes();
     huge(&directory, "run.h5.checkpoint", &[&b"plateau state 8\n"[..], &content].concat(), HUGE);
@@ -110,12 +105,7 @@ fn checkpoints_and_journals_take_no_more_memory_than_they_hold() {
     assert_refused(&refused, "larger than any of this run");
     assert!(fs::read(directory.path("run.h5")).unwrap() == before);
     // A line that never ends, and a pipe.
-    let study = format!(
-        "version = 1\nbase = \"{}\"\ndesign = \"full-factorial\"\ndirectory = \"results\"\nset = [\"operation.duration = '1 s'\"]\n\
-         [[factor]]\nkey = \"operation.normal_force\"\nlevels = [\"5 N\", \"6 N\"]\n",
-        scene("quick.toml")
-    );
-    directory.write("study.toml", study);
+    directory.write("study.toml", loads());
     huge(&directory, "results/journal/h_1_0-0.journal", b"00000000 {", 1 << 30);
     assert!(Command::new("mkfifo").arg(directory.path("results/journal/h_1_0-1.journal")).status().unwrap().success());
     for command in ["run", "collect"] {
@@ -149,16 +139,10 @@ fn what_can_be_read_and_not_described_is_refused_with_both_numbers() {
 
 /// Every command that does something.
 fn commands(directory: &WorkingDirectory) -> Vec<Vec<String>> {
-    let study = format!(
-        "version = 1\nbase = \"{}\"\ndesign = \"full-factorial\"\ndirectory = \"results\"\nset = [\"operation.duration = '1 s'\"]\n\
-         [[factor]]\nkey = \"operation.normal_force\"\nlevels = [\"5 N\", \"6 N\"]\n\
-         [[response]]\nname = \"pool\"\ndataset = \"/series/pool\"\nat = \"end\"\n",
-        scene("quick.toml")
-    );
-    directory.write("study.toml", study);
+    directory.write("study.toml", loads().response("pool", "/series/pool", "at = \"end\""));
     fs::write(directory.path("heights.sdf"), fs::read(corpus("bcr1_surface_ascii.sdf")).unwrap()).unwrap();
     let made = ["run", &scene("quick.toml"), "-o", "run.h5", "--set", "operation.duration=1 s"];
-    assert_eq!(directory.plateau(made).status, Some(0));
+    directory.plateau(made).ends(0, &[]);
     let short = format!("run {} -o other.h5 --force --set operation.duration=1\u{a0}s", scene("quick.toml"));
     let lines = [
         short.as_str(),
@@ -229,7 +213,7 @@ fn what_memory_does_not_hold_is_refused_before_it_is_made() {
 fn without_threads_nothing_panics() {
     let directory = WorkingDirectory::new();
     for command in commands(&directory) {
-        assert_eq!(directory.plateau(&command).status, Some(0), "{command:?}");
+        directory.plateau(&command).ends(0, &[]);
         for &threads in few_or_all(&[0, 2][..], &[0, 1, 2, 3]) {
             let outcome = without_threads(directory.command(&command), threads);
             assert_told(&outcome, &format!("{command:?} with {threads} threads"));
@@ -270,7 +254,7 @@ fn without_files_or_memory_nothing_panics() {
     let mut limits: Vec<String> = files.iter().map(|files| format!("ulimit -n {files}")).collect();
     limits.extend(megabytes.iter().map(|megabytes| format!("ulimit -c 0; ulimit -v {}", megabytes * 1000)));
     for command in commands(&directory) {
-        assert_eq!(directory.plateau(&command).status, Some(0), "{command:?}");
+        directory.plateau(&command).ends(0, &[]);
         for limit in &limits {
             let mut limited = directory.command_after(limit, &command);
             limited.env_remove("RUST_BACKTRACE");

@@ -6,6 +6,8 @@ use std::fs;
 use std::os::unix::ffi::OsStrExt;
 
 use plateau_tests::program::{Outcome, WorkingDirectory, quick_scene_with, run, scene};
+use plateau_tests::run_file::set_text;
+use plateau_tests::studies::Study;
 
 /// Clears the screen, and turns what follows.
 const ODD: &str = "a\u{1b}[2J\u{202e}b";
@@ -38,7 +40,7 @@ fn arguments_and_file_names_cannot_do_anything_to_the_terminal() {
     }
     // TOML may have several lines.
     let lists = ["check", &scene("quick.toml"), "--set", "output.maps_at=[\n\t\"0 s\"\n]"];
-    assert_eq!(directory.plateau(lists).status, Some(0));
+    directory.plateau(lists).ends(0, &[]);
 }
 
 #[test]
@@ -56,12 +58,10 @@ fn names_in_scenes_and_studies_are_of_one_line() {
         assert_plain(&refused);
     }
     let study = |title: &str, factor: &str, level: &str, response: &str| {
-        format!(
-            "version = 1\ntitle = \"{title}\"\nbase = \"{}\"\ndesign = \"full-factorial\"\ndirectory = \"results\"\n\
-             [[factor]]\nname = \"{factor}\"\nkey = \"plateaus.debris\"\nlevels = [\"contact\", \"{level}\"]\n\
-             [[response]]\nname = \"{response}\"\ndataset = \"/series/pool\"\nat = \"end\"\n",
-            scene("quick.toml")
-        )
+        Study::new(&scene("quick.toml"), "full-factorial", &format!("title = \"{title}\""))
+            .factor(factor, "plateaus.debris", &format!("levels = [\"contact\", \"{level}\"]"))
+            .response(response, "/series/pool", "at = \"end\"")
+            .text()
     };
     let odd = "a\\u001b[2Jb";
     for text in [
@@ -103,18 +103,14 @@ fn what_is_too_long_to_be_read_is_not_shown_whole() {
 
 #[test]
 fn no_table_has_a_formula() {
-    let directory = WorkingDirectory::new();
-    directory.write("base.toml", quick_scene_with(&[]));
-    directory.write(
-        "study.toml",
-        "version = 1\ntitle = \"=1+1\"\nbase = \"base.toml\"\ndesign = \"full-factorial\"\ndirectory = \"results\"\n\
-         set = [\"operation.duration = '1 s'\"]\n\
-         [[factor]]\nname = \"=HYPERLINK(1)\"\nkey = \"operation.normal_force\"\nlevels = [\"5 N\", \"6 N\"]\n\
-         [[response]]\nname = \"@SUM(A1)\"\ndataset = \"/series/pool\"\nat = \"end\"\n\
-         [[response]]\nname = \"-2+3\"\ndataset = \"/series/emitted\"\nat = \"end\"\n",
-    );
+    let directory = WorkingDirectory::with("base.toml", quick_scene_with(&[]));
+    let study = Study::new("base.toml", "full-factorial", "title = \"=1+1\"\nset = [\"operation.duration = '1 s'\"]")
+        .factor("=HYPERLINK(1)", "operation.normal_force", "levels = [\"5 N\", \"6 N\"]")
+        .response("@SUM(A1)", "/series/pool", "at = \"end\"")
+        .response("-2+3", "/series/emitted", "at = \"end\"");
+    directory.write("study.toml", study);
     directory.plateau(["sweep", "plan", "study.toml", "--csv", "plan.csv"]);
-    assert_eq!(directory.plateau(["sweep", "run", "study.toml"]).status, Some(0));
+    directory.plateau(["sweep", "run", "study.toml"]).ends(0, &[]);
     directory.plateau(["sweep", "collect", "study.toml"]);
     for name in ["plan.csv", "results/results.csv"] {
         let file = fs::File::open(directory.path(name)).unwrap();
@@ -134,12 +130,9 @@ fn no_table_has_a_formula() {
 fn nothing_that_a_run_file_says_reaches_the_terminal() {
     let directory = WorkingDirectory::new();
     let short = ["--set", "operation.duration=1 s", "--set", "title=PLACE OF A TITLE"];
-    assert_eq!(directory.plateau(["run", &scene("quick.toml"), "-o", "run.h5"].iter().chain(&short)).status, Some(0));
+    directory.plateau(["run", &scene("quick.toml"), "-o", "run.h5"].iter().chain(&short)).ends(0, &[]);
     // A title that no scene may have: as another program could write it.
-    let file = plateau_tests::run_file::changed(directory.path("run.h5"));
-    let title: hdf5::types::VarLenUnicode = "<a & \u{1b}[2J\u{1} \u{fffe}\u{202e}]]>".parse().unwrap();
-    file.attr("title").unwrap().write_scalar(&title).unwrap();
-    file.close().unwrap();
+    set_text(directory.path("run.h5"), "title", "<a & \u{1b}[2J\u{1} \u{fffe}\u{202e}]]>");
     for command in [&["watch", "run.h5", "--once"][..], &["summary", "run.h5"], &["verify", "run.h5"]] {
         assert_plain(&directory.plateau(command));
     }
@@ -148,11 +141,7 @@ fn nothing_that_a_run_file_says_reaches_the_terminal() {
 #[test]
 fn a_batch_script_names_the_study_byte_for_byte() {
     let directory = WorkingDirectory::new();
-    let text = format!(
-        "version = 1\nbase = \"{}\"\ndesign = \"full-factorial\"\n[[factor]]\nkey = \"operation.normal_force\"\n\
-         levels = [\"5 N\", \"6 N\"]\n",
-        scene("quick.toml")
-    );
+    let text = Study::new(&scene("quick.toml"), "full-factorial", "").load("levels = [\"5 N\", \"6 N\"]");
     let name = OsStr::from_bytes(b"it's \xff.toml");
     fs::write(directory.path("").join(name), text).unwrap();
     let mut command = directory.command(["sweep", "slurm", "-o", "study.sbatch"]);

@@ -1,17 +1,17 @@
 //! A run that is killed, or that finds the disc full, leaves a file that does not look finished and that can be read.
 
 use std::fs;
-use std::process::{Command, Stdio};
 
-use plateau_tests::program::{WorkingDirectory, kill, quick_scene_with, run, scene, wait_until};
+use plateau_tests::program::{
+    Outcome, WorkingDirectory, ended, kill, quick_scene_with, run, scene, send, start, wait_until,
+};
 use plateau_tests::run_file::RunFile;
 
 #[test]
 fn a_killed_run_is_still_running_to_its_readers() {
     let directory = WorkingDirectory::new();
     let (scene, file) = (scene("cermet.toml"), directory.path("run.h5"));
-    let mut command = directory.command(["run", &scene, "-o", "run.h5"]);
-    let child = command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
+    let child = start(directory.command(["run", &scene, "-o", "run.h5"]));
     let samples = || RunFile::follow(&file).map_or(0, |run| run.shape("/time")[0]);
     let sampled = wait_until(|| samples() >= 2);
     kill(child);
@@ -51,8 +51,7 @@ fn block() -> u64 {
 #[test]
 fn a_full_disc_ends_a_run_with_a_message_and_never_looks_finished() {
     let edits = [("duration = \"60 s\"", "steps = 300"), ("sample_every = \"0.1 s\"", "sample_every_steps = 1")];
-    let directory = WorkingDirectory::new();
-    directory.write("scene.toml", quick_scene_with(&edits));
+    let directory = WorkingDirectory::with_scene(&edits);
     directory.plateau(["run", "scene.toml", "-o", "whole.h5"]).quiet_success();
     let (whole, block) = (fs::metadata(directory.path("whole.h5")).unwrap().len(), block());
 
@@ -102,13 +101,11 @@ fn a_full_disc_ends_a_run_with_a_message_and_never_looks_finished() {
 #[test]
 fn samples_of_before_the_first_checkpoint_stay_when_a_run_begins_anew() {
     let edits = [("duration = \"60 s\"", "steps = 1000000000"), ("sample_every = \"0.1 s\"", "sample_every_steps = 1")];
-    let directory = WorkingDirectory::new();
-    directory.write("scene.toml", quick_scene_with(&edits));
+    let directory = WorkingDirectory::with_scene(&edits);
     let arguments = ["run", "scene.toml", "-o", "run.h5", "--set", "output.checkpoint_every=3600 s"];
     let samples = |name: &str| RunFile::follow(directory.path(name)).map_or(0, |run| run.shape("/time")[0]);
     let begin_and_kill = |more: &[&str]| {
-        let mut command = directory.command(arguments.iter().chain(more));
-        let child = command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
+        let child = start(directory.command(arguments.iter().chain(more)));
         let begun = || samples("run.h5") >= 10 && (more.is_empty() || directory.path("run.h5.before-resume").exists());
         let sampled = wait_until(begun);
         kill(child);
@@ -134,10 +131,9 @@ fn samples_of_before_the_first_checkpoint_stay_when_a_run_begins_anew() {
 
 #[test]
 fn a_run_file_that_is_gone_is_missed_once() {
-    let directory = WorkingDirectory::new();
-    directory.write("scene.toml", quick_scene_with(&[("duration = \"60 s\"", "steps = 1000000000")]));
+    let directory = WorkingDirectory::with_scene(&[("duration = \"60 s\"", "steps = 1000000000")]);
     let arguments = ["run", "scene.toml", "-o", "run.h5", "--set", "output.checkpoint_every=0.05 s"];
-    let child = directory.command(arguments).stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
+    let child = start(directory.command(arguments));
     let two = wait_until(|| directory.path("run.h5.checkpoint-before").exists());
     kill(child);
     assert!(two, "there are no two checkpoints: {:?}", directory.names());
@@ -154,16 +150,12 @@ fn a_stopped_run_is_marked_interrupted_and_its_samples_are_whole() {
         let edits =
             [("duration = \"60 s\"", "steps = 1000000000"), ("sample_every = \"0.1 s\"", "sample_every_steps = 100")];
         directory.write("scene.toml", quick_scene_with(&edits));
-        let mut command = directory.command(["run", "scene.toml", "-o", "run.h5"]);
-        let child = command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap();
+        let child = start(directory.command(["run", "scene.toml", "-o", "run.h5"]));
         let file = directory.path("run.h5");
         let sampled = wait_until(|| RunFile::follow(&file).is_ok_and(|run| run.shape("/time")[0] >= 2));
-        let sent = Command::new("kill").args(["-s", signal, &child.id().to_string()]).status().unwrap();
-        let outcome = child.wait_with_output().unwrap();
-        assert!(sampled && sent.success());
-        let message = String::from_utf8_lossy(&outcome.stderr);
-        assert_eq!(outcome.status.code(), Some(status), "{message}");
-
+        send(signal, child.id());
+        let Outcome { stderr: message, .. } = ended(child).ends(status, &[]);
+        assert!(sampled, "{message}");
         let run = RunFile::open(&file);
         assert_eq!(run.text("state"), "interrupted");
         let samples = run.shape("/time")[0];

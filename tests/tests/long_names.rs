@@ -2,19 +2,19 @@
 
 use std::time::{Duration, Instant};
 
-use hdf5::types::VarLenUnicode;
 use plateau_tests::program::{WorkingDirectory, quick_scene_with};
-use plateau_tests::run_file::changed;
+use plateau_tests::run_file::set_text;
+use plateau_tests::studies::Study;
 
 /// More than any of these calls takes; before, each took minutes or ended in a panic.
 const PATIENCE: Duration = Duration::from_secs(20);
 
 fn study(name: &str, level: &str, response: &str, title: &str) -> String {
-    format!(
-        "version = 1\ntitle = \"{title}\"\ndesign = \"full-factorial\"\ndirectory = \"results\"\n\
-         [[factor]]\nname = \"{name}\"\nkey = \"plateaus.debris\"\nlevels = [\"local\", \"{level}\"]\n\
-         [[response]]\nname = \"{response}\"\nimported = true\n"
-    )
+    Study::lab("full-factorial")
+        .factor(name, "plateaus.debris", &format!("levels = [\"local\", \"{level}\"]"))
+        .imported(response)
+        .text()
+        .replacen("Lab", title, 1)
 }
 
 #[test]
@@ -29,10 +29,8 @@ fn long_names_and_titles_are_refused_where_they_are_given() {
     ];
     for (text, key) in cases {
         directory.write("study.toml", text);
-        let refused = directory.plateau(["sweep", "plan", "study.toml"]);
-        assert_eq!(refused.status, Some(2), "{key}: {refused:?}");
         let said = format!("{key}: \"{}…\" has 70000 letters, expected at most 200; shorten it", &long[..60]);
-        assert!(refused.stderr.contains(&said), "{key}: {}", refused.stderr);
+        directory.plateau(["sweep", "plan", "study.toml"]).ends(2, &[&said]);
     }
     directory.write("study.toml", study(&fits, "track", &fits[1..], &fits));
     directory.plateau(["sweep", "plan", "study.toml"]).ends(0, &[]);
@@ -46,16 +44,10 @@ fn the_title_of_a_strangers_run_is_cut_where_it_is_shown() {
     let scene = quick_scene_with(&[("duration = \"60 s\"", "duration = \"1 s\"")]);
     directory.write("scene.toml", scene);
     directory.plateau(["run", "scene.toml", "-o", "run.h5"]).quiet_success();
-    let title = "T".repeat(60_000);
-    let file = changed(directory.path("run.h5"));
-    file.delete_attr("title").unwrap();
-    let text: VarLenUnicode = title.parse().unwrap();
-    file.new_attr::<VarLenUnicode>().create("title").unwrap().write_scalar(&text).unwrap();
-    file.close().unwrap();
+    set_text(directory.path("run.h5"), "title", &"T".repeat(60_000));
     for arguments in [&["summary", "run.h5"][..], &["surface", "run.h5"], &["watch", "run.h5", "--once"]] {
         let start = Instant::now();
-        let outcome = directory.plateau(arguments);
-        assert_eq!(outcome.status, Some(0), "{arguments:?}: {outcome:?}");
+        let outcome = directory.plateau(arguments).ends(0, &[]);
         assert!(start.elapsed() < PATIENCE, "{arguments:?}: {:?}", start.elapsed());
         assert!(outcome.stdout.len() < 20_000, "{arguments:?}: {}", outcome.stdout.len());
     }
@@ -77,13 +69,8 @@ fn tables_of_many_columns_take_no_longer_than_to_read_them() {
         (&["sweep", "plan", "twice.toml"][..], "column \"c7\" is there twice"),
         (&["sweep", "plan", "design.toml"], "column \"c0\" is not a factor of the study"),
     ] {
-        let refused = directory.plateau(arguments);
-        assert_eq!(refused.status, Some(2), "{arguments:?}: {refused:?}");
-        assert!(
-            refused.stderr.contains(said) && refused.stderr.len() < 1000,
-            "{arguments:?}: {}",
-            refused.stderr.len()
-        );
+        let refused = directory.plateau(arguments).ends(2, &[said]);
+        assert!(refused.stderr.len() < 1000, "{arguments:?}: {}", refused.stderr.len());
     }
     assert!(start.elapsed() < PATIENCE, "{:?}", start.elapsed());
 }

@@ -1,9 +1,7 @@
 //! A run whose numbers have left what numbers can hold has failed, and says where.
 
-use std::fs;
-
 use plateau_tests::program::{WorkingDirectory, quick_scene_with, scene};
-use plateau_tests::run_file::RunFile;
+use plateau_tests::studies::Study;
 
 /// Legal scenes that ask for more wear than a number holds.
 const ENDLESS: [&str; 2] = ["materials.pin_primary.specific_wear_rate=1e300 1/Pa", "numerics.time_acceleration=1e300"];
@@ -18,7 +16,7 @@ fn a_run_without_finite_numbers_has_failed() {
             let more = ["--set", set, "--set", &every, "--set", "output.checkpoint_every=0.001 s"];
             let arguments = ["run", &scene("quick.toml"), "-o", "run.h5"];
             let failed = directory.plateau(arguments.iter().chain(&more)).ends(1, &["after step ", "no number holds"]);
-            let run = RunFile::open(directory.path("run.h5"));
+            let run = directory.run_file("run.h5");
             assert_eq!(run.text("state"), "failed", "{set}, {every}");
             assert!(failed.stderr.contains(&run.text("error")), "{}", run.text("error"));
             let heights = run.content();
@@ -47,7 +45,7 @@ fn a_series_without_finite_numbers_is_no_result() {
         directory
             .plateau(["run", scene, "-o", "run.h5", "--force"].iter().chain(sets))
             .ends(1, &[name, "no number holds"]);
-        assert_eq!(RunFile::open(directory.path("run.h5")).text("state"), "failed", "{scene}");
+        assert_eq!(directory.run_file("run.h5").text("state"), "failed", "{scene}");
     }
 }
 
@@ -57,7 +55,7 @@ fn what_the_model_has_no_number_for_is_no_failure() {
     // A lifted pin has no displacement.
     let stops = scene("stops.toml");
     directory.plateau(["run", &stops, "-o", "run.h5", "--set", "output.roughness=true"]).quiet_success();
-    let run = RunFile::open(directory.path("run.h5"));
+    let run = directory.run_file("run.h5");
     assert_eq!(run.text("state"), "finished");
     assert!(run.floats("/series/displacement").iter().any(|value| value.is_nan()));
 }
@@ -65,12 +63,9 @@ fn what_the_model_has_no_number_for_is_no_failure() {
 #[test]
 fn such_a_run_of_a_study_has_failed_too() {
     let directory = WorkingDirectory::new();
-    fs::copy(scene("quick.toml"), directory.path("scene.toml")).unwrap();
-    directory.write(
-        "study.toml",
-        "version = 1\ntitle = \"wear\"\nbase = \"scene.toml\"\ndesign = \"full-factorial\"\ndirectory = \"results\"\n\
-         [[factor]]\nname = \"wear rate\"\nkey = \"materials.pin_primary.specific_wear_rate\"\n\
-         levels = [\"5e-14 1/Pa\", \"1e300 1/Pa\"]\n",
-    );
+    let levels = "levels = [\"5e-14 1/Pa\", \"1e300 1/Pa\"]";
+    let study = Study::new(&scene("quick.toml"), "full-factorial", "");
+    let study = study.factor("wear rate", "materials.pin_primary.specific_wear_rate", levels);
+    directory.write("study.toml", study);
     directory.plateau(["sweep", "run", "study.toml"]).ends(1, &["1 of 2 runs failed", "no number holds"]);
 }

@@ -6,9 +6,8 @@ use serde_json::Value;
 
 /// Standard output as JSON, and the lines of standard error, of a success.
 fn told(outcome: Outcome) -> (Value, Vec<String>) {
-    assert_eq!(outcome.status, Some(0), "{}", outcome.stderr);
-    let document = serde_json::from_str(&outcome.stdout).expect("one JSON document");
-    (document, outcome.stderr.lines().map(str::to_owned).collect())
+    let outcome = outcome.ends(0, &[]);
+    (outcome.json(), outcome.stderr.lines().map(str::to_owned).collect())
 }
 
 /// The keys of the list `warnings`, each of whose texts must be in one line of standard error.
@@ -72,9 +71,8 @@ fn shipped_scenes_are_checked_without_a_word() {
             continue;
         }
         if path.extension().is_some_and(|ending| ending == "toml") {
-            let document =
-                WorkingDirectory::new().plateau(["check", &path.display().to_string(), "--json"]).quiet_success();
-            let document: Value = serde_json::from_str(&document).expect("JSON");
+            let told = WorkingDirectory::new().plateau(["check", &path.display().to_string(), "--json"]);
+            let document = told.ends(0, &[]).json();
             assert_eq!(document["warnings"], serde_json::json!([]), "{}", path.display());
             checked += 1;
         }

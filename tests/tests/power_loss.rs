@@ -9,27 +9,22 @@ use std::process::Command;
 
 use plateau_io::run_file::checkpoint::{self, RunState};
 use plateau_tests::power_loss::{Files, Journal, after_starts};
-use plateau_tests::program::{Outcome, WorkingDirectory, run, scene};
-use plateau_tests::run_file::{Content, RunFile, differences, differences_of_start};
+use plateau_tests::program::{Outcome, SMALL_MESH, WorkingDirectory, run, run_words};
+use plateau_tests::run_file::{Content, differences, differences_of_start};
 use plateau_tests::scenes::{Stream, few_or_all};
 
 mod made_of_runs;
 
 /// A run with many samples, maps of three moments, and as many checkpoints as can be written.
 fn run_of(directory: &WorkingDirectory, more: &[&str]) -> Command {
-    let sets = [
-        "mesh.rows=8",
-        "mesh.disc_columns=160",
-        "mesh.pin_columns=16",
+    let settings = [
         "operation.duration=8 s",
         "numerics.time_acceleration=1",
         "output.sample_every=0.05 s",
         "output.maps_at=[\"0 s\", \"4 s\"]",
         "output.checkpoint_every=0.004 s",
     ];
-    let mut command = directory.command(["run", &scene("quick.toml"), "-o", "run.h5"]);
-    command.args(sets.iter().flat_map(|set| ["--set", set])).args(more);
-    command
+    directory.command(run_words("quick.toml", "run.h5", &[&SMALL_MESH[..], &settings].concat(), more))
 }
 
 fn repair_of(directory: &WorkingDirectory) -> Command {
@@ -82,7 +77,7 @@ impl Undisturbed {
         let directory = WorkingDirectory::new();
         let (outcome, journal) = Journal::of(&directory, run_of(&directory, &[]));
         assert_eq!(outcome.status, Some(0), "{outcome:?}");
-        Self { whole: RunFile::open(directory.path("run.h5")).content(), journal }
+        Self { whole: directory.run_file("run.h5").content(), journal }
     }
 
     /// What the run leaves when it is killed, or when the power is lost, after its first checkpoint and before its end; and how
@@ -145,7 +140,7 @@ impl Tally {
         assert_eq!(outcome.status, Some(0), "--resume {what}: {outcome:?}");
         let begins = outcome.stderr.contains("begins from the beginning");
         assert!(!begins || kept.is_none(), "{what}: {outcome:?}");
-        assert_eq!(differences(whole, &RunFile::open(directory.path("run.h5")).content()), [""; 0], "--resume {what}");
+        assert_eq!(differences(whole, &directory.run_file("run.h5").content()), [""; 0], "--resume {what}");
         let verified = run_after(starts, directory.command(["verify", "run.h5"]));
         assert_eq!(verified.status, Some(0), "{what}: {verified:?}");
     }
@@ -167,7 +162,7 @@ impl Tally {
         self.left_out += usize::from(outcome.stderr.contains("is left out"));
         let verified = run_after(starts, directory.command(["verify", "run.h5"]));
         assert_eq!(verified.status, Some(0), "{what}: {verified:?}");
-        let there = RunFile::open(directory.path("run.h5")).content();
+        let there = directory.run_file("run.h5").content();
         let samples = there["/time"].shape[0];
         assert!(samples >= kept.unwrap_or(0), "{what}: {samples} samples of {kept:?}: {outcome:?}");
         if differences_of_start(whole, &there).is_empty() {

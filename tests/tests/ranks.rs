@@ -6,8 +6,9 @@ use std::fs::{self, File};
 use std::path::PathBuf;
 use std::process::{Child, Command, Stdio};
 
-use plateau_tests::program::{Outcome, WorkingDirectory, program, run, scene, wait_until};
+use plateau_tests::program::{Outcome, WorkingDirectory, program, run, scene, send, wait_until};
 use plateau_tests::run_file::{Content, RunFile, differences};
+use plateau_tests::studies::Study;
 
 use crate::heat::hot;
 
@@ -42,7 +43,7 @@ fn written(directory: &WorkingDirectory, outcome: &Outcome) -> (BTreeMap<String,
     // Of a run of more than a minute there are two checkpoints.
     let names = directory.names().into_iter().filter(|name| name != "run.h5.checkpoint-before");
     assert_eq!(names.collect::<Vec<_>>(), ["run.h5", "run.h5.checkpoint"]);
-    let file = RunFile::open(directory.path("run.h5"));
+    let file = directory.run_file("run.h5");
     assert_eq!(file.text("state"), "finished");
     (file.content(), file.number("workers"))
 }
@@ -94,15 +95,14 @@ fn ranks_choose_the_same_acceleration() {
 #[test]
 #[ignore = "needs MPI"]
 fn ranks_warm_up_alike() {
-    let directory = WorkingDirectory::new();
-    directory.write("hot.toml", hot("stops.toml", ""));
+    let directory = WorkingDirectory::with("hot.toml", hot("stops.toml", ""));
     let arguments: Vec<String> = ["run", "hot.toml", "-o", "run.h5"].map(str::to_owned).to_vec();
     directory.plateau(&arguments).ends(0, &[]);
-    let one = RunFile::open(directory.path("run.h5")).content();
+    let one = directory.run_file("run.h5").content();
     assert!(one.contains_key("/series/contact_temperature"), "{:?}", one.keys());
     for ranks in [2, 3] {
         on_ranks(&directory, ranks, &[&arguments[..], &["--force".to_owned()]].concat()).ends(0, &[]);
-        let run = RunFile::open(directory.path("run.h5"));
+        let run = directory.run_file("run.h5");
         assert_eq!(run.number("workers"), ranks as f64);
         assert_eq!(differences(&one, &run.content()), [""; 0], "{ranks} ranks");
     }
@@ -190,7 +190,7 @@ fn ranks_with_different_scenes_do_not_start() {
 #[ignore = "needs MPI"]
 fn a_rank_that_is_asked_to_stop_stops_all_in_good_order() {
     let mut job = EndlessJob::start(2);
-    assert!(Command::new("kill").args(["-s", "TERM", &job.process(1)]).status().expect("kill").success());
+    send("TERM", &job.process(1));
     let (status, stderr) = job.end();
     assert_eq!(status, Some(143), "{stderr}");
     assert_eq!(stderr.matches("plateau: stopped by signal 15").count(), 1, "{stderr}");
@@ -214,7 +214,7 @@ fn ranks_that_prepare_a_run_end_at_a_signal() {
         assert!(wait_until(|| [0, 1].iter().all(|rank| directory.path(&rank.to_string()).exists())));
         std::thread::sleep(std::time::Duration::from_secs(2));
         let process = rank.map_or_else(|| launcher.id().to_string(), |rank| process_of_rank(&directory, rank));
-        assert!(Command::new("kill").args(["-s", "TERM", &process]).status().expect("kill").success());
+        send("TERM", &process);
         let ended = wait_until(|| launcher.try_wait().expect("a process").is_some());
         let _ = launcher.kill();
         assert!(ended, "the ranks do not hear the signal");
@@ -231,7 +231,7 @@ fn ranks_that_prepare_a_run_end_at_a_signal() {
 fn what_ranks_did_is_gone_on_with() {
     let enough = ["--set", "operation.steps=1500000", "--resume"];
     let mut job = EndlessJob::in_directory(WorkingDirectory::new(), 2, &enough);
-    assert!(Command::new("kill").args(["-s", "TERM", &job.process(1)]).status().expect("kill").success());
+    send("TERM", &job.process(1));
     let (status, stderr) = job.end();
     assert_eq!(status, Some(143), "{stderr}");
     let directory = &job.directory;
@@ -241,8 +241,8 @@ fn what_ranks_did_is_gone_on_with() {
     };
     let resumed = on_ranks(directory, 2, &arguments("run.h5")).ends(0, &[]);
     assert_eq!(resumed.stderr.matches("goes on from step").count(), 1, "{}", resumed.stderr);
-    assert_eq!(directory.plateau(arguments("whole.h5")).status, Some(0));
-    let content = |file| RunFile::open(directory.path(file)).content();
+    directory.plateau(arguments("whole.h5")).ends(0, &[]);
+    let content = |file| directory.run_file(file).content();
     assert_eq!(differences(&content("whole.h5"), &content("run.h5")), [""; 0]);
 }
 
@@ -250,7 +250,7 @@ fn what_ranks_did_is_gone_on_with() {
 #[ignore = "needs MPI"]
 fn a_rank_that_is_killed_ends_all() {
     let mut job = EndlessJob::start(2);
-    assert!(Command::new("kill").args(["-s", "KILL", &job.process(1)]).status().expect("kill").success());
+    send("KILL", &job.process(1));
     let (status, stderr) = job.end();
     assert_ne!(status, Some(0), "{stderr}");
 }
@@ -259,16 +259,11 @@ fn a_rank_that_is_killed_ends_all() {
 #[ignore = "needs MPI"]
 fn a_rank_takes_over_what_another_is_late_with() {
     let directory = WorkingDirectory::new();
-    let base = scene("quick.toml");
     let seeds: Vec<String> = (1..=24).map(|seed: u32| seed.to_string()).collect();
-    let study = format!(
-        "version = 1\ntitle = \"Late\"\nbase = \"{base}\"\nset = [\"operation.duration = '40 s'\"]\n\
-         design = \"full-factorial\"\ndirectory = \"results\"\n\
-         [[factor]]\nname = \"seed\"\nkey = \"pin.base.synthetic.seed\"\nlevels = [{}]\n\
-         [[response]]\nname = \"area\"\ndataset = \"/series/contact_area_mean\"\nat = \"end\"\n",
-        seeds.join(", ")
-    );
-    directory.write("study.toml", &study);
+    let study = Study::new(&scene("quick.toml"), "full-factorial", "set = [\"operation.duration = '40 s'\"]")
+        .factor("seed", "pin.base.synthetic.seed", &format!("levels = [{}]", seeds.join(", ")))
+        .response("area", "/series/contact_area_mean", "at = \"end\"");
+    directory.write("study.toml", study);
     // The second rank rests from its first result on, until the first rank has made more than half of the runs.
     let mut command = mpirun(&directory);
     command.args(["-n", "2", "sh", "-c", LEAVE_PROCESS_NUMBER]).arg(program()).args(["sweep", "run", "study.toml"]);
@@ -282,9 +277,9 @@ fn a_rank_takes_over_what_another_is_late_with() {
     };
     assert!(wait_until(|| made().len() == 2));
     let second = process_of_rank(&directory, 1);
-    assert!(Command::new("kill").args(["-s", "STOP", &second]).status().expect("kill").success());
+    send("STOP", &second);
     let taken_over = wait_until(|| made().last().is_some_and(|runs| *runs > seeds.len() / 2));
-    assert!(Command::new("kill").args(["-s", "CONT", &second]).status().expect("kill").success());
+    send("CONT", &second);
     let output = job.wait_with_output().expect("the end of the job");
     assert!(taken_over, "one rank left the runs of the other: {:?}", made());
     assert!(output.status.success(), "{output:?}");

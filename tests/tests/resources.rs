@@ -3,18 +3,17 @@
 use std::fs;
 use std::os::unix::fs::{PermissionsExt, symlink};
 use std::path::Path;
-use std::process::{Command, Stdio};
+use std::process::Stdio;
 use std::time::Duration;
 
-use plateau_tests::program::{Outcome, WorkingDirectory, kill, run, scene, wait_until};
+use plateau_tests::program::{Outcome, WorkingDirectory, ended, kill, run, run_words, scene, send, start, wait_until};
 use plateau_tests::run_file::RunFile;
 
 /// A run that does not end by itself, with a checkpoint as often as that.
 fn endless(file: &str, checkpoint_every: &str) -> Vec<String> {
-    let sets = ["operation.duration=100 h", "numerics.time_acceleration=1", "output.maps=[]"].map(str::to_owned);
-    let every = [format!("output.checkpoint_every={checkpoint_every}")];
-    let sets = sets.into_iter().chain(every).flat_map(|set| ["--set".to_owned(), set]);
-    ["run", &scene("quick.toml"), "-o", file].map(str::to_owned).into_iter().chain(sets).collect()
+    let every = format!("output.checkpoint_every={checkpoint_every}");
+    let settings = ["operation.duration=100 h", "numerics.time_acceleration=1", "output.maps=[]", &every];
+    run_words("quick.toml", file, &settings, &[])
 }
 
 fn has_samples(file: &Path) -> bool {
@@ -23,14 +22,10 @@ fn has_samples(file: &Path) -> bool {
 
 /// Runs until there are samples, lets something happen, and waits for the end.
 fn disturbed(directory: &WorkingDirectory, file: &str, disturb: impl FnOnce()) -> Outcome {
-    let mut command = directory.command(endless(file, "0.1 s"));
-    command.stdout(Stdio::piped()).stderr(Stdio::piped());
-    let child = command.spawn().unwrap();
+    let child = start(directory.command(endless(file, "0.1 s")));
     assert!(has_samples(&directory.path(file)));
     disturb();
-    let ended = child.wait_with_output().unwrap();
-    let text = |bytes| String::from_utf8(bytes).unwrap();
-    Outcome { status: ended.status.code(), stdout: text(ended.stdout), stderr: text(ended.stderr) }
+    ended(child)
 }
 
 #[test]
@@ -40,7 +35,7 @@ fn a_file_or_a_directory_that_vanishes_ends_the_run() {
         .ends(1, &["run.h5 was moved, removed or replaced"]);
     // It is all that there is of the run.
     directory.plateau(["repair", "moved.h5"]).quiet_success();
-    assert!(RunFile::open(directory.path("moved.h5")).shape("/time")[0] > 1);
+    assert!(directory.run_file("moved.h5").shape("/time")[0] > 1);
 
     directory.write("folder/a file", "");
     // A checkpoint that comes just then makes the folder one that is not empty.
@@ -57,7 +52,7 @@ fn a_run_whose_file_was_replaced_leaves_the_checkpoints_of_the_other_alone() {
     let outcome = disturbed(&directory, "run.h5", || {
         // As on another machine, where nobody sees that the file is being written.
         let elsewhere = WorkingDirectory::new();
-        assert_eq!(run(elsewhere.command(["run", &scene("quick.toml"), "-o", "run.h5"])).status, Some(0));
+        run(elsewhere.command(["run", &scene("quick.toml"), "-o", "run.h5"])).ends(0, &[]);
         for name in ["run.h5", "run.h5.checkpoint"] {
             directory.write("new", fs::read(elsewhere.path(name)).unwrap());
             fs::rename(directory.path("new"), directory.path(name)).unwrap();
@@ -89,15 +84,15 @@ fn a_signal_during_the_preparation_is_heard() {
         assert!(wait_until(|| catches_stops(child.id())), "no handler of SIGXCPU");
         send("USR1", child.id());
         send(signal, child.id());
-        let mut ended = None;
+        let mut end = None;
         let has_ended = wait_until(|| {
-            ended = child.try_wait().unwrap();
-            ended.is_some()
+            end = child.try_wait().unwrap();
+            end.is_some()
         });
         if !has_ended {
             kill(child);
         }
-        assert_eq!(ended.and_then(|ended| ended.code()), Some(status), "{signal}");
+        assert_eq!(end.and_then(|end| end.code()), Some(status), "{signal}");
         assert_eq!(directory.names(), [""; 0], "{signal}");
     }
 }
@@ -109,22 +104,17 @@ fn catches_stops(process: u32) -> bool {
     mask.and_then(|mask| u64::from_str_radix(mask, 16).ok()).is_some_and(|mask| mask >> (24 - 1) & 1 == 1)
 }
 
-fn send(signal: &str, process: u32) {
-    assert!(Command::new("kill").args(["-s", signal, &process.to_string()]).status().unwrap().success());
-}
-
 #[test]
 fn a_terminal_that_goes_leaves_a_checkpoint_unless_that_is_to_be_ignored() {
     let directory = WorkingDirectory::new();
     for (signal, status, ignored) in [("HUP", 129, false), ("XCPU", 152, false), ("TERM", 143, true)] {
         let file = format!("{signal}.h5");
         let arguments = endless(&file, "1 h");
-        let mut command = if ignored {
+        let mut child = start(if ignored {
             directory.command_after("trap '' HUP", arguments)
         } else {
             directory.command_with_hangup(arguments)
-        };
-        let mut child = command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
+        });
         assert!(has_samples(&directory.path(&file)));
         if ignored {
             let samples = RunFile::follow(directory.path(&file)).unwrap().shape("/time")[0];
@@ -136,7 +126,7 @@ fn a_terminal_that_goes_leaves_a_checkpoint_unless_that_is_to_be_ignored() {
         }
         send(signal, child.id());
         assert_eq!(child.wait().unwrap().code(), Some(status), "{signal}");
-        assert_eq!(RunFile::open(directory.path(&file)).text("state"), "interrupted", "{signal}");
+        assert_eq!(directory.run_file(&file).text("state"), "interrupted", "{signal}");
         assert!(directory.path(&format!("{file}.checkpoint")).exists(), "{signal}");
     }
 }
@@ -184,8 +174,7 @@ fn with_few_handles_a_run_still_ends_well() {
     for handles in 5..9 {
         let directory = WorkingDirectory::new();
         let arguments = ["run", &scene("quick.toml"), "-o", "run.h5"];
-        let outcome = run(directory.command_after(&format!("ulimit -n {handles}"), arguments));
-        assert_eq!(outcome.status, Some(0), "{handles} handles: {outcome:?}");
+        run(directory.command_after(&format!("ulimit -n {handles}"), arguments)).ends(0, &[]);
         directory.plateau(["verify", "run.h5"]).quiet_success();
     }
 }
@@ -208,8 +197,7 @@ fn the_name_of_a_file_decides_no_exit_status() {
     let directory = WorkingDirectory::new();
     for name in ["a (os error 24).h5", "a, errno = 12, b.h5"] {
         for arguments in [&["summary"][..], &["verify"], &["surface"], &["sweep", "plan"]] {
-            let outcome = directory.plateau(arguments.iter().chain(&[name]));
-            assert_eq!(outcome.status, Some(2), "{arguments:?}: {outcome:?}");
+            directory.plateau(arguments.iter().chain(&[name])).ends(2, &[]);
         }
     }
 }
@@ -218,7 +206,7 @@ fn the_name_of_a_file_decides_no_exit_status() {
 fn files_have_the_permissions_that_the_user_wants() {
     let directory = WorkingDirectory::new();
     let arguments = ["run", &scene("quick.toml"), "-o", "run.h5"];
-    assert_eq!(run(directory.command_after("umask 027", arguments)).status, Some(0));
+    run(directory.command_after("umask 027", arguments)).ends(0, &[]);
     for name in ["run.h5", "run.h5.checkpoint"] {
         let mode = fs::metadata(directory.path(name)).unwrap().permissions().mode();
         assert_eq!(mode & 0o777, 0o640, "{name}");
@@ -244,8 +232,7 @@ fn check_shows_where_files_really_are() {
 fn a_run_that_is_killed_while_it_prepares_leaves_nothing() {
     let directory = WorkingDirectory::new();
     let large = ["--set", "mesh.rows=300", "--set", "mesh.disc_columns=20700", "--set", "mesh.pin_columns=1200"];
-    let mut command = directory.command(endless("run.h5", "1 h").iter().map(String::as_str).chain(large));
-    let child = command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
+    let child = start(directory.command(endless("run.h5", "1 h").iter().map(String::as_str).chain(large)));
     kill(child);
     assert_eq!(directory.names(), [""; 0]);
 }

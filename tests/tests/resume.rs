@@ -4,15 +4,13 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::os::unix::fs::MetadataExt;
 use std::path::Path;
-use std::process::{Command, Stdio};
 use std::thread;
 use std::time::Duration;
 
-use plateau_tests::program::{Outcome, WorkingDirectory, kill, scene, wait_until};
+use plateau_tests::program::{Outcome, WorkingDirectory, kill, run_words, send, start, wait_until};
 use plateau_tests::run_file::{Content, RunFile, differences, differences_of_start};
 use plateau_tests::scenes::Stream;
 use plateau_tests::scenes::few_or_all;
-use serde_json::Value;
 
 /// A run of some seconds with many samples, some maps and a checkpoint every few hundredths of a second.
 fn arguments(file: &str, more: &[&str]) -> Vec<String> {
@@ -23,10 +21,7 @@ fn arguments(file: &str, more: &[&str]) -> Vec<String> {
         "output.maps_at=[\"0 s\", \"10 s\", \"40 s\", \"59.99 s\"]",
         "output.checkpoint_every=0.03 s",
     ];
-    let mut arguments = ["run", &scene("quick.toml"), "-o", file].map(str::to_owned).to_vec();
-    arguments.extend(sets.iter().flat_map(|set| ["--set".to_owned(), (*set).to_owned()]));
-    arguments.extend(more.iter().map(|word| (*word).to_owned()));
-    arguments
+    run_words("quick.toml", file, &sets, more)
 }
 
 fn run(directory: &WorkingDirectory, file: &str, more: &[&str]) -> Outcome {
@@ -37,8 +32,7 @@ fn run(directory: &WorkingDirectory, file: &str, more: &[&str]) -> Outcome {
 fn start_and_kill(directory: &WorkingDirectory, more: &[&str], random: &mut Stream) {
     let state = || fs::metadata(directory.path("run.h5.checkpoint")).and_then(|file| file.modified()).ok();
     let before = state();
-    let mut command = directory.command(arguments("run.h5", more));
-    let child = command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
+    let child = start(directory.command(arguments("run.h5", more)));
     wait_until(|| state() != before);
     thread::sleep(Duration::from_secs_f64(0.06 * random.uniform()));
     kill(child);
@@ -49,14 +43,13 @@ fn start_and_kill(directory: &WorkingDirectory, more: &[&str], random: &mut Stre
 fn a_run_killed_again_and_again_ends_bit_for_bit_like_an_undisturbed_one() {
     let kills = std::env::var("PLATEAU_KILLS").map_or(few_or_all(4, 1000), |kills| kills.parse().unwrap());
     let directory = WorkingDirectory::new();
-    assert_eq!(run(&directory, "whole.h5", &[]).status, Some(0));
-    let whole = RunFile::open(directory.path("whole.h5")).content();
+    run(&directory, "whole.h5", &[]).ends(0, &[]);
+    let whole = directory.run_file("whole.h5").content();
     let (mut random, mut killed, mut ended) = (Stream(8), 0, 0);
     while killed < kills || ended == 0 {
         // The end alone: threads that wait for each other take many times as long where other tests run beside them.
         let workers = if killed < kills { ["1", "2", "3"][killed % 3] } else { "1" };
-        let mut command = directory.command(arguments("run.h5", &["--resume", "--workers", workers]));
-        let mut child = command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
+        let mut child = start(directory.command(arguments("run.h5", &["--resume", "--workers", workers])));
         if killed < kills {
             thread::sleep(Duration::from_secs_f64(0.5 * random.uniform()));
         }
@@ -68,7 +61,7 @@ fn a_run_killed_again_and_again_ends_bit_for_bit_like_an_undisturbed_one() {
             continue;
         };
         assert!(status.success(), "{status}");
-        let run_file = RunFile::open(directory.path("run.h5"));
+        let run_file = directory.run_file("run.h5");
         assert_eq!(run_file.text("state"), "finished");
         assert_eq!(differences(&whole, &run_file.content()), [""; 0], "after {killed} kills");
         // A run that was killed before its first checkpoint is kept beside the one that began anew.
@@ -102,13 +95,13 @@ fn a_run_that_chooses_its_acceleration_goes_on_too() {
     let directory = WorkingDirectory::new();
     let chosen =
         ["--set", "numerics.time_acceleration={ tolerance = 0.01, max = 1000 }", "--set", "operation.duration=600 s"];
-    assert_eq!(run(&directory, "whole.h5", &chosen).status, Some(0));
+    run(&directory, "whole.h5", &chosen).ends(0, &[]);
     let mut random = Stream(9);
     for _ in 0..4 {
         start_and_kill(&directory, &[&chosen[..], &["--resume"]].concat(), &mut random);
     }
-    assert_eq!(run(&directory, "run.h5", &[&chosen[..], &["--resume"]].concat()).status, Some(0));
-    let content = |name| RunFile::open(directory.path(name)).content();
+    run(&directory, "run.h5", &[&chosen[..], &["--resume"]].concat()).ends(0, &[]);
+    let content = |name| directory.run_file(name).content();
     assert_eq!(differences(&content("whole.h5"), &content("run.h5")), [""; 0]);
 }
 
@@ -116,24 +109,20 @@ fn a_run_that_chooses_its_acceleration_goes_on_too() {
 fn signals_leave_a_checkpoint_of_the_moment() {
     let directory = WorkingDirectory::new();
     let rarely = ["--set", "output.checkpoint_every=1 h", "--set", "operation.duration=250 s"];
-    assert_eq!(run(&directory, "whole.h5", &rarely).status, Some(0));
-    assert_eq!(
-        directory.names(),
-        ["whole.h5", "whole.h5.checkpoint"],
-        "the end is kept, from which it can be extended"
-    );
+    run(&directory, "whole.h5", &rarely).ends(0, &[]);
+    // The end is kept, from which it can be extended.
+    assert_eq!(directory.names(), ["whole.h5", "whole.h5.checkpoint"]);
     for (signal, status) in [("USR1", None), ("INT", Some(130)), ("TERM", Some(143))] {
         let file = directory.path("run.h5");
         let made = || fs::metadata(&file).map_or(0, |file| file.ino());
         let earlier = made();
-        let mut command = directory.command(arguments("run.h5", &[&rarely[..], &["--resume"]].concat()));
-        let mut child = command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
+        let mut child = start(directory.command(arguments("run.h5", &[&rarely[..], &["--resume"]].concat())));
         let state = || fs::metadata(directory.path("run.h5.checkpoint")).and_then(|file| file.modified()).ok();
         let before = state();
         // From then on it listens.
         assert!(wait_until(|| made() != earlier), "no run file");
-        let sent = Command::new("kill").args(["-s", signal, &child.id().to_string()]).status().unwrap();
-        assert!(sent.success() && wait_until(|| state() != before), "no checkpoint after {signal}");
+        send(signal, child.id());
+        assert!(wait_until(|| state() != before), "no checkpoint after {signal}");
         match status {
             None => kill(child),
             Some(status) => assert_eq!(child.wait().unwrap().code(), Some(status)),
@@ -142,15 +131,11 @@ fn signals_leave_a_checkpoint_of_the_moment() {
     // Who gives the same command again is told that there is something to go on with, and of a run that is finished is not.
     for (file, is_offered) in [("run.h5", true), ("whole.h5", false)] {
         let again = run(&directory, file, &rarely);
-        assert_eq!(
-            (again.status, again.stderr.contains("--resume goes on with it")),
-            (Some(2), is_offered),
-            "{again:?}"
-        );
-        assert!(again.stderr.contains(&format!("{file} exists")), "{again:?}");
+        let again = again.ends(2, &[&format!("{file} exists")]);
+        assert_eq!(again.stderr.contains("--resume goes on with it"), is_offered, "{again:?}");
     }
-    assert_eq!(run(&directory, "run.h5", &[&rarely[..], &["--resume"]].concat()).status, Some(0));
-    let content = |name| RunFile::open(directory.path(name)).content();
+    run(&directory, "run.h5", &[&rarely[..], &["--resume"]].concat()).ends(0, &[]);
+    let content = |name| directory.run_file(name).content();
     assert_eq!(differences(&content("whole.h5"), &content("run.h5")), [""; 0]);
 }
 
@@ -185,7 +170,7 @@ fn what_cannot_be_gone_on_with_is_refused_and_stays() {
         fs::write(path, &bytes[..middle]).unwrap();
     }
     run(&directory, "run.h5", &["--resume"]).ends(2, &["--force begins again"]);
-    assert_eq!(run(&directory, "run.h5", &["--force"]).status, Some(0));
+    run(&directory, "run.h5", &["--force"]).ends(0, &[]);
 }
 
 #[test]
@@ -194,7 +179,7 @@ fn a_checkpoint_of_the_end_is_believed_only_beside_the_file_of_the_end() {
     let [file, kept, damaged] = ["run.h5", "kept.h5", "damaged.h5"].map(|name| directory.path(name));
     start_and_kill(&directory, &["--resume"], &mut Stream(11));
     fs::copy(&file, &kept).unwrap();
-    assert_eq!(run(&directory, "run.h5", &["--resume"]).status, Some(0));
+    run(&directory, "run.h5", &["--resume"]).ends(0, &[]);
     let whole = RunFile::open(&file).content();
     fs::copy(&file, &damaged).unwrap();
 
@@ -224,18 +209,15 @@ fn a_checkpoint_of_the_end_is_believed_only_beside_the_file_of_the_end() {
 #[test]
 fn a_finished_run_goes_on_beyond_its_end() {
     let directory = WorkingDirectory::new();
-    let told = |file: &str, more: &[&str]| -> Value {
-        let done = run(&directory, file, &[more, &["--json"]].concat());
-        serde_json::from_str(&done.stdout).unwrap_or_else(|error| panic!("{error}: {done:?}"))
-    };
+    let told = |file: &str, more: &[&str]| run(&directory, file, &[more, &["--json"]].concat()).json();
     let short = told("run.h5", &["--set", "operation.duration=5 s"]);
     let longer = told("run.h5", &["--set", "operation.duration=5 s", "--extend-to", "15 s"]);
-    assert_eq!(run(&directory, "whole.h5", &["--set", "operation.duration=15 s"]).status, Some(0));
+    run(&directory, "whole.h5", &["--set", "operation.duration=15 s"]).ends(0, &[]);
     // Its speed is that of the steps that it took itself.
     let [steps, before] = [&longer, &short].map(|summary| summary["steps"].as_u64().unwrap());
     let [speed, time] = ["steps_per_second", "wall_time"].map(|name| longer[name].as_f64().unwrap());
     assert_eq!((speed * time).round() as u64, steps - before);
-    let [longer, whole] = ["run.h5", "whole.h5"].map(|name| RunFile::open(directory.path(name)));
+    let [longer, whole] = ["run.h5", "whole.h5"].map(|name| directory.run_file(name));
     // 5 s is a multiple of the samples' time, so there is none more.
     for series in ["contact_area", "pool", "filled_fraction"] {
         let of = |run: &RunFile| run.floats(&format!("/series/{series}"));
@@ -268,28 +250,22 @@ fn only_the_same_run_is_gone_on_with() {
     for more in [["--resume", "--json"], ["--extend-to", "3 s"]] {
         assert_eq!(with(&more).status, Some(2));
     }
-    assert_eq!(fs::read_to_string(directory.path("run.h5")).unwrap(), "notes");
+    assert_eq!(directory.text("run.h5"), "notes");
 }
 
 #[test]
 fn a_run_goes_on_with_the_engine_that_began_it() {
     let directory = WorkingDirectory::new();
-    let arguments = |more: &[&str]| {
-        let sets = ["operation.duration=0.1 s", "numerics.time_acceleration=1", "output.maps_at=[]"];
-        let mut arguments = ["run", &scene("quick.toml"), "--engine", "plain"].map(str::to_owned).to_vec();
-        arguments.extend(sets.iter().flat_map(|set| ["--set".to_owned(), (*set).to_owned()]));
-        arguments.extend(more.iter().map(|word| (*word).to_owned()));
-        arguments
+    let run = |file: &str, engine: &str, more: &[&str]| {
+        let settings = ["operation.duration=0.1 s", "numerics.time_acceleration=1", "output.maps_at=[]"];
+        directory.plateau(run_words("quick.toml", file, &settings, &[&["--engine", engine], more].concat()))
     };
-    let whole = ["-o", "whole.h5", "--set", "operation.duration=0.2 s"];
-    directory.plateau(arguments(&whole)).quiet_success();
-    directory.plateau(arguments(&["-o", "run.h5"])).quiet_success();
-    let extended = ["-o", "run.h5", "--extend-to", "0.2 s"];
-    directory
-        .plateau(arguments(&extended).into_iter().map(|word| word.replace("plain", "fast")))
-        .ends(2, &["it was begun with --engine plain, this is fast"]);
-    assert_eq!(directory.plateau(arguments(&extended)).status, Some(0));
-    let [whole, run] = ["whole.h5", "run.h5"].map(|name| RunFile::open(directory.path(name)));
+    run("whole.h5", "plain", &["--set", "operation.duration=0.2 s"]).quiet_success();
+    run("run.h5", "plain", &[]).quiet_success();
+    let extended = ["--extend-to", "0.2 s"];
+    run("run.h5", "fast", &extended).ends(2, &["it was begun with --engine plain, this is fast"]);
+    run("run.h5", "plain", &extended).ends(0, &[]);
+    let [whole, run] = ["whole.h5", "run.h5"].map(|name| directory.run_file(name));
     let [whole, run] =
         [whole, run].map(|file| file.last_map("/pin/height").into_iter().map(f64::to_bits).collect::<Vec<_>>());
     assert!(whole == run, "the pin differs");

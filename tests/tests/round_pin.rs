@@ -1,6 +1,6 @@
 //! The round pin through the whole program: the same bits, kills, files, figures and exports.
 
-use plateau_tests::program::{WorkingDirectory, go_on_through_kills, scene};
+use plateau_tests::program::{WorkingDirectory, go_on_through_kills, run_words, scene, sets};
 use plateau_tests::run_file::{RunFile, differences};
 use plateau_tests::scenes::{Stream, few_or_all};
 
@@ -14,17 +14,10 @@ const ROUND: [&str; 6] = [
     "output.roughness=true",
 ];
 
-fn arguments(file: &str, sets: &[&str], more: &[&str]) -> Vec<String> {
-    let mut arguments = ["run", &scene("quick.toml"), "-o", file].map(str::to_owned).to_vec();
-    arguments.extend(sets.iter().flat_map(|set| ["--set".to_owned(), (*set).to_owned()]));
-    arguments.extend(more.iter().map(|word| (*word).to_owned()));
-    arguments
-}
-
 /// Runs `quick.toml` with changes.
 fn run(directory: &WorkingDirectory, file: &str, sets: &[&str], more: &[&str]) -> RunFile {
-    directory.plateau(arguments(file, sets, more)).ends(0, &[]);
-    RunFile::open(directory.path(file))
+    directory.plateau(run_words("quick.toml", file, sets, more)).ends(0, &[]);
+    directory.run_file(file)
 }
 
 /// Whether a cell is within the circle of 2 mm about the middle, by the definition.
@@ -54,10 +47,8 @@ fn the_file_of_a_round_pin_has_its_outline_and_any_worker_and_engine_gives_it() 
         {
             let [fast, plain] = [&one, &plain].map(|file| file.floats(&format!("series/{series}")));
             for (fast, plain) in fast.iter().zip(&plain) {
-                assert!(
-                    (fast - plain).abs() <= 1e-9 * plain.abs().max(fast.abs()) + 1e-24,
-                    "{series}: {fast:e} {plain:e}"
-                );
+                let tolerance = 1e-9 * plain.abs().max(fast.abs()) + 1e-24;
+                assert!((fast - plain).abs() <= tolerance, "{series}: {fast:e} {plain:e}");
             }
         }
         let [columns, rows] = one.shape("pin/base")[..] else { panic!("two dimensions") };
@@ -100,10 +91,10 @@ fn a_killed_run_of_a_round_pin_ends_as_an_undisturbed_one() {
     let more = ["operation.steps=150000", "output.sample_every_steps=2000", "output.checkpoint_every=0.03 s"];
     let sets = [&ROUND[..], &more].concat();
     let whole = run(&directory, "whole.h5", &sets, &[]).content();
-    let killed =
-        go_on_through_kills(&directory, &arguments("run.h5", &sets, &["--resume"]), few_or_all(2, 6), 0.5, Stream(3));
+    let words = run_words("quick.toml", "run.h5", &sets, &["--resume"]);
+    let killed = go_on_through_kills(&directory, &words, few_or_all(2, 6), 0.5, Stream(3));
     assert!(killed > 0);
-    assert_eq!(differences(&RunFile::open(directory.path("run.h5")).content(), &whole), [""; 0]);
+    assert_eq!(differences(&directory.run_file("run.h5").content(), &whole), [""; 0]);
 }
 
 #[test]
@@ -112,18 +103,15 @@ fn fibres_of_a_round_pin_are_read_from_its_run_file() {
     let sets = [&ROUND[..], &["operation.steps=60"]].concat();
     run(&directory, "one.h5", &sets, &[]);
     // The fibres of one run as those of the next: what stands beyond the outline is not looked at.
-    let (file, dataset) =
-        (format!("pin.base.file={}", directory.path("one.h5").display()), "pin.base.dataset=/pin/base");
-    let second = run(&directory, "two.h5", &[&sets[..], &[&file, dataset]].concat(), &[]);
-    assert_eq!(second.bytes("pin/base"), RunFile::open(directory.path("one.h5")).bytes("pin/base"));
+    let file = format!("pin.base.file={}", directory.path("one.h5").display());
+    let second = run(&directory, "two.h5", &[&sets[..], &[&file, "pin.base.dataset=/pin/base"]].concat(), &[]);
+    assert_eq!(second.bytes("pin/base"), directory.run_file("one.h5").bytes("pin/base"));
 }
 
 #[test]
 fn check_tells_the_mesh_and_the_circle() {
     let directory = WorkingDirectory::new();
-    let base = scene("quick.toml");
-    let sets = ROUND.iter().flat_map(|set| ["--set", *set]);
-    let text = directory.plateau(["check", &base].into_iter().chain(sets)).stdout;
+    let text = directory.plateau([&["check", &scene("quick.toml")], &sets(&ROUND)[..]].concat()).stdout;
     assert!(text.contains("20 rows, 691 columns round the ring, 20 under the pin"), "{text}");
     assert!(text.contains("a circle of 4.000 mm in diameter: "), "{text}");
 }

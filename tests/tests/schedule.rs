@@ -18,7 +18,7 @@ fn step_at(numerator: u64, denominator: u64) -> u64 {
 fn quick_run(directory: &WorkingDirectory, edits: &[(&str, &str)]) -> RunFile {
     let scene = directory.write("scene.toml", quick_scene_with(edits));
     directory.plateau(["run".as_ref(), scene.as_os_str(), "-o".as_ref(), "run.h5".as_ref()]).quiet_success();
-    RunFile::open(directory.path("run.h5"))
+    directory.run_file("run.h5")
 }
 
 /// Asserts that times are those at the ends of the given steps.
@@ -88,7 +88,7 @@ fn the_map_at_0_is_the_initial_state_bit_for_bit() {
     let scene = vector("rough", "scene.toml");
     let sets = ["--set", "output.maps_at=[\"0 s\"]", "--set", "operation.steps=3"];
     directory.plateau(["run", &scene, "-o", "run.h5"].iter().chain(&sets)).quiet_success();
-    let (run, initial) = (RunFile::open(directory.path("run.h5")), RunFile::open(vector("rough", "init.h5")));
+    let (run, initial) = (directory.run_file("run.h5"), RunFile::open(vector("rough", "init.h5")));
     let bits = |heights: Vec<f64>| heights.into_iter().map(f64::to_bits).collect::<Vec<_>>();
     for body in ["disc", "pin"] {
         let expected = bits(initial.floats(&format!("/{body}/height")));

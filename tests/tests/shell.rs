@@ -52,8 +52,7 @@ fn bash_completes_commands_and_options() {
     if !is_there("bash") {
         return;
     }
-    let directory = WorkingDirectory::new();
-    directory.write("my-scene.toml", "");
+    let directory = WorkingDirectory::with("my-scene.toml", "");
     let load = "source <(plateau completions bash) && complete -p plateau >/dev/null || exit 1\n";
     let complete = |words: &str, current: &str, previous: &str| {
         let count = words.split_whitespace().count() - 1;
@@ -76,7 +75,7 @@ fn every_command_has_a_manual_page_with_its_options() {
     let directory = WorkingDirectory::new();
     std::fs::create_dir(directory.path("man1")).unwrap();
     directory.plateau(["man", "-o", "man1"]).quiet_success();
-    let page = |name: &str| std::fs::read_to_string(directory.path(&format!("man1/{name}.1"))).unwrap();
+    let page = |name: &str| directory.text(&format!("man1/{name}.1"));
     let plain = |text: &str| text.replace("\\-", "-");
     assert_eq!(page("plateau"), directory.plateau(["man"]).quiet_success());
     for command in commands() {

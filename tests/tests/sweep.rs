@@ -7,54 +7,23 @@ mod stopped;
 
 use std::collections::BTreeSet;
 use std::fs;
-use std::path::Path;
-use std::process::Stdio;
+use std::process::Command;
 
-use plateau_tests::program::{Outcome, WorkingDirectory, scene};
-use plateau_tests::run_file::RunFile;
+use plateau_tests::program::{Outcome, WorkingDirectory, ended, run, run_words, scene, start};
+use plateau_tests::studies::Study;
 use serde_json::Value;
 
 /// Load times fibre fraction, three sets of surfaces each: 27 runs of some milliseconds.
 fn study() -> String {
-    format!(
-        r#"version = 1
-title = "A small study"
-base = "{}"
-set = ["operation.duration = '3 s'", "output.sample_every = '0.5 s'"]
-design = "full-factorial"
-directory = "results"
-
-[replicates]
-keys = ["disc.surface.synthetic.seed", "pin.base.synthetic.seed"]
-seeds = [7, 8, 9]
-
-[[factor]]
-name = "load"
-key = "operation.normal_force"
-levels = ["5 N", "10 N", "20 N"]
-
-[[factor]]
-name = "fibre fraction"
-key = "pin.base.synthetic.fibre_fraction"
-levels = [0.2, 0.3, 0.4]
-
-[[response]]
-name = "contact area at the end"
-dataset = "/series/contact_area_mean"
-at = "end"
-
-[[response]]
-name = "mean filling"
-dataset = "/series/filled_fraction"
-mean = ["1 s", "3 s"]
-
-[[response]]
-name = "mean contact area"
-dataset = "/series/contact_area"
-mean = "last tenth"
-"#,
-        scene("quick.toml")
-    )
+    let keys = "title = \"A small study\"\nset = [\"operation.duration = '3 s'\", \"output.sample_every = '0.5 s'\"]";
+    Study::new(&scene("quick.toml"), "full-factorial", keys)
+        .table("[replicates]\nkeys = [\"disc.surface.synthetic.seed\", \"pin.base.synthetic.seed\"]\nseeds = [7, 8, 9]")
+        .load(r#"levels = ["5 N", "10 N", "20 N"]"#)
+        .factor("fibre fraction", "pin.base.synthetic.fibre_fraction", "levels = [0.2, 0.3, 0.4]")
+        .response("contact area at the end", "/series/contact_area_mean", r#"at = "end""#)
+        .response("mean filling", "/series/filled_fraction", r#"mean = ["1 s", "3 s"]"#)
+        .response("mean contact area", "/series/contact_area", r#"mean = "last tenth""#)
+        .text()
 }
 
 const RUNS: usize = 27;
@@ -69,47 +38,42 @@ const RUN_15: [&str; 6] = [
 ];
 
 fn directory() -> WorkingDirectory {
-    let directory = WorkingDirectory::new();
-    directory.write("study.toml", study());
-    directory
+    WorkingDirectory::with("study.toml", study())
 }
 
-fn json(outcome: &Outcome) -> Value {
-    serde_json::from_str(&outcome.stdout).unwrap_or_else(|error| panic!("{error}: {outcome:?}"))
+/// Counts of a plan or a summary.
+fn counts<const N: usize>(summary: &Value, keys: [&str; N]) -> [u64; N] {
+    keys.map(|key| summary[key].as_u64().unwrap_or_else(|| panic!("{key} of {summary}")))
 }
 
 /// The runs of `study` have few simulated revolutions: the mean over the last tenth is one over more, which is said once, and nothing
 /// else. Of runs with m = 1 there is nothing to say.
 fn says_what_the_mean_is_over(outcome: &Outcome, acceleration: f64) {
     assert_eq!(outcome.status, Some(0), "{outcome:?}");
+    let said = &outcome.stderr;
     if acceleration == 1.0 {
-        assert_eq!(outcome.stderr, "");
+        assert_eq!(said, "");
         return;
     }
-    assert!(outcome.stderr.contains("\"mean contact area\": a tenth of a run has fewer than 10"), "{}", outcome.stderr);
-    assert!(
-        outcome.stderr.contains("over all of the 3 s") || outcome.stderr.contains(" of 24 s;"),
-        "{}",
-        outcome.stderr
-    );
-    assert_eq!(outcome.stderr.lines().count(), 1, "{}", outcome.stderr);
+    assert!(said.contains("\"mean contact area\": a tenth of a run has fewer than 10"), "{said}");
+    assert!(said.contains("over all of the 3 s") || said.contains(" of 24 s;"), "{said}");
+    assert_eq!(said.lines().count(), 1, "{said}");
 }
 
 /// `plateau sweep run study.toml --json`, and what it says.
 fn sweep(directory: &WorkingDirectory, arguments: &[&str]) -> Value {
-    let outcome = directory.plateau(["sweep", "run", "study.toml", "--json"].iter().chain(arguments)).ends(0, &[]);
-    json(&outcome)
+    directory.plateau(["sweep", "run", "study.toml", "--json"].iter().chain(arguments)).ends(0, &[]).json()
 }
 
 /// Collects and gives the table without wall times, which it does not have, and the series.
 fn results(directory: &WorkingDirectory) -> (String, Vec<Vec<u64>>) {
-    let is_plain = fs::read_to_string(directory.path("study.toml")).unwrap().contains("time_acceleration = 1\"");
+    let is_plain = directory.text("study.toml").contains("time_acceleration = 1\"");
     let acceleration = if is_plain { 1.0 } else { 20.0 };
     says_what_the_mean_is_over(&directory.plateau(["sweep", "collect", "study.toml"]), acceleration);
-    let file = RunFile::open(directory.path("results/results.h5"));
+    let file = directory.run_file("results/results.h5");
     let bits = |name: &str| file.floats(name).iter().map(|value| value.to_bits()).collect();
     let series = ["/time", "/contact_area", "/pool", "/worn_pin", "/load", "/mean_filling"].map(bits);
-    (fs::read_to_string(directory.path("results/results.csv")).unwrap(), series.to_vec())
+    (directory.text("results/results.csv"), series.to_vec())
 }
 
 /// The identity of every record that is whole, of all shards, with those of runs that were made twice. Equal lines are
@@ -127,38 +91,33 @@ fn records(directory: &WorkingDirectory) -> Vec<String> {
 
 #[test]
 fn a_folder_that_cannot_be_written_is_named_before_a_run_is_made() {
-    let directory = WorkingDirectory::new();
     // No user may make anything there.
-    directory.write("study.toml", study().replace("\"results\"", "\"/proc/nowhere\""));
-    let outcome = directory.plateau(["sweep", "run", "study.toml", "-q"]).ends(2, &[]);
+    let directory = WorkingDirectory::with("study.toml", study().replace("\"results\"", "\"/proc/nowhere\""));
+    let advice = "name another folder with `directory` in study.toml";
+    let outcome = directory.plateau(["sweep", "run", "study.toml", "-q"]).ends(2, &[advice]);
     assert!(outcome.stderr.starts_with("plateau: cannot write to /proc/nowhere/journal: "), "{outcome:?}");
-    assert!(outcome.stderr.contains("name another folder with `directory` in study.toml"), "{outcome:?}");
 }
 
 #[test]
 fn a_study_is_planned_run_and_collected() {
     let directory = directory();
-    let planned = json(&directory.plateau(["sweep", "plan", "study.toml", "--json"]));
-    assert_eq!((planned["points"].as_u64(), planned["runs"].as_u64()), (Some(9), Some(RUNS as u64)));
+    let planned = directory.plateau(["sweep", "plan", "study.toml", "--json"]).json();
+    assert_eq!(counts(&planned, ["points", "runs"]), [9, 27]);
     assert!(planned["memory"].as_u64() > Some(100_000) && planned["estimated_time"].as_f64() > Some(0.0));
     assert_eq!(directory.names(), ["study.toml"], "a plan leaves nothing behind");
 
-    let ran = sweep(&directory, &["--jobs", "2"]);
-    assert_eq!((ran["finished"].as_u64(), ran["finished_before"].as_u64()), (Some(RUNS as u64), Some(0)));
-    let again = sweep(&directory, &[]);
-    assert_eq!((again["finished"].as_u64(), again["finished_before"].as_u64()), (Some(0), Some(RUNS as u64)));
+    let [ran, again] = [&["--jobs", "2"][..], &[]].map(|more| sweep(&directory, more));
+    assert_eq!([ran, again].map(|summary| counts(&summary, ["finished", "finished_before"])), [[27, 0], [0, 27]]);
 
-    let collected = json(&directory.plateau(["sweep", "collect", "study.toml", "--json"]));
-    assert_eq!((collected["finished"].as_u64(), collected["missing"].as_u64()), (Some(RUNS as u64), Some(0)));
-    let file = RunFile::open(directory.path("results/results.h5"));
+    let collected = directory.plateau(["sweep", "collect", "study.toml", "--json"]).json();
+    assert_eq!(counts(&collected, ["finished", "missing"]), [27, 0]);
+    let file = directory.run_file("results/results.h5");
     assert_eq!(file.shape("/contact_area"), [RUNS, 6]);
     assert_eq!(file.floats("/load")[..4], [5.0, 5.0, 5.0, 10.0]);
 
     // The same by hand.
-    let mut arguments = vec!["run".to_owned(), scene("quick.toml"), "-o".into(), "alone.h5".into()];
-    arguments.extend(RUN_15.iter().flat_map(|set| ["--set".to_owned(), (*set).to_owned()]));
-    directory.plateau(arguments).quiet_success();
-    let alone = RunFile::open(directory.path("alone.h5"));
+    directory.plateau(run_words("quick.toml", "alone.h5", &RUN_15, &[])).quiet_success();
+    let alone = directory.run_file("alone.h5");
     for series in ["contact_area", "pool", "worn_resin", "displacement", "filled_fraction"] {
         let of_all = file.floats(&format!("/{series}"));
         assert_eq!(of_all[14 * 6..15 * 6], alone.floats(&format!("/series/{series}")), "{series}");
@@ -166,7 +125,7 @@ fn a_study_is_planned_run_and_collected() {
     let area = alone.floats("/series/contact_area_mean");
     assert_eq!(file.floats("/contact_area_at_the_end")[14], area[5]);
     // The table has units in its head and numbers below, to the bit.
-    let table = fs::read_to_string(directory.path("results/results.csv")).unwrap();
+    let table = directory.text("results/results.csv");
     let mut lines = table.lines();
     let head = "run,point,replicate,state,load [N],fibre fraction,contact area at the end [m2],mean filling,";
     assert!(lines.next().is_some_and(|line| line.starts_with(head) && line.ends_with(",error")), "{table}");
@@ -195,10 +154,9 @@ fn a_mean_of_the_last_tenth_is_that_of_the_summary() {
     directory.write("study.toml", one);
     sweep(&directory, &["--jobs", "2"]);
     says_what_the_mean_is_over(&directory.plateau(["sweep", "collect", "study.toml"]), 20.0);
-    let file = RunFile::open(directory.path("results/results.h5"));
+    let file = directory.run_file("results/results.h5");
     // Run 4: 10 N, 0.4.
-    let scene = scene("quick.toml");
-    let sets = [
+    let settings = [
         "materials.pin_resin.wear_height=0.1 um",
         "operation.duration=24 s",
         "output.sample_every=0.5 s",
@@ -207,8 +165,7 @@ fn a_mean_of_the_last_tenth_is_that_of_the_summary() {
         "disc.surface.synthetic.seed=7",
         "pin.base.synthetic.seed=7",
     ];
-    let sets = sets.iter().flat_map(|set| ["--set", set]);
-    let summary = json(&directory.plateau(["run", &scene, "-o", "alone.h5", "--json"].into_iter().chain(sets)));
+    let summary = directory.plateau(run_words("quick.toml", "alone.h5", &settings, &["--json"])).json();
     let window = &summary["contact_area_last_tenth"];
     // The run adds up step by step, the study takes the difference of integrals that are ten times as large; each step rounds once.
     let tolerance = 10.0 * summary["steps"].as_f64().unwrap() * f64::EPSILON;
@@ -229,8 +186,8 @@ fn points_that_are_there_twice_are_one_run() {
         .replace("[7, 8, 9]", "[7, 8]");
     directory.write("study.toml", composite);
     // Four corners, four axial points, the centre six times: nine different ones, with two seeds each.
-    let planned = json(&directory.plateau(["sweep", "plan", "study.toml", "--json"]));
-    assert_eq!((planned["runs"].as_u64(), planned["repeats"].as_u64()), (Some(28), Some(10)));
+    let planned = directory.plateau(["sweep", "plan", "study.toml", "--json"]).json();
+    assert_eq!(counts(&planned, ["runs", "repeats"]), [28, 10]);
     let said = "10 of 28 runs repeat another one and count once with it";
     let text = directory.plateau(["sweep", "plan", "study.toml"]).stdout;
     assert!(text.contains("different runs  18") && text.contains(said) && text.contains("[replicates]"), "{text}");
@@ -239,9 +196,8 @@ fn points_that_are_there_twice_are_one_run() {
     let made = ["1/2", "2/2"].map(|task| sweep(&directory, &["--task", task])["finished"].as_u64().unwrap());
     assert_eq!((made.iter().sum::<u64>(), records(&directory).len()), (18, 18));
     let again = sweep(&directory, &[]);
-    let counts = ["runs", "repeats", "finished_before", "left"].map(|key| again[key].as_u64());
-    assert_eq!(counts, [28, 10, 18, 0].map(Some));
-    let planned = json(&directory.plateau(["sweep", "plan", "study.toml", "--json"]));
+    assert_eq!(counts(&again, ["runs", "repeats", "finished_before", "left"]), [28, 10, 18, 0]);
+    let planned = directory.plateau(["sweep", "plan", "study.toml", "--json"]).json();
     assert_eq!((planned["ended"]["finished"].as_u64(), planned["estimated_time"].as_f64()), (Some(18), Some(0.0)));
 
     // All 28 are in the table.
@@ -254,13 +210,10 @@ fn tasks_share_a_study_and_nothing_of_it_shows() {
     let (whole, shared) = (directory(), directory());
     sweep(&whole, &["--jobs", "1"]);
     let commands = ["1/4", "3/4", "4/4", "2/4", "2/4"].map(|task| {
-        let mut command =
-            shared.command(["sweep", "run", "study.toml", "--workers", "2", "--jobs", "1", "--task", task]);
-        command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap()
+        start(shared.command(["sweep", "run", "study.toml", "--workers", "2", "--jobs", "1", "--task", task]))
     });
     for child in commands {
-        let output = child.wait_with_output().unwrap();
-        assert!(output.status.success(), "{output:?}");
+        ended(child).ends(0, &[]);
     }
     assert_eq!(results(&shared), results(&whole));
     assert_eq!(records(&shared).into_iter().collect::<BTreeSet<_>>().len(), RUNS);
@@ -271,35 +224,17 @@ fn tasks_share_a_study_and_nothing_of_it_shows() {
 fn a_run_that_fails_does_not_stop_the_others() {
     let directory = directory();
     // At 20 N the explicit rule is far above its bound of stability, and heights overflow.
-    let failing =
-        study().replace("levels = [\"5 N\", \"10 N\", \"20 N\"]", "levels = [\"5 N\", \"10 N\", \"1e300 N\"]");
-    directory.write("study.toml", failing);
-    let outcome = directory.plateau(["sweep", "run", "study.toml", "--json"]).ends(1, &[]);
-    let ran = json(&outcome);
-    assert_eq!((ran["finished"].as_u64(), ran["failed"].as_u64(), ran["left"].as_u64()), (Some(18), Some(9), Some(0)));
-    assert!(outcome.stderr.contains("failed:"), "{}", outcome.stderr);
-    let again = json(&directory.plateau(["sweep", "run", "study.toml", "--json"]));
-    assert_eq!((again["finished"].as_u64(), again["failed"].as_u64()), (Some(0), Some(0)));
-    let retried = json(&directory.plateau([
-        "sweep",
-        "run",
-        "study.toml",
-        "--json",
-        "--retry",
-        "--max-failures",
-        "1",
-        "--jobs",
-        "1",
-    ]));
-    assert_eq!((retried["failed"].as_u64(), retried["left"].as_u64()), (Some(1), Some(8)));
-    let collected = directory.plateau(["sweep", "collect", "study.toml"]);
-    assert!(
-        collected.stdout.contains("failed    9")
-            && collected.stdout.contains("Failed\n  run 7: step 1: nothing carries"),
-        "{}",
-        collected.stdout
-    );
-    let areas = RunFile::open(directory.path("results/results.h5")).floats("/contact_area_at_the_end");
+    directory.write("study.toml", study().replace("\"20 N\"", "\"1e300 N\""));
+    let words = ["sweep", "run", "study.toml", "--json"];
+    let ran = directory.plateau(words).ends(1, &["failed:"]).json();
+    assert_eq!(counts(&ran, ["finished", "failed", "left"]), [18, 9, 0]);
+    assert_eq!(counts(&directory.plateau(words).json(), ["finished", "failed"]), [0, 0]);
+    let retried = directory.plateau(words.iter().chain(&["--retry", "--max-failures", "1", "--jobs", "1"])).json();
+    assert_eq!(counts(&retried, ["failed", "left"]), [1, 8]);
+    let collected = directory.plateau(["sweep", "collect", "study.toml"]).stdout;
+    let failed = "Failed\n  run 7: step 1: nothing carries";
+    assert!(collected.contains("failed    9") && collected.contains(failed), "{collected}");
+    let areas = directory.run_file("results/results.h5").floats("/contact_area_at_the_end");
     assert_eq!(areas.iter().filter(|area| area.is_nan()).count(), 9);
 }
 
@@ -312,8 +247,7 @@ fn results_belong_to_scene_files_and_program_not_to_workers_or_names() {
     assert_eq!(sweep(&directory, &["--workers", "2"])["finished_before"].as_u64(), Some(RUNS as u64));
     // A level more: nine runs more.
     directory.write("study.toml", study().replace("\"20 N\"]", "\"20 N\", \"30 N\"]"));
-    let more = sweep(&directory, &[]);
-    assert_eq!((more["finished_before"].as_u64(), more["finished"].as_u64()), (Some(RUNS as u64), Some(9)));
+    assert_eq!(counts(&sweep(&directory, &[]), ["finished_before", "finished"]), [27, 9]);
     // Another duration: all of them.
     directory.write("study.toml", study().replace("'3 s'", "'3.5 s'"));
     assert_eq!(sweep(&directory, &[])["finished_before"].as_u64(), Some(0));
@@ -351,8 +285,7 @@ fn what_is_wrong_with_a_study_is_said_before_anything_runs() {
         directory.write("study.toml", study().replace(old, new));
         let outcome = directory.plateau(["sweep", "run", "study.toml"]);
         assert_eq!(outcome.status, Some(2), "{new}: {outcome:?}");
-        let base = Path::new(&scene("quick.toml")).display().to_string();
-        said.push_str(&format!("# {new}\n{}\n", outcome.stderr.replace(&base, "quick.toml")));
+        said.push_str(&format!("# {new}\n{}\n", outcome.stderr.replace(&scene("quick.toml"), "quick.toml")));
     }
     insta::assert_snapshot!(said);
     assert_eq!(directory.names(), ["study.toml"]);
@@ -362,7 +295,7 @@ fn what_is_wrong_with_a_study_is_said_before_anything_runs() {
 fn a_batch_script_asks_for_what_the_estimate_says() {
     let directory = directory();
     directory.plateau(["sweep", "slurm", "study.toml", "--tasks", "4"]).quiet_success();
-    let script = fs::read_to_string(directory.path("study.sbatch")).unwrap();
+    let script = directory.text("study.sbatch");
     for line in [
         "#!/bin/sh\n",
         "#SBATCH --array=1-4\n",
@@ -373,13 +306,9 @@ fn a_batch_script_asks_for_what_the_estimate_says() {
     }
     directory.plateau(["sweep", "slurm", "study.toml"]).ends(2, &[]);
     // Without Slurm, a task is what the shell makes of it.
-    let shell = std::process::Command::new("sh")
-        .arg(directory.path("study.sbatch"))
-        .env("SLURM_ARRAY_TASK_ID", "2")
-        .current_dir(directory.path("."))
-        .output()
-        .unwrap();
-    assert!(shell.status.success(), "{shell:?}");
+    let mut shell = Command::new("sh");
+    shell.arg("study.sbatch").env("SLURM_ARRAY_TASK_ID", "2").current_dir(directory.path("."));
+    run(shell).ends(0, &[]);
     assert_eq!(records(&directory).len(), 7);
 }
 

@@ -161,7 +161,7 @@ fn refused_by(name: &str, sets: &[&str], options: &[&str]) -> Vec<Deviation> {
     arguments.extend(options);
     // Three workers may be more than there are cores, which is said.
     directory.plateau(arguments).ends(0, &[]);
-    let (run, expected) = (RunFile::open(directory.path("run.h5")), RunFile::open(path_of(name, "expected.h5")));
+    let (run, expected) = (directory.run_file("run.h5"), RunFile::open(path_of(name, "expected.h5")));
     assert_eq!(run.text("state"), "finished");
     let mut deviations = map_deviations(&run, &expected);
     deviations.extend(series_deviations(&run, &expected));
@@ -189,15 +189,14 @@ fn a_vector_made_here_is_the_same() {
         let scene = scene::load(path_of(name, "scene.toml").as_ref(), &[]).expect("the vector's scene");
         vector::write(&scene, directory.path("").as_ref()).expect("a vector");
         for file in ["init.h5", "expected.h5"] {
-            let (made, there) = (RunFile::open(directory.path(file)), RunFile::open(path_of(name, file)));
+            let (made, there) = (directory.run_file(file), RunFile::open(path_of(name, file)));
             let (made, there) = (made.content(), there.content());
             assert_eq!(made.keys().collect::<Vec<_>>(), there.keys().collect::<Vec<_>>(), "{name}/{file}");
             if file == "init.h5" {
                 assert_eq!(made, there, "{name}/{file}");
             }
         }
-        let (made, expected) =
-            (RunFile::open(directory.path("expected.h5")), RunFile::open(path_of(name, "expected.h5")));
+        let (made, expected) = (directory.run_file("expected.h5"), RunFile::open(path_of(name, "expected.h5")));
         let mut deviations = Vec::new();
         for (path, content) in expected.content() {
             let accepted = if path.ends_with("/height") { HEIGHT } else { RELATIVE };

@@ -2,19 +2,17 @@
 
 use std::fs;
 use std::path::Path;
-use std::process::{Child, Command, Stdio};
+use std::process::{Child, Command};
 
-use hdf5::types::VarLenUnicode;
-use plateau_tests::program::{WorkingDirectory, kill, quick_scene_with, wait_until};
-use plateau_tests::run_file::{RunFile, changed};
+use plateau_tests::program::{WorkingDirectory, kill, quick_scene_with, send, start, wait_until};
+use plateau_tests::run_file::{RunFile, set_text};
 
 /// A run that does not end by itself while a test goes on; it has samples when this returns.
 fn endless_run(directory: &WorkingDirectory, file: &str) -> Child {
     let edits =
         [("duration = \"60 s\"", "steps = 1000000000"), ("sample_every = \"0.1 s\"", "sample_every_steps = 100")];
     directory.write("scene.toml", quick_scene_with(&edits));
-    let mut command = directory.command(["run", "scene.toml", "-o", file]);
-    let child = command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
+    let child = start(directory.command(["run", "scene.toml", "-o", file]));
     let path = directory.path(file);
     let sampled = wait_until(|| RunFile::follow(&path).is_ok_and(|run| run.shape("/time")[0] >= 2));
     assert!(sampled, "no samples were written");
@@ -28,14 +26,6 @@ fn watcher(directory: &WorkingDirectory, arguments: &[&str]) -> Child {
     command.env_remove("LC_ALL").env("LANG", "C").stdout(lines).stderr(messages).spawn().unwrap()
 }
 
-fn text(directory: &WorkingDirectory, name: &str) -> String {
-    String::from_utf8(fs::read(directory.path(name)).unwrap()).unwrap()
-}
-
-fn signal(name: &str, child: &Child) {
-    assert!(Command::new("kill").args(["-s", name, &child.id().to_string()]).status().unwrap().success());
-}
-
 /// How many samples a line speaks of.
 fn samples(line: &str) -> u64 {
     let part = line.split(", ").find_map(|part| part.strip_suffix(" samples"));
@@ -44,10 +34,9 @@ fn samples(line: &str) -> u64 {
 
 #[test]
 fn a_finished_run_is_told_with_its_last_sample() {
-    let directory = WorkingDirectory::new();
-    directory.write("scene.toml", quick_scene_with(&[("duration = \"60 s\"", "duration = \"5 s\"")]));
+    let directory = WorkingDirectory::with_scene(&[("duration = \"60 s\"", "duration = \"5 s\"")]);
     directory.plateau(["run", "scene.toml", "-o", "run.h5"]).quiet_success();
-    let run = RunFile::open(directory.path("run.h5"));
+    let run = directory.run_file("run.h5");
     let last = |name: &str| *run.floats(name).last().unwrap();
     for arguments in [&["watch", "run.h5"][..], &["watch", "run.h5", "--once"]] {
         let output = directory.plateau(arguments).quiet_success();
@@ -61,20 +50,17 @@ fn a_finished_run_is_told_with_its_last_sample() {
 
 /// Makes a finished run one that failed, as the program writes it.
 fn fail(path: &Path, reason: &str) {
-    let file = changed(path);
-    let text = |text: &str| text.parse::<VarLenUnicode>().unwrap();
-    file.attr("state").unwrap().write_scalar(&text("failed")).unwrap();
-    file.new_attr::<VarLenUnicode>().create("error").unwrap().write_scalar(&text(reason)).unwrap();
+    set_text(path, "state", "failed");
+    set_text(path, "error", reason);
 }
 
 #[test]
 fn a_failed_run_is_told_with_its_reason() {
-    let directory = WorkingDirectory::new();
-    directory.write("scene.toml", quick_scene_with(&[("duration = \"60 s\"", "duration = \"1 s\"")]));
+    let directory = WorkingDirectory::with_scene(&[("duration = \"60 s\"", "duration = \"1 s\"")]);
     directory.plateau(["run", "scene.toml", "-o", "run.h5"]).quiet_success();
     fail(&directory.path("run.h5"), "out of luck");
-    let outcome = directory.plateau(["watch", "run.h5"]);
-    assert_eq!((outcome.status, outcome.stderr.as_str()), (Some(1), "plateau: the run failed: out of luck\n"));
+    let outcome = directory.plateau(["watch", "run.h5"]).ends(1, &[]);
+    assert_eq!(outcome.stderr, "plateau: the run failed: out of luck\n");
     assert!(outcome.stdout.starts_with("failed: 1.000 of 1.000 s (100 %), "), "{}", outcome.stdout);
     assert!(directory.plateau(["watch", "run.h5", "--once"]).quiet_success().starts_with("failed: "));
 }
@@ -82,21 +68,20 @@ fn a_failed_run_is_told_with_its_reason() {
 #[test]
 fn a_run_is_followed_until_it_is_stopped() {
     let directory = WorkingDirectory::new();
-    let run = endless_run(&directory, "run.h5");
+    let mut run = endless_run(&directory, "run.h5");
     let mut watching = watcher(&directory, &[]);
-    assert!(wait_until(|| text(&directory, "lines").lines().count() >= 3), "{}", text(&directory, "messages"));
-    signal("INT", &run);
+    assert!(wait_until(|| directory.text("lines").lines().count() >= 3), "{}", directory.text("messages"));
+    send("INT", run.id());
     assert!(wait_until(|| watching.try_wait().unwrap().is_some()), "the watcher did not end with the run");
     assert_eq!(watching.wait().unwrap().code(), Some(1));
-    let (lines, messages) = (text(&directory, "lines"), text(&directory, "messages"));
+    let (lines, messages) = (directory.text("lines"), directory.text("messages"));
     assert!(messages.starts_with("plateau: the run was stopped at "), "{messages}");
     // Plain lines, one for each look that found something new.
     assert!(lines.bytes().all(|byte| byte == b'\n' || (b' '..=b'~').contains(&byte)), "{lines:?}");
     let (last, before) = lines.lines().collect::<Vec<_>>().split_last().map(|(l, b)| (*l, b.to_vec())).unwrap();
     assert!(before.iter().all(|line| line.starts_with("running: ")) && last.starts_with("interrupted: "), "{lines}");
     assert!(before.windows(2).all(|pair| samples(pair[0]) < samples(pair[1])), "{lines}");
-    assert_eq!(samples(last), RunFile::open(directory.path("run.h5")).shape("/time")[0] as u64);
-    let mut run = run;
+    assert_eq!(samples(last), directory.run_file("run.h5").shape("/time")[0] as u64);
     run.wait().unwrap();
 }
 
@@ -115,11 +100,11 @@ fn a_killed_run_is_given_up_after_the_timeout() {
     for (name, status) in [("INT", 130), ("TERM", 143)] {
         let mut watching = watcher(&directory, &[]);
         let message = "plateau: warning: no new sample for 2.0 h; the run may have been killed\n";
-        assert!(wait_until(|| text(&directory, "lines").lines().count() == 1), "{}", text(&directory, "messages"));
-        signal(name, &watching);
+        assert!(wait_until(|| directory.text("lines").lines().count() == 1), "{}", directory.text("messages"));
+        send(name, watching.id());
         assert!(wait_until(|| watching.try_wait().unwrap().is_some()), "the watcher did not end");
         assert_eq!(watching.wait().unwrap().code(), Some(status));
-        assert_eq!(text(&directory, "messages"), message);
+        assert_eq!(directory.text("messages"), message);
     }
 }
 
@@ -127,17 +112,17 @@ fn a_killed_run_is_given_up_after_the_timeout() {
 fn a_file_that_is_not_there_yet_is_waited_for() {
     let directory = WorkingDirectory::new();
     let mut watching = watcher(&directory, &["--timeout", "50"]);
-    assert!(wait_until(|| text(&directory, "messages") == "plateau: waiting for run.h5\n"));
+    assert!(wait_until(|| directory.text("messages") == "plateau: waiting for run.h5\n"));
     directory.write("scene.toml", quick_scene_with(&[("duration = \"60 s\"", "duration = \"1 s\"")]));
     directory.plateau(["run", "scene.toml", "-o", "run.h5"]).quiet_success();
     assert!(wait_until(|| watching.try_wait().unwrap().is_some()), "the watcher did not end with the run");
-    assert_eq!(watching.wait().unwrap().code(), Some(0), "{}", text(&directory, "messages"));
-    assert!(text(&directory, "lines").lines().last().unwrap().starts_with("finished: 1.000 of 1.000 s"));
+    assert_eq!(watching.wait().unwrap().code(), Some(0), "{}", directory.text("messages"));
+    assert!(directory.text("lines").lines().last().unwrap().starts_with("finished: 1.000 of 1.000 s"));
 
     directory
         .plateau(["watch", "never.h5", "--timeout", "1"])
         .ends(2, &["cannot read never.h5: ", "none came within 1.0 s"]);
-    assert_eq!(directory.plateau(["watch", "never.h5", "--once"]).status, Some(2));
+    directory.plateau(["watch", "never.h5", "--once"]).ends(2, &[]);
 }
 
 #[test]
@@ -145,12 +130,9 @@ fn what_is_no_run_file_is_refused() {
     let directory = WorkingDirectory::new();
     let file = directory.write("notes.txt", "precious");
     for command in [&["watch", "notes.txt"][..], &["summary", "notes.txt"]] {
-        let outcome = directory.plateau(command);
-        assert_eq!((outcome.status, outcome.stdout.as_str()), (Some(2), ""));
-        assert_eq!(
-            outcome.stderr,
-            "plateau: notes.txt is not an HDF5 file, expected a run file of plateau, which `plateau run` writes\n"
-        );
+        let outcome = directory.plateau(command).ends(2, &[]);
+        let said = "notes.txt is not an HDF5 file, expected a run file of plateau, which `plateau run` writes";
+        assert_eq!((outcome.stdout.as_str(), outcome.stderr), ("", format!("plateau: {said}\n")));
     }
     assert_eq!(fs::read(file).unwrap(), b"precious");
     assert_eq!(directory.names(), ["notes.txt"]);

@@ -3,11 +3,12 @@
 use std::collections::BTreeMap;
 use std::fs;
 use std::num::NonZeroUsize;
-use std::process::Stdio;
 use std::thread::available_parallelism;
 
 use plateau_core::engine::kernel::InstructionSet;
-use plateau_tests::program::{Outcome, WorkingDirectory, kill, quick_scene_with, scene, wait_until};
+use plateau_tests::program::{
+    Outcome, WorkingDirectory, kill, quick_scene_with, run_words, scene, sets, start, wait_until,
+};
 use plateau_tests::run_file::{Content, RunFile, differences};
 use serde_json::Value;
 
@@ -32,11 +33,9 @@ fn cores() -> usize {
 /// What `plateau run quick.toml` with these arguments leaves, in a few seconds of the brake.
 fn run(arguments: &[&str]) -> (Outcome, RunFile, WorkingDirectory) {
     let directory = WorkingDirectory::new();
-    let scene = scene("quick.toml");
-    let common = ["run", &scene, "-o", "run.h5", "--set", "operation.steps=1500"];
-    let outcome = directory.plateau(common.iter().chain(arguments));
-    assert_eq!(outcome.status, Some(0), "{arguments:?}: {}", outcome.stderr);
-    let file = RunFile::open(directory.path("run.h5"));
+    let words = run_words("quick.toml", "run.h5", &["operation.steps=1500"], arguments);
+    let outcome = directory.plateau(words).ends(0, &[]);
+    let file = directory.run_file("run.h5");
     (outcome, file, directory)
 }
 
@@ -90,8 +89,7 @@ fn neither_workers_nor_instruction_sets_show_in_a_run_file() {
     let local = ["numerics.time_acceleration=400", "output.maps_at=[\"0 s\", \"20 s\", \"40 s\"]"];
     let brittle = [&local[..], &["materials.pin_secondary.strength=2 MPa"]].concat();
     for (scene, moved) in [(&local[..], "emitted"), (&brittle, "returned")] {
-        let scene: Vec<&str> = scene.iter().flat_map(|set| ["--set", set]).collect();
-        let (reference, _directory) = assert_alike(&scene);
+        let (reference, _directory) = assert_alike(&sets(scene));
         assert_eq!(reference.shape("/map_time"), [4]);
         for series in ["worn_resin", moved, "deposited_pin", "deposited_disc"] {
             assert!(reference.floats(&format!("/series/{series}")).last() > Some(&0.0), "no {series} to compare");
@@ -103,8 +101,7 @@ fn neither_workers_nor_instruction_sets_show_in_a_run_file() {
 fn nor_in_maps_that_are_cut_into_chunks() {
     // 20 · 6900 heights of 8 bytes are more than the 512 KiB of a chunk.
     let scene = ["mesh.disc_columns=6900", "mesh.pin_columns=400", "operation.steps=60"];
-    let scene: Vec<&str> = scene.iter().flat_map(|set| ["--set", set]).collect();
-    let (reference, _directory) = assert_alike(&scene);
+    let (reference, _directory) = assert_alike(&sets(&scene));
     let (chunk, shape) = (reference.chunk("/disc/height").expect("chunks"), reference.shape("/disc/height"));
     assert!(chunk[1] < shape[1], "chunks of {chunk:?} in {shape:?}");
 }
@@ -132,11 +129,11 @@ fn a_ring_of_few_columns_takes_no_more_workers_than_it_has_work_for() {
 
 #[test]
 fn auto_says_what_it_chose() {
-    let directory = WorkingDirectory::new();
-    directory.write("auto.toml", quick_scene_with(&[("[numerics]", "[numerics]\nworkers = \"auto\"")]));
+    let directory =
+        WorkingDirectory::with("auto.toml", quick_scene_with(&[("[numerics]", "[numerics]\nworkers = \"auto\"")]));
     let from_scene =
         directory.plateau(["run", "auto.toml", "-o", "run.h5", "--set", "operation.steps=1500"]).ends(0, &[]);
-    let from_scene = (from_scene, RunFile::open(directory.path("run.h5")));
+    let from_scene = (from_scene, directory.run_file("run.h5"));
     let (outcome, file, _directory) = run(&["--workers", "auto"]);
     for (outcome, file) in [from_scene, (outcome, file)] {
         let chosen = outcome.stderr.strip_prefix("plateau: workers = \"auto\" runs on ");
@@ -153,11 +150,10 @@ fn auto_says_what_it_chose() {
 fn an_unknown_instruction_set_is_refused_with_those_that_are_there() {
     let directory = WorkingDirectory::new();
     for command in ["run", "check"] {
-        let outcome = directory.plateau([command, &scene("quick.toml"), "--isa", "nonsense"]);
-        assert_eq!((outcome.status, outcome.stdout.as_str()), (Some(2), ""));
         let sets: Vec<&str> = InstructionSet::available().map(InstructionSet::name).collect();
         let expected = format!("'nonsense' for '--isa <NAME>': this processor has {}\n", sets.join(", "));
-        assert!(outcome.stderr.contains(&expected), "{}", outcome.stderr);
+        let outcome = directory.plateau([command, &scene("quick.toml"), "--isa", "nonsense"]).ends(2, &[&expected]);
+        assert_eq!(outcome.stdout, "");
     }
     assert_eq!(directory.names(), [""; 0]);
 }
@@ -167,8 +163,7 @@ fn a_check_tells_of_workers_and_instruction_set() {
     let check = |arguments: &[&str]| -> Value {
         let directory = WorkingDirectory::new();
         let quick = scene("quick.toml");
-        let outcome = directory.plateau(["check", &quick, "--json"].iter().chain(arguments)).ends(0, &[]);
-        serde_json::from_str(&outcome.stdout).expect("JSON")
+        directory.plateau(["check", &quick, "--json"].iter().chain(arguments)).ends(0, &[]).json()
     };
     let reason = |check: &Value, list: &str| -> Option<String> {
         let parts = check[list].as_array().expect("a list of parts");
@@ -193,8 +188,7 @@ fn pinned_workers_stay_on_a_core_each() {
     let directory = WorkingDirectory::new();
     let quick = scene("quick.toml");
     let arguments = ["run", &quick, "--pin", "--workers", "2", "--set", "operation.steps=1000000000"];
-    let mut command = directory.command(arguments);
-    let child = command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().expect("the program");
+    let child = start(directory.command(arguments));
     // The cores that the system lets a thread run on, as proc(5) has it.
     let cores_of = |worker: &str| {
         let threads = fs::read_dir(format!("/proc/{}/task", child.id())).ok()?;

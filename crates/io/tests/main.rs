@@ -17,6 +17,8 @@ mod run_file_processes;
 mod scene_layers;
 mod sdf;
 mod sdf_dialects;
+#[expect(dead_code, reason = "other tests need more of it")]
+mod studies;
 mod surfaces;
 mod tables;
 mod text;

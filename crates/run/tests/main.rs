@@ -1,6 +1,9 @@
 //! A run as another program has it: observed, stopped, gone on with, refused.
 
 mod generations;
+#[path = "../../io/tests/studies.rs"]
+#[expect(dead_code, reason = "other tests need more of it")]
+mod studies;
 mod sweep;
 
 use std::cell::RefCell;

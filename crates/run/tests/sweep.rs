@@ -7,6 +7,8 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use plateau_run::sweep::{self, Sweep, SweepObserver, SweepOptions, SweepSummary};
 use plateau_run::{Failure, Job, Observer};
 
+use crate::studies::Study;
+
 /// Counts runs that ended, and stops all after so many.
 struct Counter {
     ended: AtomicUsize,
@@ -34,14 +36,12 @@ impl Observer for Counter {
 /// A study of the quick scene with these levels of the load, in a folder.
 fn study(folder: &Path, levels: &str) -> PathBuf {
     let base = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../data/scenes/quick.toml");
-    let text = format!(
-        "version = 1\nbase = \"{}\"\nset = [\"operation.duration=2 s\"]\ndesign = \"full-factorial\"\n\n\
-         [[factor]]\nname = \"load\"\nkey = \"operation.normal_force\"\nlevels = [{levels}]\n\n\
-         [[response]]\nname = \"area\"\ndataset = \"/series/contact_area\"\nat = \"end\"\n",
-        base.display()
-    );
+    let set = "set = [\"operation.duration=2 s\"]";
+    let study = Study::new(&base.display().to_string(), "full-factorial", set)
+        .load(&format!("levels = [{levels}]"))
+        .response("area", "/series/contact_area", "at = \"end\"");
     let path = folder.join("loads.toml");
-    fs::write(&path, text).unwrap();
+    fs::write(&path, study).unwrap();
     path
 }
 
@@ -73,5 +73,5 @@ fn a_scene_that_cannot_be_built_is_a_wrong_input_and_nothing_is_made() {
     let path = study(folder.path(), "\"20 N\", \"30 s\"");
     let said = make(&path, &()).unwrap_err();
     assert_eq!(said.status, Failure::INPUT, "{said}");
-    assert!(!folder.path().join("loads").exists());
+    assert!(!folder.path().join("results").exists());
 }

@@ -1,13 +1,11 @@
 //! How it ends when its input is wrong, a run fails, or it is stopped.
 
 use std::fs;
-use std::process::{Command, Stdio};
 use std::thread::sleep;
 use std::time::Duration;
 
-use hdf5::types::VarLenUnicode;
-use plateau_tests::program::wait_until;
-use plateau_tests::run_file::changed;
+use plateau_tests::program::{ended, send, sets, start, wait_until};
+use plateau_tests::run_file::set_text;
 use plateau_tests::table::Row;
 
 use super::{measured, refusal, run, with_scene};
@@ -20,10 +18,7 @@ fn bad_input_is_refused() {
     drop(run(&directory, "other.h5", &[fine.to_vec(), vec!["operation.normal_force=6 N".to_owned()]].concat()));
     drop(run(&directory, "short.h5", &[fine.to_vec(), vec!["operation.duration=10 s".to_owned()]].concat()));
     fs::copy(directory.path("good.h5"), directory.path("stopped.h5")).unwrap();
-    let file = changed(directory.path("stopped.h5"));
-    let state: VarLenUnicode = "interrupted".parse().unwrap();
-    file.attr("state").unwrap().write_scalar(&state).unwrap();
-    file.close().unwrap();
+    set_text(directory.path("stopped.h5"), "state", "interrupted");
     let model = ["--set", "numerics.time_acceleration=1"];
     let chosen = ["--set", "numerics.time_acceleration={ tolerance = 0.01, max = 20 }"];
     directory.write("taken/accuracy.svg", "mine");
@@ -74,22 +69,14 @@ fn steady(message: &str) -> String {
 fn a_signal_ends_it_in_good_order() {
     let directory = with_scene(&[]);
     let long = ["accuracy", "scene.toml", "--set", "operation.duration=1000 h", "--budget", "10000 h"];
-    let mut command = directory.command(long);
-    let child = command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap();
+    let child = start(directory.command(long));
     // The folder is made just before signals are heard; the reference takes hours.
     let started = wait_until(|| directory.path("accuracy").is_dir());
     sleep(Duration::from_secs(1));
-    let sent = Command::new("kill").args(["-s", "INT", &child.id().to_string()]).status().unwrap();
-    let outcome = child.wait_with_output().unwrap();
-    let message = String::from_utf8_lossy(&outcome.stderr);
-    assert!(started && sent.success());
-    assert_eq!(outcome.status.code(), Some(130), "{message}");
-    assert!(
-        message.contains(
-            "stopped by signal 2 (Ctrl-C) during the reference run with time_acceleration = 1; nothing is written"
-        ),
-        "{message}"
-    );
+    send("INT", child.id());
+    let said = "stopped by signal 2 (Ctrl-C) during the reference run with time_acceleration = 1; nothing is written";
+    ended(child).ends(130, &[said]);
+    assert!(started);
     assert_eq!(directory.names(), ["scene.toml"]);
 }
 
@@ -97,14 +84,12 @@ fn a_signal_ends_it_in_good_order() {
 fn a_run_that_fails_is_in_the_table_and_the_others_go_on() {
     let directory = with_scene(&[]);
     // With a large time acceleration the explicit rule wears beyond what numbers can hold.
-    let sets = [
+    let settings = [
         "materials.pin_primary.specific_wear_rate=1e7 1/Pa",
         "plateaus.debris=contact",
         "plateaus.captured_fraction=0.06",
     ];
-    let mut arguments: Vec<&str> = sets.iter().flat_map(|set| ["--set", set]).collect();
-    arguments.extend(["--ladder", "time_acceleration"]);
-    let (text, rows) = measured(&directory, &arguments);
+    let (text, rows) = measured(&directory, &[&sets(&settings)[..], &["--ladder", "time_acceleration"]].concat());
     let failed: Vec<&Row> = rows.iter().filter(|row| row["state"] == "failed").collect();
     assert_eq!(failed.len(), 1, "{text}");
     assert_eq!((failed[0]["value"].as_str(), failed[0]["contact_area_error"].as_str()), ("20.0", ""));

@@ -1,6 +1,6 @@
 //! Runs with other cells: each is what `plateau run` makes of every so-many-th column of the surfaces on the finest mesh.
 
-use plateau_tests::run_file::{RunFile, StoredStatus, created};
+use plateau_tests::run_file::{StoredStatus, created};
 use plateau_tests::table::{Row, number, relative_error};
 
 use super::{
@@ -11,7 +11,7 @@ const EDITS: [(&str, &str); 1] = [("debris = \"local\"", "debris = \"local\"\ntr
 
 /// Writes every `stride`-th column of the initial surfaces of the finest run, and gives the settings that read them.
 fn sampled(directory: &WorkingDirectory, stride: usize) -> Vec<String> {
-    let finest = RunFile::open(directory.path("finest.h5"));
+    let finest = directory.run_file("finest.h5");
     let file = created(directory.path("sampled.h5"));
     for name in ["disc", "pin"] {
         let rows = *finest.shape(&format!("/{name}/height")).last().unwrap();
@@ -117,7 +117,7 @@ fn a_mesh_in_lengths_is_not_varied() {
     let lengths =
         "pin_width = \"0.4 mm\"\npin_length = \"7.5 mm\"\ncell_size = \"100 um\"\nmean_radius = \"20.2 mm\"\n";
     let directory = with_scene(&EDITS);
-    let scene = std::fs::read_to_string(directory.path("scene.toml")).unwrap();
+    let scene = directory.text("scene.toml");
     assert!(scene.contains(cells), "{scene}");
     directory.write("scene.toml", scene.replace(cells, lengths));
     let (text, rows) = measured(&directory, &["--ladder", "time_acceleration,mesh"]);

@@ -5,8 +5,9 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use plateau_tests::fault::{count, strike};
-use plateau_tests::program::{WorkingDirectory, repository, scene};
+use plateau_tests::program::{SMALL_MESH, WorkingDirectory, repository, run_words, scene};
 use plateau_tests::run_file::{Content, RunFile, differences};
+use plateau_tests::studies::Study;
 
 use super::{few_or_all, strikes};
 
@@ -26,30 +27,20 @@ pub(super) const CASES: [Case; 3] = [
 
 const EARLIER: &[u8] = b"what was there before";
 
-const SMALL: [&str; 4] = ["mesh.rows=8", "mesh.disc_columns=160", "mesh.pin_columns=16", "operation.duration='0.5 s'"];
-
-/// A study of a small mesh; `tables` follow what all have.
-fn study(design: &str, directory: &str, tables: &str) -> String {
-    format!(
-        "version = 1\ntitle = \"Faults\"\nbase = \"{}\"\nset = {SMALL:?}\ndesign = {design}\ndirectory = \"{directory}\"\n{tables}\
-         [[response]]\nname = \"area\"\ndataset = \"/series/contact_area\"\nat = \"end\"\n",
-        scene("quick.toml")
-    )
-}
+const DURATION: &str = "operation.duration='0.5 s'";
 
 /// A directory with all that the commands read.
 pub(super) fn prepared() -> WorkingDirectory {
     let directory = WorkingDirectory::new();
-    let load = |values: &str| format!("[[factor]]\nname = \"load\"\nkey = \"operation.normal_force\"\n{values}\n");
-    let levels = load("levels = [\"5 N\", \"7 N\", \"10 N\"]");
-    for (file, results) in [("study.toml", "results"), ("swept.toml", "swept")] {
-        directory.write(file, study("\"full-factorial\"", results, &levels));
-    }
-    let base = scene("quick.toml");
-    let done = |arguments: &[&str]| assert_eq!(directory.plateau(arguments).status, Some(0), "{arguments:?}");
-    let sets = SMALL.iter().flat_map(|set| ["--set", set]);
-    done(&["run", base.as_str(), "-o", "run.h5"].into_iter().chain(sets).collect::<Vec<_>>());
-    done(&["sweep", "run", "swept.toml"]);
+    let small = [&SMALL_MESH[..], &[DURATION]].concat();
+    let study = Study::new(&scene("quick.toml"), "full-factorial", &format!("title = \"Faults\"\nset = {small:?}"))
+        .load("levels = [\"5 N\", \"7 N\", \"10 N\"]")
+        .response("area", "/series/contact_area", "at = \"end\"")
+        .text();
+    directory.write("swept.toml", study.replace("\"results\"", "\"swept\""));
+    directory.write("study.toml", study);
+    directory.plateau(run_words("quick.toml", "run.h5", &small, &[])).ends(0, &[]);
+    directory.plateau(["sweep", "run", "swept.toml"]).ends(0, &[]);
     directory.write("patch.sdf", fs::read(repository().join("data/surfaces/afm_256x256.sdf")).unwrap());
     for case in CASES.iter().filter(|case| case.replaces) {
         directory.write(case.makes, EARLIER);

@@ -5,7 +5,7 @@ use std::time::{SystemTime, UNIX_EPOCH};
 
 use plateau_tests::fault::shim;
 use plateau_tests::program::{WorkingDirectory, run};
-use plateau_tests::run_file::{RunFile, differences};
+use plateau_tests::run_file::differences;
 
 use super::answers::{CASES, compare, copied, files, prepared};
 use super::{Killed, short_run, whole};
@@ -39,7 +39,7 @@ fn runs_are_the_same_with_any_clock() {
             assert_eq!(watched.status, Some(0), "{clock:?}: {watched:?}");
         };
         let same = |directory: &WorkingDirectory| {
-            let run_file = RunFile::open(directory.path("run.h5"));
+            let run_file = directory.run_file("run.h5");
             assert_eq!(differences(&whole, &run_file.content()), [""; 0], "{clock:?}");
             let dates = ["start_time", "end_time"].map(|name| run_file.text(name));
             assert!(dates.iter().all(|date| date.len() >= 20 && date.ends_with('Z')), "{clock:?}: {dates:?}");

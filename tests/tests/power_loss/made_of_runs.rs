@@ -3,34 +3,31 @@
 use std::fs;
 
 use plateau_tests::power_loss::{Files, Journal};
-use plateau_tests::program::{WorkingDirectory, run, scene};
+use plateau_tests::program::{SMALL_MESH, WorkingDirectory, run_words, scene};
+use plateau_tests::studies::Study;
 
 use super::{below, losses, lot, on, run_after};
 
 const EARLIER: &[u8] = b"what was there before";
 
 /// A study of twelve short runs.
-fn study() -> String {
-    format!(
-        "version = 1\nbase = \"{}\"\ndesign = \"full-factorial\"\ndirectory = \"results\"\n\
-         set = [\"mesh.rows = 8\", \"mesh.disc_columns = 160\", \"mesh.pin_columns = 16\", \"operation.duration = '0.5 s'\"]\n\
-         [replicates]\nkeys = [\"pin.base.synthetic.seed\"]\nseeds = [1, 2, 3, 4]\n\
-         [[factor]]\nname = \"load\"\nkey = \"operation.normal_force\"\nlevels = [\"5 N\", \"7 N\", \"10 N\"]\n\
-         [[response]]\nname = \"area\"\ndataset = \"/series/contact_area\"\nat = \"end\"\n",
-        scene("quick.toml")
-    )
+fn study() -> Study {
+    let set = [&SMALL_MESH[..], &["operation.duration='0.5 s'"]].concat();
+    Study::new(&scene("quick.toml"), "full-factorial", &format!("set = {set:?}"))
+        .table("[replicates]\nkeys = [\"pin.base.synthetic.seed\"]\nseeds = [1, 2, 3, 4]")
+        .load("levels = [\"5 N\", \"7 N\", \"10 N\"]")
+        .response("area", "/series/contact_area", "at = \"end\"")
 }
 
 /// The table of results, which is collected anew.
 fn results(directory: &WorkingDirectory) -> String {
     run_after(1, directory.command(["sweep", "collect", "study.toml", "--force"])).ends(0, &[]);
-    fs::read_to_string(directory.path("results/results.csv")).unwrap()
+    directory.text("results/results.csv")
 }
 
 #[test]
 fn a_study_makes_what_it_lost_again() {
-    let directory = WorkingDirectory::new();
-    directory.write("study.toml", study());
+    let directory = WorkingDirectory::with("study.toml", study());
     let sweep = |directory: &WorkingDirectory| directory.command(["sweep", "run", "study.toml", "--jobs", "2"]);
     let (outcome, journal) = Journal::of(&directory, sweep(&directory));
     assert_eq!(outcome.status, Some(0), "{outcome:?}");
@@ -52,10 +49,8 @@ fn a_study_makes_what_it_lost_again() {
 #[test]
 fn files_made_of_a_run_are_whole_or_as_before() {
     let start = WorkingDirectory::new();
-    let sets = ["mesh.rows=8", "mesh.disc_columns=160", "mesh.pin_columns=16", "operation.duration=0.5 s"];
-    let mut command = start.command(["run", &scene("quick.toml"), "-o", "run.h5"]);
-    command.args(sets.iter().flat_map(|set| ["--set", set]));
-    assert_eq!(run(command).status, Some(0));
+    let short = [&SMALL_MESH[..], &["operation.duration=0.5 s"]].concat();
+    start.plateau(run_words("quick.toml", "run.h5", &short, &[])).ends(0, &[]);
     let run_file = fs::read(start.path("run.h5")).unwrap();
     let heights = ["surface", "run.h5", "--dataset", "disc/height", "--at", "0 s", "--force", "--to"];
     let mut random = lot();

@@ -39,8 +39,8 @@ fn ranks_of(directory: &WorkingDirectory, ranks: usize) -> Vec<String> {
 fn jobs_that_are_killed_again_and_again_end_bit_for_bit_like_an_undisturbed_run() {
     let kills = std::env::var("PLATEAU_KILLS").map_or(few_or_all(6, 200), |kills| kills.parse().unwrap());
     let directory = WorkingDirectory::new();
-    assert_eq!(directory.plateau(arguments("whole.h5")).status, Some(0));
-    let whole = RunFile::open(directory.path("whole.h5")).content();
+    directory.plateau(arguments("whole.h5")).ends(0, &[]);
+    let whole = directory.run_file("whole.h5").content();
     let (mut random, mut killed, mut ended) = (Stream(25), 0, 0);
     while killed < kills || ended == 0 {
         let ranks = 2 + killed % 2;
@@ -73,7 +73,7 @@ fn jobs_that_are_killed_again_and_again_end_bit_for_bit_like_an_undisturbed_run(
             check_that_it_can_be_read(&directory, &whole);
             continue;
         }
-        let run_file = RunFile::open(directory.path("run.h5"));
+        let run_file = directory.run_file("run.h5");
         assert_eq!(run_file.text("state"), "finished");
         assert_eq!(differences(&whole, &run_file.content()), [""; 0], "after {killed} kills");
         ended += 1;

@@ -8,8 +8,7 @@ use super::small_sdf;
 
 #[test]
 fn pictures_have_the_format_of_their_ending_and_a_page_each() {
-    let directory = WorkingDirectory::new();
-    directory.write("small.sdf", small_sdf());
+    let directory = WorkingDirectory::with("small.sdf", small_sdf());
     let micrograph = plateau_tests::program::scene("micrograph.toml");
     for ending in ["png", "svg", "PDF"] {
         let (plot, preview) = (format!("plot.{ending}"), format!("preview.{ending}"));
@@ -18,7 +17,7 @@ fn pictures_have_the_format_of_their_ending_and_a_page_each() {
         assert!(said.contains(&format!("wrote {plot}\n")) && said.contains(&format!("wrote {second}\n")), "{said}");
         directory.plateau(["surface", "--prepare", &micrograph, "--preview", &preview]).quiet_success();
         for (name, kind) in [(plot, "surfaces"), (second, "surfaces-2"), (preview, "fibre-map")] {
-            let content = fs::read_to_string(directory.path(&name)).unwrap();
+            let content = directory.text(&name);
             assert!(content.contains(&format!(" as {}", ending.to_lowercase())), "{name}: {content}");
             assert!(kind.starts_with(content.split(' ').next().unwrap()), "{name}: {content}");
         }

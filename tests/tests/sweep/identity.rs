@@ -1,19 +1,19 @@
 //! What results are the results of: the scene, what was read of its files, and the generation of the program's numbers.
 
 use std::fs;
-use std::process::Stdio;
 
 use plateau_io::generation;
 use plateau_io::input::sha256_of;
-use plateau_tests::program::{Outcome, WorkingDirectory, quick_scene_with, wait_until};
+use plateau_tests::program::{DISC, Outcome, WorkingDirectory, ended, quick_scene_with, start, wait_until};
 use plateau_tests::run_file::{RunFile, differences};
+use plateau_tests::studies::Study;
 use serde_json::Value;
 
-use super::{directory, json, records, study, sweep};
+use super::{counts, directory, records, study, sweep};
 
 /// The lines of `results.csv` that are there, by the number of the run.
 fn table(directory: &WorkingDirectory) -> Vec<String> {
-    let text = fs::read_to_string(directory.path("results/results.csv")).unwrap();
+    let text = directory.text("results/results.csv");
     text.lines().skip(1).map(str::to_owned).collect()
 }
 
@@ -38,8 +38,7 @@ fn a_result_is_named_by_its_scene_and_the_generation_alone() {
 
 #[test]
 fn a_table_is_not_replaced_by_one_with_fewer_finished_runs() {
-    let directory = WorkingDirectory::new();
-    directory.write("quick.toml", quick_scene_with(&[]));
+    let directory = WorkingDirectory::with("quick.toml", quick_scene_with(&[]));
     let base = plateau_tests::program::scene("quick.toml");
     directory.write("study.toml", study().replace(&base, "quick.toml"));
     sweep(&directory, &["--jobs", "2"]);
@@ -49,23 +48,18 @@ fn a_table_is_not_replaced_by_one_with_fewer_finished_runs() {
     // Another scene: nothing of what is there is its result.
     directory
         .write("quick.toml", quick_scene_with(&[("foundation_height = \"50 um\"", "foundation_height = \"40 um\"")]));
-    let refused = collect(&directory, &[]).ends(2, &[]);
-    for words in [
-        "has 27 runs that finished, of which there are 0 now",
-        "27 results are left out: of scenes that no run",
-        "--force replaces",
-    ] {
-        assert!(refused.stderr.contains(words), "{words}: {refused:?}");
-    }
+    let refused = collect(&directory, &[]);
+    let left_out = "27 results are left out: of scenes that no run";
+    refused.ends(2, &["has 27 runs that finished, of which there are 0 now", left_out, "--force replaces"]);
     assert!(files() == before);
     // Why is said without a word of what is quiet, too; elsewhere there is nothing to lose.
     assert!(collect(&directory, &["-q"]).stderr.contains("27 results are left out"));
-    assert_eq!(json(&collect(&directory, &["-o", "elsewhere"]))["missing"].as_u64(), Some(27));
-    assert_eq!(json(&collect(&directory, &["--force"]))["finished"].as_u64(), Some(0));
+    assert_eq!(collect(&directory, &["-o", "elsewhere"]).json()["missing"].as_u64(), Some(27));
+    assert_eq!(collect(&directory, &["--force"]).json()["finished"].as_u64(), Some(0));
     assert!(files() != before);
     // As many, or more, are no loss.
     directory.write("quick.toml", quick_scene_with(&[]));
-    assert_eq!(json(&collect(&directory, &[]))["finished"].as_u64(), Some(27));
+    assert_eq!(collect(&directory, &[]).json()["finished"].as_u64(), Some(27));
     assert_eq!(collect(&directory, &[]).status, Some(0));
 }
 
@@ -81,26 +75,21 @@ fn runs_that_did_not_keep_a_series_are_named_and_made_again_when_asked() {
     directory.write("study.toml", format!("{kept}[[response]]{responses}"));
     let said = "was not kept by 9 runs, so that responses to it have no value there";
     for command in [["collect", "study.toml"], ["run", "study.toml"]] {
+        let again = "sweep run study.toml --retry` makes them again";
         let outcome = directory.plateau(["sweep"].into_iter().chain(command));
-        assert!(outcome.stderr.contains(said), "{command:?}: {outcome:?}");
-        assert!(
-            outcome.stderr.contains("/series/filled_fraction") && outcome.stderr.contains("1, 2, 3, 4, 5, 6, 7, 8, 9")
-        );
-        assert!(outcome.stderr.contains("sweep run study.toml --retry` makes them again"), "{outcome:?}");
+        outcome.ends(0, &[said, "/series/filled_fraction", "1, 2, 3, 4, 5, 6, 7, 8, 9", again]);
     }
-    let again =
-        directory.plateau(["sweep", "run", "study.toml", "--retry", "--json"]).ends(0, &["are made again: 1, 2, 3"]);
-    assert_eq!(json(&again)["finished"].as_u64(), Some(9));
+    let again = directory.plateau(["sweep", "run", "study.toml", "--retry", "--json"]);
+    assert_eq!(again.ends(0, &["are made again: 1, 2, 3"]).json()["finished"].as_u64(), Some(9));
     // What was kept before still is, beside what is new.
     let collected = directory.plateau(["sweep", "collect", "study.toml"]);
     assert!(collected.status == Some(0) && !collected.stderr.contains("not kept"), "{collected:?}");
-    let cells: Vec<Vec<String>> =
-        table(&directory).iter().map(|line| line.split(',').map(str::to_owned).collect()).collect();
-    assert!(cells.iter().all(|cells| cells[6..9].iter().all(|cell| cell.parse::<f64>().is_ok())), "{cells:?}");
-    let file = RunFile::open(directory.path("results/results.h5"));
+    for line in table(&directory) {
+        assert!(line.split(',').skip(6).take(3).all(|cell| cell.parse::<f64>().is_ok()), "{line}");
+    }
+    let file = directory.run_file("results/results.h5");
     assert!(file.floats("/worn_pin").iter().all(|value| value.is_finite()));
-    let idle = sweep(&directory, &["--retry"]);
-    assert_eq!((idle["finished"].as_u64(), idle["finished_before"].as_u64()), (Some(0), Some(9)));
+    assert_eq!(counts(&sweep(&directory, &["--retry"]), ["finished", "finished_before"]), [0, 9]);
 }
 
 /// Heights of a disc of 690 x 20 cells as an array of NumPy (format 1.0), m.
@@ -120,16 +109,14 @@ fn disc(scale: f64) -> Vec<u8> {
 
 #[test]
 fn runs_count_as_what_they_read_when_a_surface_is_replaced_meanwhile() {
-    let synthetic = "synthetic = { seed = 1, rms_height = \"3 um\", correlation_length = \"200 um\" }";
     let with = |scale: f64| {
-        let directory = WorkingDirectory::new();
-        directory.write("scene.toml", quick_scene_with(&[(synthetic, "file = \"disc.npy\"")]));
+        let directory = WorkingDirectory::with_scene(&[(DISC, "file = \"disc.npy\"")]);
         directory.write("disc.npy", disc(scale));
-        let head = "version = 1\nbase = \"scene.toml\"\nset = [\"output.sample_every = '0.5 s'\"]\ndesign = \"full-factorial\"\n\
-                    order = \"standard\"\ndirectory = \"results\"\n[[factor]]\nname = \"load\"\nkey = \"operation.normal_force\"\n\
-                    levels = [\"5 N\", \"6 N\", \"7 N\", \"8 N\", \"9 N\", \"10 N\"]\n";
-        let response = "[[response]]\nname = \"area\"\ndataset = \"/series/contact_area_mean\"\nat = \"end\"\n";
-        directory.write("study.toml", format!("{head}{response}"));
+        let keys = "set = [\"output.sample_every = '0.5 s'\"]\norder = \"standard\"";
+        let study = Study::new("scene.toml", "full-factorial", keys)
+            .load("levels = [\"5 N\", \"6 N\", \"7 N\", \"8 N\", \"9 N\", \"10 N\"]")
+            .response("area", "/series/contact_area_mean", "at = \"end\"");
+        directory.write("study.toml", study);
         directory
     };
     let clean = [1.0, 2.0].map(|scale| {
@@ -139,21 +126,17 @@ fn runs_count_as_what_they_read_when_a_surface_is_replaced_meanwhile() {
         directory
     });
     let directory = with(1.0);
-    let mut command = directory.command(["sweep", "run", "study.toml", "--jobs", "1", "--keep-files"]);
-    let child = command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap();
+    let child = start(directory.command(["sweep", "run", "study.toml", "--jobs", "1", "--keep-files"]));
     assert!(wait_until(|| records(&directory).len() > 1));
     directory.write("new.npy", disc(2.0));
     fs::rename(directory.path("new.npy"), directory.path("disc.npy")).unwrap();
-    let output = child.wait_with_output().unwrap();
-    let said = String::from_utf8(output.stderr).unwrap();
-    assert_eq!(output.status.code(), Some(1), "{said}");
-    assert!(said.contains("files that the runs read were changed meanwhile"), "{said}");
+    ended(child).ends(1, &["files that the runs read were changed meanwhile"]);
     // With either surface, what is there is what a study of that alone has.
     let mut there = [0, 0];
     for place in [1, 0] {
         directory.write("disc.npy", disc([1.0, 2.0][place]));
         let collected = collect(&directory, &["--force"]);
-        there[place] = json(&collected)["finished"].as_u64().unwrap();
+        there[place] = collected.json()["finished"].as_u64().unwrap();
         assert!(collected.stderr.contains("left out: the file of disc.surface had another content"), "{collected:?}");
         for (found, expected) in table(&directory).iter().zip(&table(&clean[place])) {
             assert!(found == expected || found.contains(",missing,"), "{found}, expected {expected}");

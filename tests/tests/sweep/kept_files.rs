@@ -2,13 +2,14 @@
 
 use std::fs;
 use std::path::PathBuf;
-use std::process::{Command, Stdio};
+use std::process::Command;
 
-use plateau_tests::program::{Outcome, WorkingDirectory, scene, wait_until};
+use plateau_tests::program::{WorkingDirectory, run, scene};
 use plateau_tests::run_file::{RunFile, differences};
 use serde_json::Value;
 
-use super::{RUN_15, RUNS, directory, json, records, results, study, sweep};
+use super::stopped::stop_and_kill;
+use super::{RUN_15, RUNS, counts, directory, records, results, study, sweep};
 
 /// The run files that are kept, by their names.
 fn kept(directory: &WorkingDirectory) -> Vec<PathBuf> {
@@ -28,7 +29,7 @@ fn of_run(directory: &WorkingDirectory, number: usize) -> PathBuf {
 }
 
 fn finished(summary: &Value) -> [u64; 2] {
-    ["finished_before", "finished"].map(|key| summary[key].as_u64().unwrap())
+    counts(summary, ["finished_before", "finished"])
 }
 
 fn content_differs(one: impl AsRef<std::path::Path>, other: impl AsRef<std::path::Path>) -> Vec<String> {
@@ -72,7 +73,7 @@ fn run_files_are_kept_and_nothing_else_changes() {
     }
     keeping.write("study.toml", study().replace("\"5 N\", ", ""));
     let less = keeping.plateau(["sweep", "run", "study.toml", "--json", "--keep-files"]);
-    assert_eq!(finished(&json(&less)), [18, 0], "{less:?}");
+    assert_eq!(finished(&less.json()), [18, 0], "{less:?}");
     for (number, load) in [(2, "10 N"), (4, "20 N"), (7, "10 N")] {
         has_load_or_another(&keeping, number, load);
     }
@@ -97,33 +98,15 @@ fn a_run_with_a_file_that_was_stopped_or_killed_goes_on() {
         .replace("\"5 N\", \"10 N\", \"20 N\"", "\"1 GPa\", \"2 GPa\"")
         .replace("levels = [0.2, 0.3, 0.4]", "levels = [0.2, 0.3]")
         .replace("seeds = [7, 8, 9]", "seeds = [7]");
-    let [whole, stopped] = [(), ()].map(|()| {
-        let directory = WorkingDirectory::new();
-        directory.write("study.toml", &long);
-        directory
+    let [whole, stopped] = [(), ()].map(|()| WorkingDirectory::with("study.toml", &long));
+    whole.plateau(["sweep", "run", "study.toml", "--jobs", "2"]).ends(0, &[]);
+    let words = ["sweep", "run", "study.toml", "--jobs", "2", "--keep-files"];
+    stop_and_kill(&stopped, &words, |signal| {
+        // The one that is being made is closed.
+        let is_closed = |file: &PathBuf| ["finished", "interrupted"].contains(&&*RunFile::open(file).text("state"));
+        assert!(signal != "TERM" || kept(&stopped).iter().all(is_closed), "{:?}", kept(&stopped));
     });
-    assert_eq!(whole.plateau(["sweep", "run", "study.toml", "--jobs", "2"]).status, Some(0));
-    let start = ["sweep", "run", "study.toml", "--jobs", "2", "--keep-files"];
-    let is_state = |entry: &fs::DirEntry| entry.file_name().len() == 64;
-    let folder = stopped.path("results/under-way");
-    let states = || fs::read_dir(&folder).map_or(0, |entries| entries.flatten().filter(is_state).count());
-    for signal in ["TERM", "KILL"] {
-        let mut command = stopped.command(start);
-        let mut child = command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
-        std::thread::sleep(std::time::Duration::from_millis(100));
-        assert!(wait_until(|| states() > 0), "no run is under way");
-        let sent = Command::new("kill").args(["-s", signal, &child.id().to_string()]).status();
-        assert!(sent.unwrap().success());
-        child.wait().unwrap();
-        assert!(states() > 0, "nothing was kept after {signal}");
-        if signal == "TERM" {
-            // The one that is being made is closed.
-            let is_closed = |file: &PathBuf| ["finished", "interrupted"].contains(&&*RunFile::open(file).text("state"));
-            assert!(kept(&stopped).iter().all(is_closed), "{:?}", kept(&stopped));
-        }
-    }
-    let last = stopped.plateau(start);
-    assert!(last.status == Some(0) && last.stderr.contains("goes on from step "), "{last:?}");
+    stopped.plateau(words).ends(0, &["goes on from step "]);
     assert_eq!(results_of_stops(&stopped), results_of_stops(&whole));
     for number in 1..=4 {
         let (file, alone) = (of_run(&stopped, number), format!("alone-{number}.h5"));
@@ -136,12 +119,10 @@ fn a_run_with_a_file_that_was_stopped_or_killed_goes_on() {
 
 /// The table and two series of a study with a cycle.
 fn results_of_stops(directory: &WorkingDirectory) -> (String, [Vec<u64>; 2]) {
-    let outcome = directory.plateau(["sweep", "collect", "study.toml"]);
-    assert_eq!(outcome.status, Some(0), "{outcome:?}");
-    let file = RunFile::open(directory.path("results/results.h5"));
+    directory.plateau(["sweep", "collect", "study.toml"]).ends(0, &[]);
+    let file = directory.run_file("results/results.h5");
     let bits = |name: &str| file.floats(name).iter().map(|value| value.to_bits()).collect();
-    let table = fs::read_to_string(directory.path("results/results.csv")).unwrap();
-    (table, ["/contact_area", "/worn_pin"].map(bits))
+    (directory.text("results/results.csv"), ["/contact_area", "/worn_pin"].map(bits))
 }
 
 #[test]
@@ -150,9 +131,8 @@ fn a_file_that_cannot_be_kept_is_no_failure_of_its_run() {
     fs::create_dir(directory.path("results")).unwrap();
     // A file is where the folder would be.
     directory.write("results/runs", "mine");
-    let outcome = directory.plateau(["sweep", "run", "study.toml", "--keep-files"]);
-    assert_eq!(outcome.status, Some(1), "{outcome:?}");
-    assert!(outcome.stderr.contains("cannot write to results/runs: "), "{outcome:?}");
+    let keeping = ["sweep", "run", "study.toml", "--keep-files"];
+    directory.plateau(keeping).ends(1, &["cannot write to results/runs: "]);
     assert_eq!(records(&directory).len(), 0, "a run is said to have failed");
     assert_eq!(finished(&sweep(&directory, &[])), [0, 27]);
 }
@@ -169,37 +149,30 @@ fn one_run_is_made_again_by_itself_or_from_its_scene() {
     directory.write("r15.toml", &printed);
     directory.plateau(["run", "r15.toml", "-o", "by-scene.h5"]).quiet_success();
     assert_eq!(content_differs(directory.path("r15.h5"), directory.path("by-scene.h5")), [""; 0]);
-    let is_own =
-        |name: &PathBuf| !name.to_str().unwrap().contains("r15") && !name.to_str().unwrap().contains("by-scene");
     let mut after = directory.content();
-    after.retain(|name, _| is_own(name));
+    after.retain(|name, _| !["r15", "by-scene"].iter().any(|made| name.to_str().unwrap().contains(made)));
     assert_eq!(after, before, "neither journal nor results");
 
     // It has the series of the study's own run.
     sweep(&directory, &["--jobs", "2"]);
     results(&directory);
-    let (file, alone_file) =
-        (RunFile::open(directory.path("results/results.h5")), RunFile::open(directory.path("r15.h5")));
+    let [file, alone_file] = ["results/results.h5", "r15.h5"].map(|name| directory.run_file(name));
     for series in ["contact_area", "worn_pin", "pool"] {
         assert_eq!(file.floats(&format!("/{series}"))[14 * 6..15 * 6], alone_file.floats(&format!("/series/{series}")));
     }
 
     // What is there stays, and there are no more runs than the plan has.
-    let again = directory.plateau(alone);
-    assert!(
-        again.status == Some(2) && again.stderr.contains("r15.h5") && again.stderr.contains("--force"),
-        "{again:?}"
-    );
-    assert_eq!(directory.plateau(alone.iter().chain(&["--force"])).status, Some(0));
+    directory.plateau(alone).ends(2, &["r15.h5", "--force"]);
+    directory.plateau(alone.iter().chain(&["--force"])).ends(0, &[]);
     for words in [&["run", "study.toml", "--run", "28"][..], &["scene", "study.toml", "28"]] {
         let refused = directory.plateau(["sweep"].iter().chain(words));
         let expected = "plateau: study.toml: there is no run 28; its runs are 1 to 27\n";
         assert_eq!((refused.status, refused.stderr.as_str()), (Some(2), expected));
     }
     for other in [&["--keep-files"][..], &["--task", "1/2"], &["--retry"], &["--jobs", "2"]] {
-        assert_eq!(directory.plateau(alone.iter().chain(other)).status, Some(2), "{other:?}");
+        directory.plateau(alone.iter().chain(other)).ends(2, &[]);
     }
-    assert_eq!(directory.plateau(["sweep", "run", "study.toml", "-o", "r.h5"]).status, Some(2));
+    directory.plateau(["sweep", "run", "study.toml", "-o", "r.h5"]).ends(2, &[]);
     // Without a name, in the working directory.
     directory.plateau(["sweep", "run", "study.toml", "--run", "1"]).quiet_success();
     // Never over the study, whatever is said.
@@ -223,7 +196,7 @@ fn the_scene_of_a_run_finds_its_files_from_any_folder() {
     directory.write("elsewhere/r2.toml", printed);
     let mut there = directory.command(["run", "r2.toml", "-o", "r2.h5", "-q"]);
     assert!(there.current_dir(directory.path("elsewhere")).status().unwrap().success());
-    assert_eq!(directory.plateau(["sweep", "run", "study.toml", "--run", "2", "-o", "r2.h5", "-q"]).status, Some(0));
+    directory.plateau(["sweep", "run", "study.toml", "--run", "2", "-o", "r2.h5", "-q"]).ends(0, &[]);
     assert_eq!(content_differs(directory.path("r2.h5"), directory.path("elsewhere/r2.h5")), [""; 0]);
 }
 
@@ -231,20 +204,18 @@ fn the_scene_of_a_run_finds_its_files_from_any_folder() {
 fn results_are_where_the_user_says() {
     let (usual, other) = (directory(), directory());
     sweep(&usual, &["--jobs", "2"]);
-    let said = |outcome: &Outcome| assert_eq!(outcome.status, Some(0), "{outcome:?}");
-    said(&other.plateau(["sweep", "slurm", "study.toml", "--directory", "here", "--keep-files", "--tasks", "2"]));
-    let script = fs::read_to_string(other.path("study.sbatch")).unwrap();
+    other.plateau(["sweep", "slurm", "study.toml", "--directory", "here", "--keep-files", "--tasks", "2"]).ends(0, &[]);
+    let script = other.text("study.sbatch");
     let expected = format!(" --directory '{}' --keep-files --task ", other.path("here").display());
     assert!(script.contains(&expected), "{expected} in {script}");
     // From any folder.
     let mut shell = Command::new("sh");
     shell.arg(other.path("study.sbatch")).env("SLURM_ARRAY_TASK_ID", "1").current_dir("/");
-    let output = shell.output().unwrap();
-    assert!(output.status.success(), "{output:?}");
+    run(shell).ends(0, &[]);
     assert_eq!(finished(&sweep(&other, &["--directory", "here"])), [14, 13]);
-    let planned = json(&other.plateau(["sweep", "plan", "study.toml", "--directory", "here", "--json"]));
+    let planned = other.plateau(["sweep", "plan", "study.toml", "--directory", "here", "--json"]).json();
     assert_eq!((&planned["directory"], planned["ended"]["finished"].as_u64()), (&"here".into(), Some(27)));
-    said(&other.plateau(["sweep", "collect", "study.toml", "--directory", "here"]));
+    other.plateau(["sweep", "collect", "study.toml", "--directory", "here"]).ends(0, &[]);
     results(&usual);
     let table = |path: PathBuf| fs::read_to_string(path).unwrap();
     assert_eq!(table(other.path("here/results.csv")), table(usual.path("results/results.csv")));
@@ -253,19 +224,17 @@ fn results_are_where_the_user_says() {
     // Advice is of that folder, too.
     let asked = study().replace("directory =", "series = [\"worn_pin\"]\ndirectory =").replace("'3 s'", "'2 s'");
     other.write("study.toml", &asked);
-    assert_eq!(other.plateau(["sweep", "run", "study.toml", "--directory", "here"]).status, Some(0));
+    let there = ["sweep", "run", "study.toml", "--directory", "here"];
+    other.plateau(there).ends(0, &[]);
     other.write("study.toml", asked.replace("/series/filled_fraction", "/series/pin_none"));
-    let warned = other.plateau(["sweep", "run", "study.toml", "--directory", "here"]);
-    assert!(
-        warned.stderr.contains("`plateau sweep run study.toml --directory here --retry` makes them again"),
-        "{warned:?}"
-    );
+    let advice = "`plateau sweep run study.toml --directory here --retry` makes them again";
+    assert!(other.plateau(there).stderr.contains(advice));
 }
 
 #[test]
 fn the_plan_tells_how_large_run_files_are() {
     let directory = directory();
-    let planned = json(&directory.plateau(["sweep", "plan", "study.toml", "--json"]));
+    let planned = directory.plateau(["sweep", "plan", "study.toml", "--json"]).json();
     sweep(&directory, &["--keep-files"]);
     let all: u64 = kept(&directory).iter().map(|file| file.metadata().unwrap().len()).sum();
     let most = planned["run_files"].as_u64().unwrap();

@@ -1,36 +1,31 @@
 //! Several processes that make the runs of one study in one folder, without knowing of each other.
 
 use std::collections::BTreeSet;
-use std::process::{Child, Stdio};
+use std::process::Child;
 
-use plateau_tests::program::{WorkingDirectory, kill, wait_until};
+use plateau_tests::program::{WorkingDirectory, ended, kill, start, wait_until};
 use serde_json::Value;
 
-use super::{RUNS, directory, records, results, study, sweep};
+use super::{RUNS, records, results, study, sweep};
 
 /// The study with runs that are long enough to meet.
 fn longer() -> WorkingDirectory {
-    let directory = directory();
-    directory.write("study.toml", study().replace("'3 s'", "'24 s'"));
-    directory
+    WorkingDirectory::with("study.toml", study().replace("'3 s'", "'24 s'"))
 }
 
-fn start(directory: &WorkingDirectory) -> Child {
-    let mut command = directory.command(["sweep", "run", "study.toml", "--jobs", "1", "--json"]);
-    command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap()
+fn begin(directory: &WorkingDirectory) -> Child {
+    start(directory.command(["sweep", "run", "study.toml", "--jobs", "1", "--json"]))
 }
 
 fn end(child: Child) -> Value {
-    let output = child.wait_with_output().unwrap();
-    assert!(output.status.success(), "{output:?}");
-    serde_json::from_slice(&output.stdout).unwrap()
+    ended(child).ends(0, &[]).json()
 }
 
 #[test]
 fn two_sweeps_of_one_folder_share_its_runs() {
     let (whole, shared) = (longer(), longer());
     sweep(&whole, &["--jobs", "2"]);
-    let summaries = [start(&shared), start(&shared)].map(end);
+    let summaries = [begin(&shared), begin(&shared)].map(end);
     let of = |key: &str| summaries.each_ref().map(|summary| summary[key].as_u64().unwrap());
     assert_eq!(of("finished").iter().sum::<u64>(), RUNS as u64, "{summaries:?}");
     assert!(of("finished").iter().all(|finished| *finished > 0), "{summaries:?}");
@@ -48,7 +43,7 @@ fn two_sweeps_of_one_folder_share_its_runs() {
 fn what_a_killed_sweep_leaves_the_other_one_makes() {
     let (whole, shared) = (longer(), longer());
     sweep(&whole, &["--jobs", "2"]);
-    let (killed, left) = (start(&shared), start(&shared));
+    let (killed, left) = (begin(&shared), begin(&shared));
     assert!(wait_until(|| records(&shared).len() > 1));
     kill(killed);
     end(left);

@@ -2,13 +2,13 @@
 
 use std::collections::BTreeSet;
 use std::fs;
-use std::process::{Command, Stdio};
 use std::thread;
 use std::time::Duration;
 
-use plateau_tests::program::{WorkingDirectory, kill, scene, wait_until};
+use plateau_tests::program::{WorkingDirectory, ended, kill, scene, send, start, wait_until};
 use plateau_tests::scenes::Stream;
 use plateau_tests::scenes::few_or_all;
+use plateau_tests::studies::Study;
 
 use super::{directory, records, results, study, sweep};
 
@@ -36,8 +36,7 @@ fn a_sweep_killed_again_and_again_ends_like_an_undisturbed_one() {
     let mut random = Stream(1);
     let (mut before, mut met) = (0, 0);
     for _ in 0..kills {
-        let mut command = killed.command(["sweep", "run", "study.toml", "--jobs", "2"]);
-        let child = command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
+        let child = start(killed.command(["sweep", "run", "study.toml", "--jobs", "2"]));
         // At some moment after its first results, for as long as there are any.
         wait_until(|| before == runs || records(&killed).len() > before);
         thread::sleep(Duration::from_secs_f64(0.02 * random.uniform()));
@@ -60,23 +59,17 @@ fn an_interrupted_sweep_says_what_is_left() {
     let directory = directory();
     let long = study().replace("duration = '3 s'", "duration = '300 s'");
     directory.write("study.toml", long);
-    let mut command = directory.command(["sweep", "run", "study.toml", "--jobs", "2"]);
-    let child = command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap();
+    let child = start(directory.command(["sweep", "run", "study.toml", "--jobs", "2"]));
     thread::sleep(Duration::from_millis(400));
-    let interrupted = Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();
-    assert!(interrupted.success());
-    let output = child.wait_with_output().unwrap();
-    assert_eq!(output.status.code(), Some(130));
-    let said = String::from_utf8(output.stderr).unwrap();
-    assert!(said.contains("are left, the same command goes on"), "{said}");
+    send("INT", child.id());
+    ended(child).ends(130, &["are left, the same command goes on"]);
 }
 
 #[test]
 fn what_was_kept_of_a_run_that_has_ended_goes() {
     let directory = directory();
     directory.write("study.toml", long());
-    let mut command = directory.command(["sweep", "run", "study.toml", "--jobs", "1"]);
-    let child = command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
+    let child = start(directory.command(["sweep", "run", "study.toml", "--jobs", "1"]));
     let folder = directory.path("results/under-way");
     let state = || fs::read_dir(&folder).ok()?.flatten().find(|entry| entry.file_name().len() == 64);
     assert!(wait_until(|| state().is_some()));
@@ -99,72 +92,55 @@ fn what_was_kept_of_a_run_that_has_ended_goes() {
 
 #[test]
 fn a_long_run_that_was_stopped_or_killed_goes_on() {
-    let [whole, directory] = [(), ()].map(|()| {
-        let directory = WorkingDirectory::new();
-        directory.write("study.toml", long());
-        directory
-    });
-    let start = ["sweep", "run", "study.toml", "--jobs", "2"];
-    assert_eq!(whole.plateau(start).status, Some(0));
+    let [whole, directory] = [(), ()].map(|()| WorkingDirectory::with("study.toml", long()));
+    let words = ["sweep", "run", "study.toml", "--jobs", "2"];
+    whole.plateau(words).ends(0, &[]);
+    stop_and_kill(&directory, &words, |_| ());
+    directory.plateau(words).ends(0, &["a run that was stopped goes on from step "]);
+    assert_eq!(results(&directory), results(&whole));
+    assert!(!directory.path("results/under-way").exists(), "what was kept is of no more use");
+}
+
+/// Starts a sweep, stops it when a run is under way, and kills it when it has been started again; what is there is looked at each time.
+pub(super) fn stop_and_kill(directory: &WorkingDirectory, words: &[&str], look: impl Fn(&str)) {
     let is_state = |entry: &fs::DirEntry| entry.file_name().len() == 64;
     let folder = directory.path("results/under-way");
     let states = || fs::read_dir(&folder).map_or(0, |entries| entries.flatten().filter(is_state).count());
     for signal in ["TERM", "KILL"] {
-        let mut command = directory.command(start);
-        let mut child = command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
+        let mut child = start(directory.command(words));
         thread::sleep(Duration::from_millis(100));
         assert!(wait_until(|| states() > 0), "no run is under way");
-        let sent = Command::new("kill").args(["-s", signal, &child.id().to_string()]).status();
-        assert!(sent.unwrap().success());
+        send(signal, child.id());
         child.wait().unwrap();
         assert!(states() > 0, "nothing was kept after {signal}");
+        look(signal);
     }
-    directory.plateau(start).ends(0, &["a run that was stopped goes on from step "]);
-    assert_eq!(results(&directory), results(&whole));
-    assert!(!directory.path("results/under-way").exists(), "what was kept is of no more use");
 }
 
 #[test]
 fn a_signal_ends_runs_that_are_prepared_while_others_keep_their_state() {
     // The second run has fibres that are so long that nearly all of them miss the pin: its preparation takes many seconds.
-    let study = format!(
-        r#"version = 1
-base = "{}"
-set = ["operation.duration = '10 h'", "numerics.time_acceleration = 1", "pin.base.synthetic.fibre_width = '1e-7 m'"]
-design = "full-factorial"
-order = "standard"
-directory = "results"
-
-[[factor]]
-key = "pin.base.synthetic.fibre_length"
-levels = ["400 um", "4 m"]
-
-[[response]]
-name = "contact area"
-dataset = "/series/contact_area_mean"
-at = "end"
-"#,
-        scene("quick.toml")
-    );
-    let directory = WorkingDirectory::new();
-    directory.write("study.toml", study);
+    let set = "'operation.duration = \"10 h\"', 'numerics.time_acceleration = 1', 'pin.base.synthetic.fibre_width = \"1e-7 m\"'";
+    let keys = format!("set = [{set}]\norder = \"standard\"");
+    let study = Study::new(&scene("quick.toml"), "full-factorial", &keys)
+        .factor("length", "pin.base.synthetic.fibre_length", "levels = [\"400 um\", \"4 m\"]")
+        .response("contact area", "/series/contact_area_mean", "at = \"end\"");
+    let directory = WorkingDirectory::with("study.toml", study);
     for (jobs, kept) in [("2", 1), ("1", 0)] {
         // With one job, of the second run alone.
         let task = if kept == 0 { &["--task", "2/2"][..] } else { &[] };
-        let mut command = directory.command(["sweep", "run", "study.toml", "--jobs", jobs].iter().chain(task));
-        let mut child = command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap();
+        let mut child = start(directory.command(["sweep", "run", "study.toml", "--jobs", jobs].iter().chain(task)));
         thread::sleep(Duration::from_millis(700));
         assert!(child.try_wait().unwrap().is_none(), "both runs take long");
-        assert!(Command::new("kill").args(["-s", "TERM", &child.id().to_string()]).status().unwrap().success());
+        send("TERM", child.id());
         if !wait_until(|| child.try_wait().unwrap().is_some()) {
             kill(child);
             panic!("the preparation does not hear the signal");
         }
-        let output = child.wait_with_output().unwrap();
-        assert_eq!(output.status.code(), Some(143), "{output:?}");
+        let outcome = ended(child).ends(143, &[]);
         // No lock is left either.
         let states = fs::read_dir(directory.path("results/under-way")).map_or(0, Iterator::count);
-        assert_eq!(states, kept, "{output:?}");
+        assert_eq!(states, kept, "{outcome:?}");
         let _ = fs::remove_dir_all(directory.path("results"));
     }
 }

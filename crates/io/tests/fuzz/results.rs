@@ -14,17 +14,17 @@ use proptest::prelude::*;
 
 use super::bytes::changes;
 use super::harness::Fuzz;
-
-const STUDY: &str = "version = 1\nbase = \"quick.toml\"\ndesign = \"full-factorial\"\n[[factor]]\nname = \"load\"\n\
-    key = \"operation.normal_force\"\nlevels = [\"5 N\", \"6 N\"]\n\
-    [[response]]\nname = \"pool\"\ndataset = \"/series/pool\"\nreaches = 0.9\n\
-    [[response]]\nname = \"mean\"\ndataset = \"/series/contact_area\"\nmean = \"last tenth\"\n\
-    [[response]]\nname = \"late\"\ndataset = \"/series/pool\"\nat = \"2 s\"\n";
+use crate::studies;
 
 fn plan(folder: &Path) -> Plan {
     let base = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../data/scenes/quick.toml");
     fs::copy(base, folder.join("quick.toml")).unwrap();
-    fs::write(folder.join("study.toml"), STUDY).unwrap();
+    let study = studies::Study::new("quick.toml", "full-factorial", "")
+        .load("levels = [\"5 N\", \"6 N\"]")
+        .response("pool", "/series/pool", "reaches = 0.9")
+        .response("mean", "/series/contact_area", "mean = \"last tenth\"")
+        .response("late", "/series/pool", "at = \"2 s\"");
+    fs::write(folder.join("study.toml"), study).unwrap();
     Plan::new(Study::load(&folder.join("study.toml")).unwrap()).unwrap()
 }
 

@@ -71,17 +71,12 @@ fn study_of(design: &str) -> String {
         "central-composite" => "alpha = \"rotatable\"\ncentre_points = 3",
         _ => "",
     };
-    let factor = |name: &str, key: &str, low: &str, high: &str| {
-        format!("[[factor]]\nname = \"{name}\"\nkey = \"{key}\"\nrange = [{low}, {high}]\n")
-    };
-    [
-        format!("version = 1\nbase = \"../scenes/quick.toml\"\ndesign = \"{design}\"\n{more}\n"),
-        factor("load", "operation.normal_force", "\"5 N\"", "\"20 N\""),
-        factor("fibres", "pin.base.synthetic.fibre_fraction", "0.1", "0.5"),
-        factor("heights", "disc.prepare.scale", "0.5", "2.0"),
-        "[[response]]\nname = \"pool\"\ndataset = \"/series/pool\"\nreaches = 0.9\n".to_owned(),
-    ]
-    .concat()
+    crate::studies::Study::new("../scenes/quick.toml", design, more)
+        .load("range = [\"5 N\", \"20 N\"]")
+        .fibres("range = [0.1, 0.5]")
+        .factor("heights", "disc.prepare.scale", "range = [0.5, 2.0]")
+        .response("pool", "/series/pool", "reaches = 0.9")
+        .text()
 }
 
 fn check(path: &Path) -> Result<bool, TestCaseError> {
