@@ -5,6 +5,8 @@ use std::path::{Path, PathBuf};
 use plateau_io::scene;
 use proptest::prelude::*;
 
+use crate::fixtures::place;
+
 /// What a scene is refused with, every problem, of which a message tells the first twenty; the memory of this machine is left out.
 fn message(path: &Path, sets: &[&str]) -> String {
     let sets: Vec<String> = sets.iter().map(|set| (*set).to_owned()).collect();
@@ -123,8 +125,7 @@ fn every_bad_cycle_is_refused_with_its_place() {
 fn what_is_no_readable_file_is_refused() {
     assert!(message(Path::new("tests/scenes"), &[]).starts_with("tests/scenes: cannot read the scene: "));
     assert!(message(Path::new("tests/none.toml"), &[]).starts_with("tests/none.toml: cannot read the scene: "));
-    let folder = tempfile::tempdir().unwrap();
-    let large = folder.path().join("large.toml");
+    let (_folder, large) = place("large.toml");
     std::fs::write(&large, "# a comment\n".repeat(100_000)).unwrap();
     assert!(message(&large, &[]).ends_with("it is larger than 1 MiB, expected a scene in TOML"));
 }
@@ -146,8 +147,7 @@ proptest! {
         let scene = std::fs::read_to_string("tests/scenes/good/full.toml").unwrap();
         let start = scene.floor_char_boundary(at.index(scene.len()));
         let end = scene.floor_char_boundary((start + length).min(scene.len()));
-        let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("damaged.toml");
+        let (_folder, path) = place("damaged.toml");
         std::fs::write(&path, format!("{}{text}{}", &scene[..start], &scene[end..])).unwrap();
         // Accepted or refused with a message; what is accepted is written as a scene that is accepted too.
         match scene::load(&path, &[]) {

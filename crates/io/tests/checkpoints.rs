@@ -9,6 +9,8 @@ use plateau_io::run_file::checkpoint::{self, RunState, SimulationState};
 use plateau_io::scene::{self, Scene};
 use plateau_io::surface;
 
+use crate::fixtures::place;
+
 /// A scene of some cells.
 pub fn scene() -> Scene {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/scenes/good/minimal.toml");
@@ -65,8 +67,7 @@ fn what_is_larger_than_any_state_of_a_run_is_not_read() {
 
 #[test]
 fn a_damaged_checkpoint_does_not_take_the_place_of_one_that_holds() {
-    let folder = tempfile::tempdir().unwrap();
-    let run_file = folder.path().join("run.h5");
+    let (_folder, run_file) = place("run.h5");
     let [last, before] = checkpoint::paths(&run_file);
     let scene = scene();
     let steps_of = |path: &Path| {

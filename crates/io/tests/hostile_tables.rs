@@ -11,6 +11,7 @@ use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, ZipWriter};
 
 use crate::few_or_all;
+use crate::fixtures::place;
 use crate::tables::{black_to_white, corpus, message, options, um};
 
 /// A version 1.0 header with this dictionary and this much data.
@@ -24,8 +25,7 @@ fn array(dictionary: &str, data: usize) -> Vec<u8> {
 
 #[test]
 fn npy_headers_that_promise_or_hold_something_else() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("a.npy");
+    let (_folder, path) = place("a.npy");
     let case = |content: &[u8]| {
         fs::write(&path, content).unwrap();
         read(&path, &options()).map(|_| ()).map_err(|error| error.to_string())
@@ -62,8 +62,7 @@ fn npy_headers_that_promise_or_hold_something_else() {
 
 #[test]
 fn npy_numbers_of_every_type_in_both_orders() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("a.npy");
+    let (_folder, path) = place("a.npy");
     let one = |descr: &str, bytes: &[u8]| {
         let dictionary = format!("{{'descr': '{descr}', 'fortran_order': False, 'shape': (1, 1)}}\n");
         fs::write(&path, [array(&dictionary, 0), bytes.to_vec()].concat()).unwrap();
@@ -101,8 +100,7 @@ fn npy_numbers_of_every_type_in_both_orders() {
 
 #[test]
 fn zip_bombs_and_lies_are_refused() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("a.npz");
+    let (_folder, path) = place("a.npz");
     let case = |arrays: &[(&str, &[u8])], method: CompressionMethod| {
         let mut zip = ZipWriter::new(fs::File::create(&path).unwrap());
         for (name, content) in arrays {
@@ -137,8 +135,7 @@ fn zip_bombs_and_lies_are_refused() {
 
 #[test]
 fn images_that_promise_more_than_they_hold() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("a.png");
+    let (_folder, path) = place("a.png");
     // An image of 2^31 - 1 lines: the checksum of the header is made to fit.
     let mut content = fs::read(corpus("grey8.png")).unwrap();
     content[16..24].copy_from_slice(&[0x7f, 0xff, 0xff, 0xff, 0x7f, 0xff, 0xff, 0xff]);

@@ -6,6 +6,7 @@ use plateau_core::model::mesh::{Mesh, Outline};
 use plateau_core::observe::schedule::SampleEvery;
 use plateau_io::scene;
 
+use crate::fixtures::place;
 use crate::good_scenes::{good, load};
 
 #[test]
@@ -22,8 +23,7 @@ fn a_mesh_in_lengths_is_that_in_rows_and_columns() {
     assert_eq!(in_lengths.output.sample_every, SampleEvery::Steps(691));
     assert!(!in_lengths.resolved.contains("rows") && in_lengths.resolved.contains("cell_size = \"200 um\""));
     // And back again.
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("resolved.toml");
+    let (_folder, path) = place("resolved.toml");
     fs::write(&path, &in_lengths.resolved).unwrap();
     let radii = ["mesh.inner_radius=20 mm".to_owned(), "mesh.outer_radius=24 mm".to_owned()];
     let again = scene::load(&path, &[&cells[..], &radii].concat()).unwrap();
@@ -46,8 +46,7 @@ fn a_round_pin_is_given_by_its_width_or_its_diameter() {
     // A rectangle takes the place of the round pin, and the other way round.
     let rectangle = ["mesh.shape=rectangle", "mesh.pin_length=4 mm"];
     assert_eq!(load("round.toml", &rectangle).parameters.mesh.outline(), Outline::Rectangle);
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("rectangle.toml");
+    let (_folder, path) = place("rectangle.toml");
     fs::write(&path, load("round.toml", &rectangle).resolved).unwrap();
     let again = scene::load(&path, &["mesh.shape=disc".to_owned()]).unwrap();
     assert_eq!(again.parameters.mesh, round);

@@ -10,6 +10,8 @@ use plateau_io::scene::{BaseSource, Scene};
 use plateau_io::surface::{Loaded, load, micrograph, stated_pixel};
 use png::{BitDepth, ColorType};
 
+use crate::fixtures::place;
+
 /// Square cells of 100 µm, a pin of 3 mm by 2 mm; without `[pin.base]`.
 const SCENE: &str = r#"
 version = 1
@@ -327,8 +329,7 @@ fn a_picture_that_is_smaller_than_the_pin_is_repeated_or_gives_its_statistics() 
 
 #[test]
 fn the_distance_of_pixels_is_what_files_state() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("stated.png");
+    let (_folder, path) = place("stated.png");
     let mut encoder = png::Encoder::new(fs::File::create(&path).unwrap(), 2, 1);
     encoder.set_pixel_dims(Some(png::PixelDimensions { xppu: 500_000, yppu: 500_000, unit: png::Unit::Meter }));
     encoder.write_header().unwrap().write_image_data(&[0, 9]).unwrap();

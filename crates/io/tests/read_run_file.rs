@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use hdf5::Extents;
 use hdf5::types::VarLenUnicode;
 
-use crate::fixtures::{header, sample, small, snapshot};
+use crate::fixtures::{header, place, sample, small, snapshot};
 use plateau_core::observe::{Map, QUANTITIES};
 use plateau_io::run_file::{End, ReadError, RunFile, RunWriter, State};
 
@@ -33,8 +33,7 @@ fn file(folder: &tempfile::TempDir, name: &str, content: &[u8]) -> PathBuf {
 
 #[test]
 fn a_finished_run_is_read_as_it_was_sent() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("run.h5");
+    let (_folder, path) = place("run.h5");
     write(&path, &Map::ALL);
     let run = RunFile::open(&path).unwrap();
     assert_eq!((run.title(), run.state()), ("Größe", State::Finished));
@@ -62,8 +61,7 @@ fn a_finished_run_is_read_as_it_was_sent() {
 
 #[test]
 fn what_was_not_recorded_is_not_there() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("run.h5");
+    let (_folder, path) = place("run.h5");
     write(&path, &[Map::DiscHeight]);
     let run = RunFile::open(&path).unwrap();
     assert_eq!(run.values("disc_sa").unwrap(), None);
@@ -73,8 +71,7 @@ fn what_was_not_recorded_is_not_there() {
 
 #[test]
 fn a_run_that_goes_on_is_read_up_to_its_last_complete_sample() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("run.h5");
+    let (folder, path) = place("run.h5");
     let header = small();
     let mut writer = RunWriter::create(&path, false, &header).unwrap();
     (1..=10).for_each(|step| writer.sample(sample(step)).unwrap());
@@ -113,8 +110,7 @@ fn what_is_no_run_file_is_told() {
 
 #[test]
 fn a_damaged_run_file_is_told() {
-    let folder = tempfile::tempdir().unwrap();
-    let whole = folder.path().join("whole.h5");
+    let (folder, whole) = place("whole.h5");
     write(&whole, &Map::ALL);
     let content = fs::read(&whole).unwrap();
     let cut = file(&folder, "cut.h5", &content[..content.len() / 2]);
@@ -155,8 +151,7 @@ fn a_damaged_run_file_is_told() {
 /// The file that makes the HDF5 library go round for ever is refused before it is opened.
 #[test]
 fn a_global_heap_without_end_is_refused() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("run.h5");
+    let (folder, path) = place("run.h5");
     write(&path, &[]);
     let mut content = fs::read(&path).unwrap();
     let heap = content.windows(5).position(|bytes| bytes == b"GCOL\x01").unwrap();

@@ -4,14 +4,13 @@ use std::fs;
 use std::path::Path;
 use std::time::Duration;
 
-use crate::fixtures::{entries, header, run_file, sample, small, snapshot, text};
+use crate::fixtures::{entries, header, place, run_file, sample, small, snapshot, text};
 use plateau_core::observe::{Map, MapValues, QUANTITIES, Snapshot};
 use plateau_io::run_file::{End, InputFile, RunFileError, RunWriter, verify};
 
 #[test]
 fn a_finished_run_holds_what_was_sent() {
-    let directory = tempfile::tempdir().unwrap();
-    let path = directory.path().join("run.h5");
+    let (directory, path) = place("run.h5");
     let header = small();
     let mut writer = RunWriter::create(&path, false, &header).unwrap();
     writer.snapshot(snapshot(&header, 0.0)).unwrap();
@@ -48,8 +47,7 @@ fn a_finished_run_holds_what_was_sent() {
 
 #[test]
 fn a_finished_run_has_fixed_dimensions_and_a_map_that_never_changes_once() {
-    let directory = tempfile::tempdir().unwrap();
-    let path = directory.path().join("run.h5");
+    let (_directory, path) = place("run.h5");
     // More cells than deflate looks back over, in two parts of columns.
     let header = header(96, 400, 60, &[Map::DiscHeight, Map::DiscSubstrate, Map::DiscStatus, Map::PinSubstrate]);
     // Bits that nothing shortens, as those of measured heights: a multiplicative congruential generator.
@@ -98,8 +96,7 @@ fn a_finished_run_has_fixed_dimensions_and_a_map_that_never_changes_once() {
 
 #[test]
 fn only_the_maps_asked_for_exist() {
-    let directory = tempfile::tempdir().unwrap();
-    let path = directory.path().join("run.h5");
+    let (_directory, path) = place("run.h5");
     let header = header(4, 12, 5, &[Map::Pressure]);
     let mut writer = RunWriter::create(&path, false, &header).unwrap();
     writer.snapshot(snapshot(&header, 1.0)).unwrap();
@@ -118,8 +115,7 @@ fn only_the_maps_asked_for_exist() {
 
 #[test]
 fn the_attributes_say_where_the_run_comes_from() {
-    let directory = tempfile::tempdir().unwrap();
-    let path = directory.path().join("run.h5");
+    let (_directory, path) = place("run.h5");
     let mut header = small();
     // Longer than the 64 KiB that an object header can hold.
     header.scene = "# a long scene, µm\n".repeat(11_000);
@@ -160,8 +156,7 @@ fn digests_are_those_of_the_standard() {
 
 #[test]
 fn an_existing_file_is_replaced_only_on_demand_and_only_by_a_complete_one() {
-    let directory = tempfile::tempdir().unwrap();
-    let path = directory.path().join("run.h5");
+    let (directory, path) = place("run.h5");
     fs::write(&path, "precious").unwrap();
     let error = RunWriter::create(&path, false, &small()).unwrap_err();
     assert_eq!(error, RunFileError::Exists(path.clone()));
@@ -199,8 +194,7 @@ fn only_regular_files_are_replaced() {
 
 #[test]
 fn a_directory_that_cannot_be_used_is_named() {
-    let directory = tempfile::tempdir().unwrap();
-    let missing = directory.path().join("missing");
+    let (directory, missing) = place("missing");
     let error = RunWriter::create(&missing.join("run.h5"), false, &small()).unwrap_err();
     assert!(error.to_string().contains(&format!(": {} is not a directory;", missing.display())), "{error}");
 
@@ -226,8 +220,7 @@ fn a_name_that_hdf5_does_not_take_is_refused() {
 
 #[test]
 fn maps_that_do_not_fit_are_refused_and_the_run_goes_on() {
-    let directory = tempfile::tempdir().unwrap();
-    let path = directory.path().join("run.h5");
+    let (_directory, path) = place("run.h5");
     let header = small();
     let mut writer = RunWriter::create(&path, false, &header).unwrap();
     let mut lacking = snapshot(&header, 1.0);
@@ -244,8 +237,7 @@ fn maps_that_do_not_fit_are_refused_and_the_run_goes_on() {
 
 #[test]
 fn a_run_that_is_given_up_is_marked_failed() {
-    let directory = tempfile::tempdir().unwrap();
-    let path = directory.path().join("run.h5");
+    let (_directory, path) = place("run.h5");
     let mut writer = RunWriter::create(&path, false, &small()).unwrap();
     writer.sample(sample(1)).unwrap();
     drop(writer);
@@ -256,8 +248,7 @@ fn a_run_that_is_given_up_is_marked_failed() {
 
 #[test]
 fn a_file_that_was_replaced_by_another_is_left_alone() {
-    let directory = tempfile::tempdir().unwrap();
-    let path = directory.path().join("run.h5");
+    let (directory, path) = place("run.h5");
     let writer = RunWriter::create(&path, false, &small()).unwrap();
     fs::rename(&path, directory.path().join("moved.h5")).unwrap();
     fs::write(&path, "another").unwrap();

@@ -6,15 +6,14 @@ use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
 use crate::few_or_all;
-use crate::fixtures::{entries, header, open_following, run_file, sample, small, snapshot, text};
+use crate::fixtures::{entries, header, open_following, place, run_file, sample, small, snapshot, text};
 use plateau_core::observe::{Map, QUANTITIES};
 use plateau_io::process::report_file_size_limit;
 use plateau_io::run_file::{End, RunWriter};
 
 #[test]
 fn a_reader_sees_a_sample_within_a_second() {
-    let directory = tempfile::tempdir().unwrap();
-    let path = directory.path().join("run.h5");
+    let (_directory, path) = place("run.h5");
     let header = small();
     let mut writer = RunWriter::create(&path, false, &header).unwrap();
     let reader = open_in_another_process(&path);
@@ -156,8 +155,7 @@ fn child_cannot_create() {
 
 #[test]
 fn a_disk_that_is_full_at_the_end_leaves_a_readable_file() {
-    let directory = tempfile::tempdir().unwrap();
-    let path = directory.path().join("run.h5");
+    let (_directory, path) = place("run.h5");
     let mut writer = RunWriter::create(&path, false, &small()).unwrap();
     writer.sample(sample(1)).unwrap();
     let whole = writer.finish(&End::Finished, &[], None).unwrap().bytes;

@@ -15,6 +15,8 @@ use plateau_core::surface::{FibreSynthesis, Fill, HeightSynthesis, Level, Prepar
 use plateau_io::scene::{BaseSource, HeightSettings, HeightSource, OutputSettings, Scene, Workers};
 use plateau_io::surface::{Loaded, ReadOptions, load};
 
+use crate::fixtures::place;
+
 pub(crate) const ROWS: usize = 4;
 const DISC_COLUMNS: usize = 60;
 const PIN_COLUMNS: usize = 6;
@@ -162,8 +164,7 @@ fn hdf5_heights_come_through_bit_for_bit_and_base_as_it_is() {
 
 #[test]
 fn the_only_suitable_dataset_needs_no_name() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("one.h5");
+    let (_folder, path) = place("one.h5");
     let out = hdf5::File::create(&path).unwrap();
     let group = out.create_group("a").unwrap().create_group("b").unwrap();
     group.new_dataset_builder().with_data(&heights(DISC_COLUMNS, ROWS)).create("z").unwrap();
@@ -191,8 +192,7 @@ fn a_base_may_be_an_enumeration_as_in_run_files() {
         Primary = 1,
         Secondary = 2,
     }
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("run.h5");
+    let (_folder, path) = place("run.h5");
     let out = hdf5::File::create(&path).unwrap();
     let base = Array2::from_shape_fn(
         (PIN_COLUMNS, ROWS),
@@ -211,8 +211,7 @@ fn a_base_may_be_an_enumeration_as_in_run_files() {
 
 #[test]
 fn a_base_whose_dimensions_are_named_y_and_x_is_laid_out_by_name() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("base.h5");
+    let (_folder, path) = place("base.h5");
     let file = hdf5::File::create(&path).unwrap();
     let base = Array2::from_shape_fn((ROWS, PIN_COLUMNS), |(row, column)| u8::from(column == 1 && row == 0));
     let dataset = file.new_dataset_builder().with_data(&base).create("base").unwrap();

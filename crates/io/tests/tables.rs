@@ -7,6 +7,8 @@ use ::hdf5::types::{FixedAscii, VarLenUnicode};
 use plateau_core::surface::Patch;
 use plateau_io::surface::{Decimal, Format, Lay, Measured, ReadOptions, hdf5, read};
 
+use crate::fixtures::place;
+
 pub(crate) fn corpus(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/corpus/surfaces").join(name)
 }
@@ -189,8 +191,7 @@ fn dimensions_named_x_and_y_are_laid_out_by_name() {
 
 #[test]
 fn packed_numbers_are_what_netcdf_says_also_of_coordinates() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("a.nc");
+    let (_folder, path) = place("a.nc");
     // By hand: as 16 bits without a sign, -1 is 65535 and -32768 is 32768, which marks a missing point.
     let file = ::hdf5::File::create(&path).unwrap();
     let dataset = file.new_dataset::<i16>().shape((2, 3)).create("z").unwrap();
@@ -365,8 +366,7 @@ fn a_file_of_an_instrument_is_to_be_converted_whatever_is_said_of_it() {
 
 #[test]
 fn coordinates_that_are_no_grid_are_refused() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("a.nc");
+    let (_folder, path) = place("a.nc");
     // Every coordinate of x, and its unit, in a copy of the file of xarray.
     let case = |x: [f64; 5], units: &str| {
         fs::copy(corpus("packed.nc"), &path).unwrap();
@@ -397,8 +397,7 @@ fn coordinates_that_are_no_grid_are_refused() {
 
 #[test]
 fn attributes_that_say_otherwise_are_refused() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("a.h5");
+    let (_folder, path) = place("a.h5");
     let case = |units: &str, pitch: &[f64]| {
         let file = ::hdf5::File::create(&path).unwrap();
         let dataset = file.new_dataset_builder().with_data(&ndarray::arr2(&[[1.0, 2.0]])).create("z").unwrap();
@@ -427,8 +426,7 @@ fn attributes_that_say_otherwise_are_refused() {
 
 #[test]
 fn images_that_are_no_heights() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("a.png");
+    let (_folder, path) = place("a.png");
     let case = |colour: png::ColorType, depth: png::BitDepth, data: &[u8]| {
         let mut encoder = png::Encoder::new(fs::File::create(&path).unwrap(), 2, 1);
         encoder.set_color(colour);
@@ -457,8 +455,7 @@ fn images_that_are_no_heights() {
 
 #[test]
 fn a_workbook_is_named_with_what_to_do() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("heights.csv");
+    let (_folder, path) = place("heights.csv");
     let mut archive = zip::ZipWriter::new(fs::File::create(&path).unwrap());
     archive.start_file("content.xml", zip::write::SimpleFileOptions::default()).unwrap();
     archive.finish().unwrap();

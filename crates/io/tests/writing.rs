@@ -7,7 +7,7 @@ use plateau_core::surface::Patch;
 use plateau_io::surface::sdf::{Dialect, Encoding, SdfKind};
 use plateau_io::surface::{Format, ReadOptions, WriteError, read, write};
 
-use crate::fixtures::entries;
+use crate::fixtures::{entries, place};
 
 /// Heights of every size and sign, missing points at the corners and in a row, pitches that decimals round.
 fn patch(columns: usize, rows: usize) -> Patch {
@@ -58,8 +58,7 @@ fn what_was_written_is_read_bit_for_bit() {
 
 #[test]
 fn sdf_is_iso_1_and_binary_unless_there_are_too_many_points_or_some_are_missing() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("out.sdf");
+    let (_folder, path) = place("out.sdf");
     for (columns, missing, dialect, encoding) in [
         (65_535, false, Dialect::Iso1, Encoding::Binary),
         (65_536, true, Dialect::Iso1, Encoding::Ascii),
@@ -78,8 +77,7 @@ fn sdf_is_iso_1_and_binary_unless_there_are_too_many_points_or_some_are_missing(
 
 #[test]
 fn an_existing_file_is_replaced_only_when_that_is_asked_for_and_never_damaged() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("out.h5");
+    let (folder, path) = place("out.h5");
     fs::write(&path, "precious").unwrap();
     let error = write(&path, &patch(4, 5), false).unwrap_err();
     assert!(matches!(error, WriteError::Exists { .. }));

@@ -16,8 +16,21 @@ fn leave(lock: &Path) -> Owner {
     }))
     .unwrap();
     child.wait().unwrap();
-    fs::write(lock, serde_json::to_string(&owner).unwrap() + "\n").unwrap();
+    write(lock, &owner);
     owner
+}
+
+fn place(name: &str) -> (tempfile::TempDir, PathBuf) {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join(name);
+    (folder, path)
+}
+
+/// Writes a lock; its text.
+fn write(lock: &Path, owner: &Owner) -> String {
+    let text = serde_json::to_string(owner).unwrap() + "\n";
+    fs::write(lock, &text).unwrap();
+    text
 }
 
 fn names(folder: &Path) -> Vec<String> {
@@ -29,8 +42,7 @@ fn names(folder: &Path) -> Vec<String> {
 
 #[test]
 fn a_claim_is_one_process_s_until_it_ends() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("run.h5");
+    let (folder, path) = place("run.h5");
     let claim = Claim::of(&path).unwrap();
     assert_eq!(names(folder.path()), ["run.h5.lock"]);
     for refused in [Claim::of(&path).map(drop), Claim::check(&path).map(drop)] {
@@ -57,8 +69,7 @@ fn a_link_is_claimed_where_it_points_to() {
 #[test]
 fn of_many_that_find_a_lock_left_over_one_has_it_at_a_time() {
     const MANY: usize = 8;
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("run.h5");
+    let (folder, path) = place("run.h5");
     let (holders, taken, start) = (AtomicUsize::new(0), AtomicUsize::new(0), Barrier::new(MANY));
     for round in 0..100 {
         leave(&lock_of(&path));
@@ -82,12 +93,10 @@ fn of_many_that_find_a_lock_left_over_one_has_it_at_a_time() {
 
 #[test]
 fn who_may_live_elsewhere_is_named_with_the_file_to_remove() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("run.h5");
+    let (_folder, path) = place("run.h5");
     let mut owner = leave(&lock_of(&path));
     owner.writer.machine.host = "node17".into();
-    let text = serde_json::to_string(&owner).unwrap() + "\n";
-    fs::write(lock_of(&path), &text).unwrap();
+    let text = write(&lock_of(&path), &owner);
     let message = Claim::of(&path).unwrap_err().to_string();
     assert!(message.contains("of the machine node17"), "{message}");
     assert!(message.ends_with(&format!("remove {}", lock_of(&path).display())), "{message}");
@@ -96,12 +105,11 @@ fn who_may_live_elsewhere_is_named_with_the_file_to_remove() {
 
 #[test]
 fn a_lock_from_elsewhere_is_taken_over_when_nobody_touches_it() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("run");
+    let (folder, path) = place("run");
     assert_eq!(Claim::seen(&path), None);
     let mut owner = leave(&lock_of(&path));
     owner.writer.machine.host = "node17".into();
-    fs::write(lock_of(&path), serde_json::to_string(&owner).unwrap() + "\n").unwrap();
+    write(&lock_of(&path), &owner);
     let first = Claim::seen(&path).unwrap();
     // As its process shows that it lives.
     let later = SystemTime::now() + Duration::from_secs(1);
@@ -122,15 +130,13 @@ fn a_lock_from_elsewhere_is_taken_over_when_nobody_touches_it() {
 
 #[test]
 fn the_lock_of_a_living_process_on_another_machine_of_the_same_name_stays() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("run.h5");
+    let (_folder, path) = place("run.h5");
     for boot in ["another", ""] {
         let mut owner = Owner::this();
         let machine = &mut owner.writer.machine;
         // As of a copy of this machine, or of a container that is started again elsewhere.
         (machine.boot, machine.hardware) = (boot.into(), vec!["another".into()]);
-        let text = serde_json::to_string(&owner).unwrap() + "\n";
-        fs::write(lock_of(&path), &text).unwrap();
+        let text = write(&lock_of(&path), &owner);
         for refused in [Claim::of(&path).map(drop), Claim::check(&path).map(drop)] {
             assert!(matches!(refused, Err(ClaimError::Elsewhere { .. })), "{refused:?}");
         }
@@ -140,8 +146,7 @@ fn the_lock_of_a_living_process_on_another_machine_of_the_same_name_stays() {
 
 #[test]
 fn a_lock_left_over_of_a_file_that_is_written_stays() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("run.h5");
+    let (_folder, path) = place("run.h5");
     leave(&lock_of(&path));
     let text = fs::read_to_string(lock_of(&path)).unwrap();
     let mut writer = Command::new("sleep").arg("60").stdout(File::create(&path).unwrap()).spawn().unwrap();
@@ -155,8 +160,7 @@ fn a_lock_left_over_of_a_file_that_is_written_stays() {
 
 #[test]
 fn a_lock_of_another_version_is_named_and_stays() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("run.h5");
+    let (_folder, path) = place("run.h5");
     let lock = lock_of(&path);
     for version in [1, 3] {
         let content = format!("{{\"plateau_lock\":{version},\"writer\":7}}\n");
@@ -169,8 +173,7 @@ fn a_lock_of_another_version_is_named_and_stays() {
 
 #[test]
 fn what_is_no_lock_is_named_and_stays() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("run.h5");
+    let (_folder, path) = place("run.h5");
     let lock = lock_of(&path);
     for content in [b"notes".as_slice(), b"{}\n", b"\xff\xfe", &[b'a'; 5000], b"{\"plateau_lock\":1,"] {
         fs::write(&lock, content).unwrap();
@@ -179,8 +182,7 @@ fn what_is_no_lock_is_named_and_stays() {
         assert_eq!(fs::read(&lock).unwrap(), content);
     }
     for odd in ["x\n\nplateau: fine", "\u{202e}"] {
-        let owner = Owner { since: odd.into(), ..Owner::this() };
-        fs::write(&lock, serde_json::to_string(&owner).unwrap() + "\n").unwrap();
+        write(&lock, &Owner { since: odd.into(), ..Owner::this() });
         assert!(matches!(Claim::of(&path), Err(ClaimError::Foreign { .. })), "{odd:?}");
     }
     fs::remove_file(&lock).unwrap();
@@ -193,8 +195,7 @@ fn what_is_no_lock_is_named_and_stays() {
 
 #[test]
 fn what_was_left_while_a_lock_was_made_goes_too() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("run.h5");
+    let (folder, path) = place("run.h5");
     leave(&lock_of(&path));
     let mut ended = Command::new("true").spawn().unwrap();
     let process = ended.id();
@@ -210,8 +211,7 @@ fn what_was_left_while_a_lock_was_made_goes_too() {
 
 #[test]
 fn nobody_takes_over_what_another_takes_over() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("run.h5");
+    let (_folder, path) = place("run.h5");
     let lock = lock_of(&path);
     let left = leave(&lock);
     let taking_over = File::open(&lock).unwrap();

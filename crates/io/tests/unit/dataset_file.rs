@@ -2,6 +2,12 @@ use std::fs;
 
 use super::*;
 
+fn place(name: &str) -> (tempfile::TempDir, PathBuf) {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join(name);
+    (folder, path)
+}
+
 /// A file without rows that come one by one.
 fn write(path: &Path, replace: bool, content: &Content) -> Result<(), DatasetFileError> {
     write_rows(path, replace, content, |_| Ok(()))
@@ -37,8 +43,7 @@ fn content() -> Content {
 
 #[test]
 fn what_is_written_is_read() {
-    let directory = tempfile::tempdir().unwrap();
-    let path = directory.path().join("results.h5");
+    let (_directory, path) = place("results.h5");
     write(&path, false, &content()).unwrap();
     let file = File::open(&path).unwrap();
     let area: Vec<f64> = file.dataset("area").unwrap().read_raw().unwrap();
@@ -53,8 +58,7 @@ fn what_is_written_is_read() {
 
 #[test]
 fn rows_come_one_by_one() {
-    let directory = tempfile::tempdir().unwrap();
-    let path = directory.path().join("rows.h5");
+    let (_directory, path) = place("rows.h5");
     let mut content = content();
     content.variables[0].values = Values::Rows;
     write_rows(&path, false, &content, |rows| rows.put("area", 1, &[4.0, 5.0])).unwrap();
@@ -70,8 +74,7 @@ fn rows_come_one_by_one() {
 
 #[test]
 fn there_may_be_nothing_along_a_dimension() {
-    let directory = tempfile::tempdir().unwrap();
-    let path = directory.path().join("results.h5");
+    let (_directory, path) = place("results.h5");
     let mut content = content();
     content.dimensions[0].values.clear();
     content.variables[0].values = Values::Float(Vec::new());
@@ -82,8 +85,7 @@ fn there_may_be_nothing_along_a_dimension() {
 
 #[test]
 fn another_file_is_replaced_only_on_demand() {
-    let directory = tempfile::tempdir().unwrap();
-    let path = directory.path().join("results.h5");
+    let (directory, path) = place("results.h5");
     fs::write(&path, "mine").unwrap();
     assert!(write(&path, false, &content()).is_err());
     assert_eq!(fs::read(&path).unwrap(), b"mine");

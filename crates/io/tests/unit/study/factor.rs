@@ -23,6 +23,13 @@ fn factor(key: &str, ends: [&str; 2], logarithmic: bool) -> Factor {
     Factor { name: "f".into(), keys: vec![key.into()], stated_unit: String::new(), values }
 }
 
+/// A factor of a rig with these levels.
+fn rig(levels: &[&str]) -> Factor {
+    let level = |text: &&str| Level::new("", &toml::Value::String((*text).into()));
+    let values = Values::Levels(levels.iter().map(level).collect());
+    Factor { name: "f".into(), keys: Vec::new(), stated_unit: String::new(), values }
+}
+
 #[test]
 fn values_between_are_in_the_unit_of_the_ends() {
     let load = factor("operation.normal_force", ["\"20 N\"", "\"60 N\""], false);
@@ -64,15 +71,14 @@ fn a_factor_of_a_rig_has_the_unit_in_which_it_is_stated() {
 fn words_of_a_rig_are_words_whatever_they_look_like() {
     let level = |text: &str| Level::new("", &toml::Value::String(text.into()));
     let levels = ["nan", "inf", "1e3", "1000", "007", "7", "-", "=1+1", "30%", "\u{2212}5", "\"a\""];
-    let values = Values::Levels(levels.map(level).to_vec());
-    let grade = Factor { name: "grade".into(), keys: Vec::new(), stated_unit: String::new(), values };
+    let grade = rig(&levels);
     assert_eq!(grade.unit(), "");
     for word in levels {
         assert_eq!(grade.parse(word), level(word));
         assert_eq!((level(word).label.as_str(), level(word).number), (word, None));
     }
     // Of a table, which has no quotes.
-    let of_table = |text: &str| Factor { values: Values::Levels(Vec::new()), ..grade.clone() }.parse(text).number;
+    let of_table = |text: &str| rig(&[]).parse(text).number;
     assert_eq!(["1e3", "-.5", "+2", "0", "0.5"].map(of_table), [1e3, -0.5, 2.0, 0.0, 0.5].map(Some));
     assert_eq!(["A", "inf", "nan", "1e400", "2b", "", "007", "-", "=1+1"].map(of_table), [None; 9]);
     assert_eq!(["1 N", "1e400 N", "07 N"].map(|text| level(text).number), [Some(1.0), None, None]);
@@ -97,22 +103,14 @@ fn very_small_values_between_have_no_row_of_zeros() {
 
 #[test]
 fn settings_without_a_value_are_told_as_they_would_be_found() {
-    let levels = |labels: &[&str]| Factor {
-        name: "f".into(),
-        keys: Vec::new(),
-        stated_unit: String::new(),
-        values: Values::Levels(
-            labels.iter().map(|label| Level::new("", &toml::Value::String((*label).into()))).collect(),
-        ),
-    };
     let range = |ends, logarithmic| factor("contact.foundation_height", ends, logarithmic);
     for factor in [
-        levels(&[]),
-        levels(&["1 N"]),
-        levels(&["1 N", "2 N"]),
-        levels(&["1 N", "2 kN"]),
-        levels(&["a", "b"]),
-        levels(&["1 N", "2 N", "3 N"]),
+        rig(&[]),
+        rig(&["1 N"]),
+        rig(&["1 N", "2 N"]),
+        rig(&["1 N", "2 kN"]),
+        rig(&["a", "b"]),
+        rig(&["1 N", "2 N", "3 N"]),
         range(["\"50 um\"", "\"1 mm\""], false),
         range(["\"50 um\"", "\"60 um\""], true),
     ] {

@@ -1,7 +1,7 @@
 //! Journals of several processes, torn ones, and ones that are made smaller.
 
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use super::{COMPLETE, FEW, Journal, OPEN, Shard, line, merge, next_line, shards};
 use crate::study::record::{Identity, Outcome, Record, Series};
@@ -16,6 +16,15 @@ fn record(identity: &str, finished: bool) -> Record {
     let (host, end_time) = ("h".into(), "now".into());
     let of = Identity::default();
     Record { identity: identity.into(), of, run: 1, outcome, wall_time: 0.5, host, end_time }
+}
+
+/// A complete shard of these records; where it is.
+fn keep(folder: &Path, records: &[Record]) -> PathBuf {
+    let mut shard = Shard::create(folder, "h").unwrap();
+    records.iter().for_each(|record| shard.append(record).unwrap());
+    let path = shard.path.with_extension(COMPLETE);
+    shard.close().unwrap();
+    path
 }
 
 fn identities(folder: &Path) -> Vec<(String, bool)> {
@@ -33,15 +42,11 @@ fn identities(folder: &Path) -> Vec<(String, bool)> {
 #[test]
 fn records_come_back_and_a_torn_line_is_passed_over() {
     let folder = tempfile::tempdir().unwrap();
-    let mut shard = Shard::create(folder.path(), "h").unwrap();
-    shard.append(&record("a", true)).unwrap();
-    shard.append(&record("b", false)).unwrap();
-    let path = shard.path.clone();
-    shard.close().unwrap();
-    let bytes = fs::read(path.with_extension(COMPLETE)).unwrap();
+    let path = keep(folder.path(), &[record("a", true), record("b", false)]);
+    let bytes = fs::read(&path).unwrap();
     let whole = bytes.iter().position(|byte| *byte == b'\n').unwrap() + 1;
     for length in 0..=bytes.len() {
-        fs::write(path.with_extension(COMPLETE), &bytes[..length]).unwrap();
+        fs::write(&path, &bytes[..length]).unwrap();
         let expected = usize::from(length >= whole) + usize::from(length == bytes.len());
         assert_eq!(identities(folder.path()).len(), expected, "cut at {length}");
     }
@@ -49,7 +54,7 @@ fn records_come_back_and_a_torn_line_is_passed_over() {
     for at in (0..whole).step_by(7) {
         let mut changed = bytes.clone();
         changed[at] ^= 1;
-        fs::write(path.with_extension(COMPLETE), &changed).unwrap();
+        fs::write(&path, &changed).unwrap();
         assert!(!identities(folder.path()).contains(&("a".into(), true)), "bit of byte {at}");
     }
 }
@@ -58,9 +63,7 @@ fn records_come_back_and_a_torn_line_is_passed_over() {
 fn what_finished_counts_more_than_what_failed() {
     let folder = tempfile::tempdir().unwrap();
     for finished in [false, true, false] {
-        let mut shard = Shard::create(folder.path(), "h").unwrap();
-        shard.append(&record("a", finished)).unwrap();
-        shard.close().unwrap();
+        keep(folder.path(), &[record("a", finished)]);
     }
     assert_eq!(identities(folder.path()), [("a".to_owned(), true)]);
 }
@@ -69,9 +72,7 @@ fn what_finished_counts_more_than_what_failed() {
 fn merging_keeps_every_record_in_few_files() {
     let folder = tempfile::tempdir().unwrap();
     for number in 0..30 {
-        let mut shard = Shard::create(folder.path(), "h").unwrap();
-        shard.append(&record(&format!("{number:02}"), true)).unwrap();
-        shard.close().unwrap();
+        keep(folder.path(), &[record(&format!("{number:02}"), true)]);
         merge(folder.path(), "h").unwrap();
         assert!(shards(folder.path()).unwrap().len() <= FEW);
     }
@@ -92,9 +93,7 @@ fn what_is_no_record_stays_where_it_is() {
     let strange = Journal::read(folder.path()).unwrap().strange;
     assert_eq!(strange.len(), 5);
     for number in 0..12 {
-        let mut shard = Shard::create(folder.path(), "h").unwrap();
-        shard.append(&record(&format!("{number:02}"), true)).unwrap();
-        shard.close().unwrap();
+        keep(folder.path(), &[record(&format!("{number:02}"), true)]);
     }
     // Of processes that were killed before their first record, and in the midst of one.
     fs::write(path(&format!("h_1_b-0.{COMPLETE}")), "").unwrap();
@@ -157,10 +156,8 @@ fn of_runs_that_were_made_again_the_one_that_kept_most_counts() {
     for names in names {
         let columns = names.iter().map(|_| vec![1.0]).collect();
         let series = Series::new(names.iter().map(|name| (*name).to_owned()).collect(), columns).pack();
-        let mut shard = Shard::create(folder.path(), "h").unwrap();
         let outcome = Outcome::Finished { steps: 2, until: 3.0, series, events: None, pulse_time: None };
-        shard.append(&Record { outcome, ..record("a", true) }).unwrap();
-        shard.close().unwrap();
+        keep(folder.path(), &[Record { outcome, ..record("a", true) }]);
     }
     let journal = Journal::read(folder.path()).unwrap();
     let entry = journal.get("a").unwrap();

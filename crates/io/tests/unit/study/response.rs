@@ -7,11 +7,15 @@ use super::*;
 use crate::scene::load;
 use crate::study::record::Outcome;
 
+fn response(series: &str, question: Question) -> Response {
+    Response { name: "r".into(), series: series.into(), question, transform: "none", stated_unit: None }
+}
+
 fn of_pool(question: Question, values: &[f64], until: f64) -> Result<f64, NoAnswer> {
     let time: Vec<f64> = (1..=values.len()).map(|at| at as f64).collect();
     let pool = Series::new(vec!["time".into(), "pool".into()], vec![time, values.to_vec()]);
     let run = Series { until, ..pool };
-    Response { name: "r".into(), series: "pool".into(), question, transform: "none", stated_unit: None }.of(&run)
+    response("pool", question).of(&run)
 }
 
 fn ask(question: Question, values: &[f64]) -> Option<f64> {
@@ -90,17 +94,10 @@ fn a_series_with_gaps_reaches_its_end_over_the_time_in_which_it_has_a_value() {
 
 #[test]
 fn reaches_of_the_contact_area_needs_its_integral_and_knows_its_pulses() {
-    let of = |series: &str, question: Question| Response {
-        name: "r".into(),
-        series: series.into(),
-        question,
-        transform: "none",
-        stated_unit: None,
-    };
-    let area = of("contact_area", Question::Reaches(0.9));
+    let area = response("contact_area", Question::Reaches(0.9));
     assert_eq!(area.needs().collect::<Vec<_>>(), ["contact_area", INTEGRAL, CONTACT_TIME]);
-    assert_eq!(of("pool", Question::Reaches(0.9)).needs().collect::<Vec<_>>(), ["pool"]);
-    assert_eq!(of("contact_area", Question::End).needs().collect::<Vec<_>>(), ["contact_area"]);
+    assert_eq!(response("pool", Question::Reaches(0.9)).needs().collect::<Vec<_>>(), ["pool"]);
+    assert_eq!(response("contact_area", Question::End).needs().collect::<Vec<_>>(), ["contact_area"]);
     // 1 − exp(−t/40 s): in 600 s a quarter is two pulses of 75 s.
     let time: Vec<f64> = (1..=600).map(f64::from).collect();
     let integral: Vec<f64> = time.iter().map(|time| time - 40.0 * (1.0 - (-time / 40.0).exp())).collect();
@@ -125,21 +122,13 @@ fn means_of_the_contact_area_of_a_cycle_are_over_the_time_in_contact() {
     let columns = ["time", "contact_area", "contact_area_integral", CONTACT_TIME].map(String::from).to_vec();
     let values = [[1.0, 2.0, 3.0, 4.0], [3.0, 3.0, 0.0, 0.0], [3.0, 6.0, 6.0, 6.0], [1.0, 2.0, 2.0, 2.0]];
     let run = Series::new(columns, values.map(Vec::from).to_vec());
-    let question = Question::Mean(0.0, 4.0);
-    let response =
-        Response { name: "a".into(), series: "contact_area".into(), question, transform: "none", stated_unit: None };
-    assert_eq!(response.of(&run), Ok(3.0));
+    assert_eq!(response("contact_area", Question::Mean(0.0, 4.0)).of(&run), Ok(3.0));
 }
 
 #[test]
 fn events_are_asked_by_number_and_in_the_mean() {
     let run = Series { events: vec![("worn".into(), vec![3.0, f64::NAN, 5.0])], ..Series::default() };
-    let ask = |which| {
-        let question = Question::Event(which);
-        Response { name: "w".into(), series: "event/worn".into(), question, transform: "none", stated_unit: None }
-            .of(&run)
-            .ok()
-    };
+    let ask = |which| response("event/worn", Question::Event(which)).of(&run).ok();
     assert_eq!(ask(WhichEvent::Number(1)), Some(3.0));
     assert_eq!([ask(WhichEvent::Number(2)), ask(WhichEvent::Number(4)), ask(WhichEvent::Number(0))], [None; 3]);
     assert_eq!((ask(WhichEvent::Last), ask(WhichEvent::Mean)), (Some(5.0), Some(4.0)));
@@ -149,12 +138,7 @@ fn events_are_asked_by_number_and_in_the_mean() {
 fn means_of_the_contact_area_come_from_its_integral() {
     let columns = ["time", "contact_area", "contact_area_integral"].map(String::from).to_vec();
     let run = Series::new(columns, vec![vec![1.0, 2.0], vec![7.0, 7.0], vec![3.0, 8.0]]);
-    let mean = |from, to| {
-        let question = Question::Mean(from, to);
-        Response { name: "a".into(), series: "contact_area".into(), question, transform: "none", stated_unit: None }
-            .of(&run)
-            .ok()
-    };
+    let mean = |from, to| response("contact_area", Question::Mean(from, to)).of(&run).ok();
     assert_eq!([mean(0.0, 2.0), mean(1.0, 2.0)], [Some(4.0), Some(5.0)]);
 }
 
@@ -170,9 +154,7 @@ fn means_of_the_last_tenth_take_in_ten_revolutions() {
         let columns = [Some(&time), Some(&square), Some(&time), Some(&time), Some(&time), revolutions];
         let known = names.into_iter().zip(columns).filter_map(|(name, column)| Some((name.into(), column?.clone())));
         let (names, columns) = known.unzip();
-        let question = Question::MeanOfLastTenth;
-        let response =
-            Response { name: "r".into(), series: series.into(), question, transform: "none", stated_unit: None };
+        let response = response(series, Question::MeanOfLastTenth);
         let run = Series::new(names, columns);
         (response.of(&run).ok(), response.error_of(&run).is_some())
     };
@@ -224,7 +206,7 @@ fn no_series_of_a_run_is_lacking() {
 }
 
 fn bounds(series: &str, question: Question) -> Bounds {
-    Response { name: "r".into(), series: series.into(), question, transform: "none", stated_unit: None }.bounds()
+    response(series, question).bounds()
 }
 
 #[test]

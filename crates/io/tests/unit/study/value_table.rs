@@ -1,21 +1,26 @@
 use super::*;
 use crate::study::factor::Values;
 
-fn table(text: &str) -> Result<ValueTable, String> {
+/// What is made of a file with this text; the folder is left out of what is said.
+fn read<T>(text: &str, reading: impl Fn(&Path) -> Result<T, String>) -> Result<T, String> {
     let directory = tempfile::tempdir().unwrap();
     let path = directory.path().join("t.csv");
     std::fs::write(&path, text).unwrap();
-    ValueTable::read(&path).map_err(|error| error.replace(&directory.path().display().to_string(), "."))
+    reading(&path).map_err(|error| error.replace(&directory.path().display().to_string(), "."))
+}
+
+fn table(text: &str) -> Result<ValueTable, String> {
+    read(text, ValueTable::read)
+}
+
+/// A factor whose levels the table has.
+fn factor(name: &str, key: &str) -> Factor {
+    let keys = if key.is_empty() { Vec::new() } else { vec![key.into()] };
+    Factor { name: name.into(), keys, stated_unit: String::new(), values: Values::Levels(Vec::new()) }
 }
 
 #[test]
 fn columns_have_names_and_units() {
-    let factor = |name: &str, key: &str| Factor {
-        name: name.into(),
-        keys: vec![key.into()],
-        stated_unit: String::new(),
-        values: Values::Levels(Vec::new()),
-    };
     let factors = [factor("load", "operation.normal_force"), factor("fibres", "pin.base.synthetic.fibre_fraction")];
     let table =
         table("load [kN],y [m2],pin.base.synthetic.fibre_fraction\n# measured\n0.005,1e-6,0.2\n,,0.3\n").unwrap();
@@ -30,12 +35,7 @@ fn columns_have_names_and_units() {
 
 #[test]
 fn what_is_too_much_or_no_text_is_refused() {
-    let directory = tempfile::tempdir().unwrap();
-    let path = directory.path().join("t.csv");
-    let read = |text: &str| {
-        std::fs::write(&path, text).unwrap();
-        ValueTable::read_rows(&path, 3).map_err(|error| error.replace(&directory.path().display().to_string(), "."))
-    };
+    let read = |text: &str| read(text, |path| ValueTable::read_rows(path, 3));
     assert_eq!(read("a\n1\n2\n3\n4\n").unwrap_err(), "./t.csv:5: more points, expected at most 3");
     let bell = read("a,b\n5 N\u{7},1\n").unwrap_err();
     assert_eq!(bell, "./t.csv:2: \"a\" has the control character U+0007; take it out");
@@ -49,17 +49,8 @@ fn what_is_wrong_is_said() {
 }
 
 fn read_text(text: &str) -> Result<Points, String> {
-    let directory = tempfile::tempdir().unwrap();
-    let path = directory.path().join("points.csv");
-    std::fs::write(&path, text).unwrap();
-    let factor = |name: &str, key: &str| Factor {
-        name: name.into(),
-        keys: vec![key.into()],
-        stated_unit: String::new(),
-        values: Values::Levels(Vec::new()),
-    };
     let factors = [factor("load", "operation.normal_force"), factor("rows", "mesh.rows")];
-    read_points(&path, &factors, &["y"]).map_err(|error| error.replace(&directory.path().display().to_string(), "."))
+    read(text, |path| read_points(path, &factors, &["y"]))
 }
 
 #[test]
@@ -89,18 +80,11 @@ fn levels_that_the_study_lists_are_the_only_ones() {
 
 #[test]
 fn a_word_among_numbers_is_no_level() {
-    let directory = tempfile::tempdir().unwrap();
-    let path = directory.path().join("points.csv");
-    let values = Values::Levels(Vec::new());
-    let factors = [Factor { name: "humidity".into(), keys: Vec::new(), stated_unit: String::new(), values }];
-    let read = |text: &str| {
-        std::fs::write(&path, text).unwrap();
-        read_points(&path, &factors, &[])
-    };
+    let factors = [factor("humidity", "")];
+    let read = |text: &str| read(text, |path| read_points(path, &factors, &[]));
     for word in ["O.3", "1e400", "0,3", "high"] {
         let said = read(&format!("humidity\n0.4\n\"{word}\"\n0.5\n")).unwrap_err();
-        let expected =
-            format!("points.csv:3: \"humidity\" is \"{word}\", which is no number, and 0.4 in line 2 is one;");
+        let expected = format!("t.csv:3: \"humidity\" is \"{word}\", which is no number, and 0.4 in line 2 is one;");
         assert!(said.contains(&expected), "{said}");
     }
     assert_eq!(read("humidity\nhigh\nlow\n").unwrap().len(), 2);
@@ -108,11 +92,8 @@ fn a_word_among_numbers_is_no_level() {
 
 #[test]
 fn what_is_wrong_with_points_is_said() {
-    assert_eq!(read_text("load\n5 N\n").unwrap_err(), "./points.csv: no column \"rows\"; it has load");
-    assert_eq!(
-        read_text("load,rows,x\n5 N,1,2\n").unwrap_err(),
-        "./points.csv: column \"x\" is not a factor of the study"
-    );
-    assert_eq!(read_text("load,rows\n5 N,\n").unwrap_err(), "./points.csv:2: \"rows\" is empty");
-    assert_eq!(read_text("load,rows\n").unwrap_err(), "./points.csv: no points, expected a line for each");
+    assert_eq!(read_text("load\n5 N\n").unwrap_err(), "./t.csv: no column \"rows\"; it has load");
+    assert_eq!(read_text("load,rows,x\n5 N,1,2\n").unwrap_err(), "./t.csv: column \"x\" is not a factor of the study");
+    assert_eq!(read_text("load,rows\n5 N,\n").unwrap_err(), "./t.csv:2: \"rows\" is empty");
+    assert_eq!(read_text("load,rows\n").unwrap_err(), "./t.csv: no points, expected a line for each");
 }
