@@ -166,8 +166,8 @@ fn images_that_promise_more_than_they_hold() {
     }
 }
 
-/// ISO 3309, the checksum of PNG chunks.
-fn crc32(bytes: &[u8]) -> u32 {
+/// ISO 3309, the checksum of PNG chunks and of records.
+pub(crate) fn crc32(bytes: &[u8]) -> u32 {
     let step = |crc: u32, byte: &u8| {
         (0..8).fold(crc ^ u32::from(*byte), |crc, _| if crc & 1 == 1 { crc >> 1 ^ 0xedb8_8320 } else { crc >> 1 })
     };

@@ -179,25 +179,36 @@ fn a_resolved_scene_says_everything_in_the_order_of_the_format() {
     insta::assert_snapshot!("resolved", resolved.replace(folder.to_str().unwrap(), "[folder]"));
 }
 
+/// The path of `minimal.toml` as TOML has it.
+fn minimal() -> toml::Value {
+    toml::Value::from(&*std::path::absolute(good("minimal.toml")).unwrap().to_string_lossy())
+}
+
+/// What a scene is warned of with these words.
+fn warned(path: &Path, words: &str) -> Vec<String> {
+    let scene = scene::load(path, &[]).unwrap();
+    let warnings = scene.warnings.iter().map(ToString::to_string);
+    warnings.filter(|warning| warning.contains(words)).collect()
+}
+
 #[test]
 fn none_takes_out_a_step_that_is_inherited() {
     let folder = tempfile::tempdir().unwrap();
-    let base = std::path::absolute(good("minimal.toml")).unwrap();
-    let write = |name: &str, extends: &str, steps: &str| {
+    let write = |name: &str, extends: &toml::Value, steps: &str| {
         let path = folder.path().join(name);
-        let text = format!("extends = {}\n[disc.prepare]\n{steps}\n", toml::Value::from(extends));
-        std::fs::write(&path, text).unwrap();
+        std::fs::write(&path, format!("extends = {extends}\n[disc.prepare]\n{steps}\n")).unwrap();
         path
     };
     let steps = "cutoff = \"3 um\"\noutliers = 6\nfill = \"level\"\nl_filter = \"1 mm\"\nextend = \"statistics\"\nextend_seed = 3\n\
         crop = { along = [\"1 mm\", \"9 mm\"] }\nunroll = { centre = [\"4 mm\", \"-20 mm\"] }";
-    write("base.toml", &base.to_string_lossy(), steps);
+    write("base.toml", &minimal(), steps);
+    let base = toml::Value::from("base.toml");
     let all = ["cutoff", "outliers", "fill", "l_filter", "extend", "crop", "unroll"];
     let none = all.map(|step| format!("{step} = \"none\"")).join("\n");
-    let kept = scene::load(&write("kept.toml", "base.toml", "cutoff = \"4 um\""), &[]).unwrap();
+    let kept = scene::load(&write("kept.toml", &base, "cutoff = \"4 um\""), &[]).unwrap();
     let preparation = kept.disc_surface.preparation;
     assert_eq!((preparation.cutoff, preparation.outliers, preparation.l_filter), (Some(4e-6), Some(6.0), Some(1e-3)));
-    let path = write("none.toml", "base.toml", &none);
+    let path = write("none.toml", &base, &none);
     let taken_out = scene::load(&path, &[]).unwrap();
     assert_eq!(taken_out.disc_surface.preparation, Preparation::NONE);
     // What is stored with a run is as if there had never been such steps, so that any reader of scenes takes it.
@@ -221,7 +232,6 @@ fn none_takes_out_a_step_that_is_inherited() {
 #[test]
 fn a_constant_beside_an_inherited_cycle_is_told_to_change_nothing() {
     let folder = tempfile::tempdir().unwrap();
-    let base = std::path::absolute(good("minimal.toml")).unwrap();
     let write = |name: &str, text: String| {
         let path = folder.path().join(name);
         std::fs::write(&path, text).unwrap();
@@ -229,16 +239,9 @@ fn a_constant_beside_an_inherited_cycle_is_told_to_change_nothing() {
     };
     write("loads.csv", "time [s],normal_force [N]\n0,4\n9,6\n".to_owned());
     let cycle = "cycle.file = \"loads.csv\"";
-    let stop = write(
-        "stop.toml",
-        format!("extends = {}\n[operation]\n{cycle}\n", toml::Value::from(&*base.to_string_lossy())),
-    );
+    let stop = write("stop.toml", format!("extends = {}\n[operation]\n{cycle}\n", minimal()));
     let own = |constant: &str| write("own.toml", format!("extends = \"stop.toml\"\n[operation]\n{constant}\n"));
-    let warned = |path: &Path| {
-        let scene = scene::load(path, &[]).unwrap();
-        let warnings = scene.warnings.iter().map(ToString::to_string);
-        warnings.filter(|warning| warning.contains("beside a cycle that has a column of its own")).collect::<Vec<_>>()
-    };
+    let warned = |path: &Path| warned(path, "beside a cycle that has a column of its own");
     // The constant that the cycle was laid over is there in every scene with a cycle.
     assert_eq!(warned(&stop), [""; 0]);
     let said = warned(&own("normal_force = \"40 N\""));
@@ -251,15 +254,11 @@ fn a_constant_beside_an_inherited_cycle_is_told_to_change_nothing() {
 #[test]
 fn a_vehicle_that_brakes_while_its_disc_does_not_is_wondered_at() {
     let folder = tempfile::tempdir().unwrap();
-    let base = std::path::absolute(good("minimal.toml")).unwrap();
-    let base = toml::Value::from(&*base.to_string_lossy());
     let path = folder.path().join("scene.toml");
-    std::fs::write(&path, format!("extends = {base}\n[operation]\ncycle.file = \"loads.csv\"\n")).unwrap();
+    std::fs::write(&path, format!("extends = {}\n[operation]\ncycle.file = \"loads.csv\"\n", minimal())).unwrap();
     let warned = |table: &str| {
         std::fs::write(folder.path().join("loads.csv"), table).unwrap();
-        let scene = scene::load(&path, &[]).unwrap();
-        let warnings = scene.warnings.iter().map(ToString::to_string);
-        warnings.filter(|warning| warning.contains("road_speed")).collect::<Vec<_>>()
+        warned(&path, "road_speed")
     };
     let said = warned("time [s],normal_force [N],road_speed [km/h]\n0,4,50\n9,6,0\n");
     assert!(said.len() == 1 && said[0].contains("scene.toml:3:14: operation.cycle.file"), "{said:?}");

@@ -14,6 +14,7 @@ use proptest::prelude::*;
 
 use super::bytes::changes;
 use super::harness::Fuzz;
+use crate::hostile_tables::crc32;
 use crate::studies;
 
 fn plan(folder: &Path) -> Plan {
@@ -80,12 +81,4 @@ fn changed_journals_are_read_or_passed_over() {
         prop_assert!(merge(&journal, "h").is_ok());
         Ok(read.get("a").is_some())
     });
-}
-
-/// ISO 3309.
-fn crc32(bytes: &[u8]) -> u32 {
-    let step = |crc: u32, byte: &u8| {
-        (0..8).fold(crc ^ u32::from(*byte), |crc, _| if crc & 1 == 1 { crc >> 1 ^ 0xedb8_8320 } else { crc >> 1 })
-    };
-    !bytes.iter().fold(!0, step)
 }
