@@ -142,6 +142,10 @@ fn what_is_needed_or_of_no_use_is_told() {
         ("two.npz", options()),
         ("two.npz", of("c")),
         ("one_of_two.npz", of("pitch")),
+        // The scene must not say another pitch than the coordinates.
+        ("packed.nc", ReadOptions { pitch: Some([5e-6, 2e-6]), ..options() }),
+        ("packed.nc", ReadOptions { at: Some(1.0), ..options() }),
+        ("f8.npy", ReadOptions { at: Some(1.0), ..um() }),
     ];
     insta::assert_snapshot!(told.map(|(name, options)| message(&corpus(name), &options)).join("\n"));
     let integers = read(&corpus("i8.npy"), &options()).unwrap();
@@ -180,13 +184,6 @@ fn dimensions_named_x_and_y_are_laid_out_by_name() {
         }
         assert_eq!(measured.notes, notes, "{name}");
     }
-    // The scene must not say another pitch than the coordinates.
-    let found = message(&corpus("packed.nc"), &ReadOptions { pitch: Some([5e-6, 2e-6]), ..options() });
-    assert!(found.starts_with("the file states a pitch of 2 um, the scene 5 um"), "{found}");
-    let found = message(&corpus("packed.nc"), &ReadOptions { at: Some(1.0), ..options() });
-    assert_eq!(found, "at is a time of a map of heights of a run file, which this file is not: leave it out");
-    let found = message(&corpus("f8.npy"), &ReadOptions { at: Some(1.0), ..um() });
-    assert!(found.starts_with("this is a NumPy array file (.npy), for which at has no meaning"), "{found}");
 }
 
 #[test]
@@ -205,10 +202,8 @@ fn packed_numbers_are_what_netcdf_says_also_of_coordinates() {
     let measured = read(&path, &options()).unwrap();
     assert_eq!((measured.columns, measured.rows), (3, 2));
     for (found, expected) in measured.heights.iter().zip([0.0, 65534e-9, 1e-9, f64::NAN, 65535e-9, 32767e-9]) {
-        assert!(
-            (found - expected).abs() < 1e-18 || found.is_nan() && expected.is_nan(),
-            "{found}, expected {expected}"
-        );
+        let is_right = (found - expected).abs() < 1e-18 || found.is_nan() && expected.is_nan();
+        assert!(is_right, "{found}, expected {expected}");
     }
     change(&path, "z", |dataset| set(dataset, "_Unsigned", text("no")));
     assert!(message(&path, &options()).contains("_Unsigned = \"no\", expected \"true\" or \"false\""));
@@ -338,27 +333,22 @@ fn a_file_of_an_instrument_is_to_be_converted_whatever_is_said_of_it() {
     };
     let plu = [&b"Fri Mar 15 10:12:00 2013\0"[..], &[0; 200]].concat();
     let wide: Vec<u8> = "\u{feff}fileformat = bcrstm_unicode\n".encode_utf16().flat_map(u16::to_le_bytes).collect();
-    for (content, expected) in [
-        (&b"AliconaImaging\0\r\n"[..], "an Alicona file (.al3d)"),
-        (b"\x01\0Directory\0", "a Wyko file (.opd)"),
-        (b"\0\0\0\x0ahdat_3.4.x", "a Heliotis file (.hdat)"),
-        (&plu, "a Sensofar file (.plu, .apx)"),
-        (&wide, "a BCR-STM file (.bcr, .bcrf)"),
-        (b"fileformat = bcrf\n", "a BCR-STM file (.bcr, .bcrf)"),
-        (b"CDF\x02\0\0", "a netCDF-3 file (.nc)"),
-        (b"fileType      Image\n", "an Agilent file (.mi)"),
-        (b"[DataSet]\r\nVersion=2\r\n", "a Nanosurf file (.nid, .ezd)"),
-        (b"SIMPLE  =                    T", "a FITS file"),
-        (
-            b"h=3 w=4\npixel size=1e-6 m\nheight conversion factor (-> m)=1e-9\n",
-            "a text export of a holographic microscope (.txt)",
-        ),
-        (b"\"Measured\",\"now\"\r\n\"XY Calibration\",\"1\",\"um\"\r\n", "a text export of Keyence (.csv)"),
-    ] {
-        let found = told("a", content);
-        assert!(found.starts_with(&format!("this is {expected}, which is not read as it is; convert it: ")), "{found}");
-    }
-    assert!(told("wave.IBW", b"\x05\0\0\x01").starts_with("this is an Igor binary wave (.ibw)"));
+    let contents = [
+        &b"AliconaImaging\0\r\n"[..],
+        b"\x01\0Directory\0",
+        b"\0\0\0\x0ahdat_3.4.x",
+        &plu,
+        &wide,
+        b"fileformat = bcrf\n",
+        b"CDF\x02\0\0",
+        b"fileType      Image\n",
+        b"[DataSet]\r\nVersion=2\r\n",
+        b"SIMPLE  =                    T",
+        b"h=3 w=4\npixel size=1e-6 m\nheight conversion factor (-> m)=1e-9\n",
+        b"\"Measured\",\"now\"\r\n\"XY Calibration\",\"1\",\"um\"\r\n",
+    ];
+    let said = contents.map(|content| told("a", content)).join("\n");
+    insta::assert_snapshot!(said + "\n" + &told("wave.IBW", b"\x05\0\0\x01"));
     // A text may begin with a day, and other bytes as a format that has more of them.
     assert!(told("a", b"Fri Mar 15 10:12:00 2013\n1 2\n3 4\n").starts_with("dataset = \"a\", expected the number"));
     assert!(told("a", b"Alicona\0").starts_with("this is not a surface file that is known"));
@@ -380,19 +370,13 @@ fn coordinates_that_are_no_grid_are_refused() {
     };
     let pitch = case([0.0, 2.0, 4.0, 6.0, 8.0], "mm").unwrap();
     assert!((pitch - 2e-3).abs() < 1e-17, "{pitch}");
-    let found = case([0.0, 2.0, 4.0, 6.1, 8.0], "um").unwrap_err();
-    assert_eq!(
-        found,
-        "dataset /height: the coordinates of its dimension /x are not equidistant: number 3 is 6.1, expected 6: expected \
-         equidistant ones, resample the heights on a regular grid"
-    );
-    assert!(case([3.0; 5], "um").unwrap_err().contains("its dimension /x run from 3 to 3: expected"));
-    assert!(case([0.0, 1.0, f64::NAN, 3.0, 4.0], "m").unwrap_err().contains("number 2 is NaN"));
-    let found = case([0.0, 1.0, 2.0, 3.0, 4.0], "degrees_east").unwrap_err();
-    assert_eq!(
-        found,
-        "dataset /x has the attribute units = \"degrees_east\", expected a unit of length, for it has the coordinates of heights"
-    );
+    let refused = [
+        case([0.0, 2.0, 4.0, 6.1, 8.0], "um"),
+        case([3.0; 5], "um"),
+        case([0.0, 1.0, f64::NAN, 3.0, 4.0], "m"),
+        case([0.0, 1.0, 2.0, 3.0, 4.0], "degrees_east"),
+    ];
+    insta::assert_snapshot!(refused.map(Result::unwrap_err).join("\n"));
 }
 
 #[test]
@@ -407,21 +391,16 @@ fn attributes_that_say_otherwise_are_refused() {
         read(&path, &options())
     };
     assert_eq!(case("m", &[1e-5]).unwrap().pitch, Some([1e-5; 2]));
-    let found = case("um", &[1e-5]).unwrap_err().to_string();
-    assert_eq!(found, "dataset /z has the attribute units = \"um\", expected \"m\"");
+    let mut said = vec![case("um", &[1e-5]).unwrap_err().to_string()];
     for pitch in [&[1e-5, 0.0][..], &[f64::NAN], &[1.0, 2.0, 3.0], &[-1.0], &[f64::INFINITY, 1.0]] {
-        let found = case("m", pitch).unwrap_err().to_string();
-        assert!(found.starts_with("dataset /z has the attribute pitch = ["), "{found}");
+        said.push(case("m", pitch).unwrap_err().to_string());
     }
     let file = ::hdf5::File::create(&path).unwrap();
     let dataset = file.new_dataset_builder().with_data(&ndarray::arr2(&[[1.0, 2.0]])).create("Surface").unwrap();
     set(&dataset, "Z Converter", 1.0);
     drop((dataset, file));
-    let found = message(&path, &options());
-    assert!(
-        found.starts_with("dataset /Surface is of a Zygo file (.datx), which is not read as it is; convert it"),
-        "{found}"
-    );
+    said.push(message(&path, &options()));
+    insta::assert_snapshot!(said.join("\n"));
 }
 
 #[test]
@@ -447,10 +426,8 @@ fn images_that_are_no_heights() {
     ] {
         assert_eq!(case(colour, BitDepth::Eight, data).unwrap_err(), format!("the image has {found}, {expected}"));
     }
-    assert_eq!(
-        case(ColorType::Grayscale, BitDepth::Sixteen, &[0xff, 0xff, 0, 1]).unwrap().heights,
-        [1.0, 1.0 / 65535.0]
-    );
+    let grey = case(ColorType::Grayscale, BitDepth::Sixteen, &[0xff, 0xff, 0, 1]).unwrap();
+    assert_eq!(grey.heights, [1.0, 1.0 / 65535.0]);
 }
 
 #[test]

@@ -153,17 +153,14 @@ fn two_marks_two_tables_and_open_quotation_marks_are_refused_with_their_places()
         let Fault { line, column, message } = table(text).unwrap_err();
         format!("{line}:{column}: {message}")
     };
-    let two = fault("time [s];normal_force [N]\n0;10,5\n3; 1.200\n");
-    assert!(
-        two.starts_with("3:4: \"1.200\" and \"10,5\" in line 2, column 3: a decimal point and a decimal comma"),
-        "{two}"
-    );
-    assert!(fault("a\tb\n1.5\t2\n1,5\t2\n").starts_with("3:1: \"1,5\" and \"1.5\" in line 2, column 1: "));
-    for (text, place) in [("a,b\n1,2\n\n3,4\n", "4:1: "), ("a,b\n1,2\n\n# more\na,b\n3,4\n", "4:1: ")] {
-        let found = fault(text);
-        assert!(found.starts_with(place) && found.contains("another table begins here, below a blank line"), "{found}");
-    }
-    assert!(fault("a,b\n1,2\na,b\n3,4\n").starts_with("3:1: another table begins here, with a header"));
-    assert!(fault("a,b\n1,\"2\n3\",4\n").starts_with("2:3: a quotation mark opens this cell"));
-    assert!(fault("\"a,b\n1,2\n").starts_with("1:1: a quotation mark"));
+    let texts = [
+        "time [s];normal_force [N]\n0;10,5\n3; 1.200\n",
+        "a\tb\n1.5\t2\n1,5\t2\n",
+        "a,b\n1,2\n\n3,4\n",
+        "a,b\n1,2\n\n# more\na,b\n3,4\n",
+        "a,b\n1,2\na,b\n3,4\n",
+        "a,b\n1,\"2\n3\",4\n",
+        "\"a,b\n1,2\n",
+    ];
+    insta::assert_snapshot!(texts.map(fault).join("\n"));
 }

@@ -56,38 +56,16 @@ fn other_factors_follow_their_definition() {
 
 #[test]
 fn a_refusal_says_what_was_found_and_what_is_expected() {
-    let message = |text, dimension| parse(text, dimension).unwrap_err().to_string();
-    let force = "expected a force such as \"47 N\" (N, kN, mN)";
-    for (text, start) in [
-        ("47 mm", "\"47 mm\" is a length, "),
-        ("47 kg", "\"47 kg\" is a mass, "),
-        ("47", "\"47\" has no unit, "),
-        ("", "\"\" does not start with a number, "),
-        ("N", "\"N\" does not start with a number, "),
-        ("nan N", "\"nan N\" is not finite, "),
-        ("-inf N", "\"-inf N\" is not finite, "),
-        ("1e400 N", "\"1e400 N\" is not finite, "),
-        ("1e99999999999999999999 N", "\"1e99999999999999999999 N\" is not finite, "),
-        ("47 n", "\"47 n\": unknown unit \"n\", "),
-        ("47,5 N", "\"47,5 N\": a comma does not separate decimals, write a point, "),
-        ("47 N/", "\"47 N/\": the unit is not complete, "),
-        ("47 (N", "\"47 (N\": a parenthesis of the unit is not closed, "),
-        ("47 N)", "\"47 N)\": unexpected ')' in the unit, "),
-        ("47 N^x", "\"47 N^x\": a power in the unit is not a digit from 1 to 9, "),
-        ("1.2.3 N", "\"1.2.3 N\": unexpected '.' in the unit, "),
-        ("47 1", "\"47 1\" is a plain number, "),
-    ] {
-        assert_eq!(message(text, Force), format!("{start}{force}"));
-    }
-    assert_eq!(
-        message("14 Hz", RotationalSpeed),
-        "\"14 Hz\" is a frequency, expected a rotational speed such as \"850 rpm\" (rpm, rad/s); \
-         a frequency does not say whether it counts turns or radians"
-    );
-    // Division takes one factor: this is mm³·m/N.
-    assert!(message("5e-5 mm^3/N m", SpecificWearRate).contains("a quantity of another kind"));
+    let of_force = ["47 mm", "47 kg", "47", "", "N", "nan N", "-inf N", "1e400 N", "1e99999999999999999999 N", "47 n"];
+    let of_force = of_force.into_iter().chain(["47,5 N", "47 N/", "47 (N", "47 N)", "47 N^x", "1.2.3 N", "47 1"]);
+    // Division takes one factor: this is mm³·m/N. A degree Celsius is no unit of anything else: 0 °C is no zero.
+    let others =
+        [("14 Hz", RotationalSpeed), ("5e-5 mm^3/N m", SpecificWearRate), ("1 W/degC", Cooling), ("23 J", Temperature)];
+    let refused = of_force.map(|text| (text, Force)).chain(others);
+    let said = refused.map(|(text, dimension)| parse(text, dimension).unwrap_err().to_string() + "\n");
+    insta::assert_snapshot!(said.collect::<String>());
     let deep = format!("1 {}m", "(".repeat(1_000_000));
-    assert!(message(&deep, Length).contains("this is not a unit"));
+    assert!(parse(&deep, Length).unwrap_err().to_string().contains("this is not a unit"));
 }
 
 #[test]
@@ -97,12 +75,6 @@ fn temperatures_are_in_degrees_celsius_or_kelvins() {
     {
         assert!((parse(text, Temperature).unwrap() - expected).abs() < 1e-13, "{text}");
     }
-    let message = |text: &str, expected| parse(text, expected).unwrap_err().to_string();
-    // A degree Celsius is no unit of anything else: 0 °C is no zero.
-    assert!(message("1 W/degC", Cooling).contains("unknown unit \"degC\""));
-    assert!(
-        message("23 J", Temperature).contains("is an energy, expected a temperature such as \"23 degC\" (degC, K)")
-    );
     for (text, dimension, expected) in [
         ("50 W/(m K)", ThermalConductivity, 50.0),
         ("0.5 W/(cm K)", ThermalConductivity, 50.0),
