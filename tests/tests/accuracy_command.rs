@@ -6,7 +6,7 @@ mod reference;
 
 use std::fs;
 
-use plateau_tests::program::{Outcome, WorkingDirectory, quick_scene_with, repository};
+use plateau_tests::program::{Outcome, WorkingDirectory, quick_scene_with, repository, sets};
 use plateau_tests::run_file::RunFile;
 use plateau_tests::table::{Row, number, relative_error, rows};
 
@@ -57,9 +57,9 @@ fn number_of(value: &serde_json::Value) -> f64 {
 }
 
 /// Runs the scene into a file.
-fn run(directory: &WorkingDirectory, file: &str, sets: &[String]) -> RunFile {
-    let sets = sets.iter().flat_map(|set| ["--set", set]);
-    directory.plateau(["run", "scene.toml", "-o", file, "--force"].into_iter().chain(sets)).quiet_success();
+fn run(directory: &WorkingDirectory, file: &str, settings: &[impl AsRef<str>]) -> RunFile {
+    let settings: Vec<&str> = settings.iter().map(AsRef::as_ref).collect();
+    directory.plateau([&["run", "scene.toml", "-o", file, "--force"], &sets(&settings)[..]].concat()).quiet_success();
     directory.run_file(file)
 }
 
@@ -104,13 +104,13 @@ fn every_error_is_that_of_the_run_files() {
     let directory = with_scene(&[]);
     let (text, rows) = measured(&directory, &["--ladder", "time_acceleration,perturbation"]);
     // 20 s are 283 revolutions: with 8 of them at least, m goes up to 35.
-    let accelerations: Vec<&str> =
-        rows.iter().filter(|row| row["ladder"] == "time_acceleration").map(|row| row["value"].as_str()).collect();
+    let accelerations = rows.iter().filter(|row| row["ladder"] == "time_acceleration");
+    let accelerations: Vec<&str> = accelerations.map(|row| row["value"].as_str()).collect();
     assert_eq!(accelerations, ["2.0", "5.0", "10.0", "20.0"]);
     assert_eq!(rows.len(), 4 + 3, "{text}");
     assert!(text.contains("3 of 5.647 s"), "{text}");
 
-    let reference = run(&directory, "reference.h5", &["numerics.time_acceleration=1".to_owned()]);
+    let reference = run(&directory, "reference.h5", &["numerics.time_acceleration=1"]);
     for row in &rows {
         let sets: Vec<String> = row["setting"].split(", ").map(|set| set.replace("time_", "numerics.time_")).collect();
         let run = run(&directory, "run.h5", &sets);
@@ -148,17 +148,12 @@ fn front_and_advice_follow_from_the_table() {
     for row in &rows {
         assert_eq!(row["error"], row["contact_area_error"]);
         let (time, error) = point(row);
-        let beaten = quicker
-            .iter()
-            .map(|row| point(row))
-            .any(|(other_time, other)| other_time <= time && other <= error && (other_time < time || other < error));
+        let beats = |(other_time, other)| other_time <= time && other <= error && (other_time < time || other < error);
+        let beaten = quicker.iter().any(|row| beats(point(row)));
         assert_eq!(number(row, "on_front"), if beaten || time >= longest { 0.0 } else { 1.0 });
     }
-    let quickest = quicker
-        .iter()
-        .filter(|row| point(row).1 <= 0.01)
-        .min_by(|one, other| point(one).0.total_cmp(&point(other).0))
-        .expect("a run within 1 %");
+    let within = quicker.iter().filter(|row| point(row).1 <= 0.01);
+    let quickest = within.min_by(|one, other| point(one).0.total_cmp(&point(other).0)).expect("a run within 1 %");
     assert!(text.contains(&format!("for 1 % error use {}: ", quickest["setting"])), "{text}");
     assert!(text.contains("(contact area)") && text.contains("none, it is the model itself"), "{text}");
 
@@ -179,12 +174,13 @@ fn front_and_advice_follow_from_the_table() {
 fn a_run_file_is_as_good_a_reference_as_a_run() {
     let directory = with_scene(&[]);
     let (_, made) = measured(&directory, &["--ladder", "time_acceleration"]);
-    let sets = |every: &str| {
-        ["numerics.time_acceleration=1".to_owned(), "output.maps=[]".to_owned(), format!("output.{every}")]
-    };
-    drop(run(&directory, "coarse.h5", &sets(&format!("sample_every={} s", WINDOW / 2.0))));
-    drop(run(&directory, "dense.h5", &sets("sample_every_steps=690")));
-    drop(run(&directory, "other.h5", &sets("sample_every=0.3 s")));
+    for (file, every) in [
+        ("coarse.h5", &*format!("output.sample_every={} s", WINDOW / 2.0)),
+        ("dense.h5", "output.sample_every_steps=690"),
+        ("other.h5", "output.sample_every=0.3 s"),
+    ] {
+        drop(run(&directory, file, &["numerics.time_acceleration=1", "output.maps=[]", every]));
+    }
     // Values are interpolated between samples, which is exact where windows end at them, as with one sample a revolution.
     for (file, tolerance) in [("coarse.h5", 1e-12), ("dense.h5", 1e-9)] {
         let (text, read) = measured(&directory, &["--ladder", "time_acceleration", "--reference", file]);
@@ -210,8 +206,7 @@ fn a_run_file_is_as_good_a_reference_as_a_run() {
 fn every_file_has_the_same_numbers() {
     let directory = with_scene(&[]);
     let arguments = ["accuracy", "scene.toml", "--ladder", "time_acceleration", "--ladder", "tolerance", "--json"];
-    let json = directory.plateau(arguments).quiet_success();
-    let json: serde_json::Value = serde_json::from_str(&json).unwrap();
+    let json = directory.plateau(arguments).ends(0, &[]).json();
     let csv = directory.text("accuracy/accuracy.csv");
     assert_eq!(document(&directory), json);
     let runs = json["runs"].as_array().unwrap();
@@ -232,10 +227,8 @@ fn every_file_has_the_same_numbers() {
             }
         }
     }
-    insta::assert_snapshot!(
-        "keys",
-        format!("{}\n{}\n{}", names.join(" "), keys(&json["reference"]).join(" "), keys(&json).join(" "))
-    );
+    let all_keys = [names.join(" "), keys(&json["reference"]).join(" "), keys(&json).join(" ")];
+    insta::assert_snapshot!("keys", all_keys.join("\n"));
     assert_eq!(json["state"], "finished");
     assert_eq!(json["reference"]["time_acceleration"].as_f64(), Some(1.0));
     assert_eq!(json["reference"]["error"].as_f64(), Some(0.0));

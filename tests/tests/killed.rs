@@ -160,10 +160,8 @@ fn a_stopped_run_is_marked_interrupted_and_its_samples_are_whole() {
         assert_eq!(run.text("state"), "interrupted");
         let samples = run.shape("/time")[0];
         assert_eq!(run.shape("/series/contact_area")[0], samples);
-        assert!(
-            message.ends_with(&format!("run.h5 holds {samples} samples, --resume goes on from here\n")),
-            "{message}"
-        );
+        let end = format!("run.h5 holds {samples} samples, --resume goes on from here\n");
+        assert!(message.ends_with(&end), "{message}");
     }
 }
 

@@ -13,10 +13,10 @@ use super::{measured, refusal, run, with_scene};
 #[test]
 fn bad_input_is_refused() {
     let directory = with_scene(&[]);
-    let fine = ["numerics.time_acceleration=5".to_owned()];
-    drop(run(&directory, "good.h5", &fine));
-    drop(run(&directory, "other.h5", &[fine.to_vec(), vec!["operation.normal_force=6 N".to_owned()]].concat()));
-    drop(run(&directory, "short.h5", &[fine.to_vec(), vec!["operation.duration=10 s".to_owned()]].concat()));
+    let fine = "numerics.time_acceleration=5";
+    drop(run(&directory, "good.h5", &[fine]));
+    drop(run(&directory, "other.h5", &[fine, "operation.normal_force=6 N"]));
+    drop(run(&directory, "short.h5", &[fine, "operation.duration=10 s"]));
     fs::copy(directory.path("good.h5"), directory.path("stopped.h5")).unwrap();
     set_text(directory.path("stopped.h5"), "state", "interrupted");
     let model = ["--set", "numerics.time_acceleration=1"];

@@ -42,13 +42,10 @@ fn runs_with_other_cells_have_samples_of_the_same_surfaces() {
     let (text, rows) = measured(&directory, &["--ladder", "time_acceleration,mesh"]);
     assert!(text.contains("disc_columns = 1380, pin_columns = 80, time_acceleration = 1, run here"), "{text}");
     let settings = |row: &Row| -> Vec<String> {
-        let sets = row["setting"].split(", ");
-        sets.map(|set| {
-            set.replace("time_", "numerics.time_").replace("disc_c", "mesh.disc_c").replace("pin_c", "mesh.pin_c")
-        })
-        .collect()
+        let key = |set: &str| set.replace("time_", "numerics.time_").replace("disc_c", "mesh.disc_c");
+        row["setting"].split(", ").map(|set| key(set).replace("pin_c", "mesh.pin_c")).collect()
     };
-    let halved = ["mesh.disc_columns=1380", "mesh.pin_columns=80", "numerics.time_acceleration=1"].map(str::to_owned);
+    let halved = ["mesh.disc_columns=1380", "mesh.pin_columns=80", "numerics.time_acceleration=1"];
     let finest = run(&directory, "finest.h5", &halved);
     let reference: Vec<Vec<f64>> = QUANTITIES.iter().map(|(_, series)| means(&finest, series)).collect();
     drop(finest);
@@ -59,22 +56,16 @@ fn runs_with_other_cells_have_samples_of_the_same_surfaces() {
         _ => "",
     };
     for (stride, ladder, runs) in [(2, "time_acceleration", 5), (1, "mesh", 4), (4, "mesh", 5)] {
-        let own: Vec<_> = rows
-            .iter()
-            .filter(|row| row["ladder"] == ladder && (stride == 2 || row["value"] == cells(stride)))
-            .collect();
+        let is_own = |row: &&Row| row["ladder"] == ladder && (stride == 2 || row["value"] == cells(stride));
+        let own: Vec<_> = rows.iter().filter(is_own).collect();
         assert_eq!(own.len(), runs, "{text}");
         let surfaces = sampled(&directory, stride);
         for row in [own[0], own[runs - 1]] {
             let run = run(&directory, "run.h5", &[settings(row), surfaces.clone()].concat());
             for ((name, series), expected) in QUANTITIES.iter().zip(&reference) {
-                let error = relative_error(&means(&run, series), expected);
-                expect_near(
-                    number(row, &format!("{name}_error")),
-                    error,
-                    1e-12,
-                    &format!("{}, {name}", row["setting"]),
-                );
+                let (found, error) =
+                    (number(row, &format!("{name}_error")), relative_error(&means(&run, series), expected));
+                expect_near(found, error, 1e-12, &format!("{}, {name}", row["setting"]));
             }
         }
     }
@@ -101,7 +92,7 @@ fn without_a_transport_length_the_cell_is_part_of_the_model() {
 #[test]
 fn surfaces_that_are_given_cell_for_cell_have_no_other_mesh() {
     let directory = with_scene(&EDITS);
-    drop(run(&directory, "finest.h5", &["numerics.time_acceleration=20".to_owned()]));
+    drop(run(&directory, "finest.h5", &["numerics.time_acceleration=20"]));
     let sets = sampled(&directory, 1).into_iter().flat_map(|set| ["--set".to_owned(), set]);
     let arguments: Vec<String> =
         ["--ladder", "time_acceleration,mesh"].map(str::to_owned).into_iter().chain(sets).collect();

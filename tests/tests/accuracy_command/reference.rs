@@ -1,5 +1,6 @@
 //! Which reference is taken for a budget, how good it is, and what is advised from it.
 
+use plateau_tests::program::sets;
 use plateau_tests::run_file::changed;
 use plateau_tests::table::{number, relative_error};
 
@@ -7,7 +8,7 @@ use super::{QUANTITIES, WINDOW, WINDOWS, document, expect_near, means, measured,
 
 /// Arguments that make the scene one of 196 million steps with `time_acceleration` = 1, which no machine does in 10 s.
 fn long(time_acceleration: &str, budget: &str) -> Vec<String> {
-    let sets = [
+    let settings = [
         "operation.duration=20000 s",
         "mesh.rows=1",
         // As long as two of the wide cells.
@@ -15,8 +16,8 @@ fn long(time_acceleration: &str, budget: &str) -> Vec<String> {
         "pin.surface.synthetic.correlation_length=400 um",
         &format!("numerics.time_acceleration={time_acceleration}"),
     ];
-    let sets = sets.iter().flat_map(|set| ["--set".to_owned(), (*set).to_owned()]);
-    sets.chain(["--budget", budget, "--ladder", "time_acceleration"].map(str::to_owned)).collect()
+    let words = sets(&settings).into_iter().chain(["--budget", budget, "--ladder", "time_acceleration"]);
+    words.map(str::to_owned).collect()
 }
 
 #[test]
@@ -36,10 +37,8 @@ fn a_small_budget_has_a_reference_between_the_model_and_the_scene() {
     // 1.3 million steps are needed.
     let arguments = long("1000", "8 s");
     let (text, rows) = measured(&directory, &arguments.iter().map(String::as_str).collect::<Vec<_>>());
-    assert!(
-        text.contains("the finest that the budget of 8.0 s allows; for 1, the model itself, give --budget"),
-        "{text}"
-    );
+    let said = "the finest that the budget of 8.0 s allows; for 1, the model itself, give --budget";
+    assert!(text.contains(said), "{text}");
     let results = document(&directory);
     let reference = number_of(&results["reference"]["time_acceleration"]);
     assert!(1.0 < reference && reference < 1000.0, "{text}");
@@ -52,7 +51,7 @@ fn a_small_budget_has_a_reference_between_the_model_and_the_scene() {
 fn the_own_error_of_a_reference_is_that_of_its_opening_and_grows_with_the_finest_run() {
     let directory = with_scene(&[]);
     let sample_every = format!("output.sample_every={} s", WINDOW / 2.0);
-    drop(run(&directory, "five.h5", &["numerics.time_acceleration=5".to_owned(), sample_every]));
+    drop(run(&directory, "five.h5", &["numerics.time_acceleration=5", &sample_every]));
     let (text, rows) = measured(&directory, &["--reference", "five.h5"]);
     let results = document(&directory);
     assert!(text.contains("runs that choose their acceleration begin with 1: not run"), "{text}");
@@ -80,7 +79,7 @@ fn the_own_error_of_a_reference_is_that_of_its_opening_and_grows_with_the_finest
 #[test]
 fn the_own_error_of_a_reference_counts_for_the_advice() {
     let directory = with_scene(&[]);
-    drop(run(&directory, "half.h5", &["numerics.time_acceleration=10".to_owned()]));
+    drop(run(&directory, "half.h5", &["numerics.time_acceleration=10"]));
     let twenty = ["--reference", "half.h5", "--ladder", "time_acceleration"];
     let (_, rows) = measured(&directory, &twenty);
     let [error, own] = [number(&rows[0], "error"), number_of(&document(&directory)["reference"]["error"])];
@@ -98,20 +97,20 @@ fn the_own_error_of_a_reference_counts_for_the_advice() {
 #[test]
 fn nothing_is_advised_that_is_slower_than_the_reference() {
     let directory = with_scene(&[]);
-    drop(run(&directory, "quick.h5", &["numerics.time_acceleration=1".to_owned()]));
-    let file = changed(directory.path("quick.h5"));
-    file.attr("wall_time").unwrap().write_scalar(&1e-9).unwrap();
-    file.close().unwrap();
-    let (text, rows) = measured(&directory, &["--ladder", "time_acceleration", "--reference", "quick.h5"]);
+    drop(run(&directory, "quick.h5", &["numerics.time_acceleration=1"]));
+    let with_wall_time = |time: f64| {
+        let file = changed(directory.path("quick.h5"));
+        file.attr("wall_time").unwrap().write_scalar(&time).unwrap();
+        file.close().unwrap();
+        measured(&directory, &["--ladder", "time_acceleration", "--reference", "quick.h5"])
+    };
+    let (text, rows) = with_wall_time(1e-9);
     assert!(text.contains("no setting is advised: no other run is quicker than the reference"), "{text}");
     assert!(!text.contains(" error use "), "{text}");
     assert!(rows.len() == 4 && rows.iter().all(|row| number(row, "on_front") == 0.0), "{text}");
 
     // A reference that was cut out of a run has no wall time.
-    let file = changed(directory.path("quick.h5"));
-    file.attr("wall_time").unwrap().write_scalar(&f64::NAN).unwrap();
-    file.close().unwrap();
-    let (text, rows) = measured(&directory, &["--ladder", "time_acceleration", "--reference", "quick.h5"]);
+    let (text, rows) = with_wall_time(f64::NAN);
     assert!(text.contains("not recorded, for ") && !text.contains("NaN"), "{text}");
     assert!(rows.iter().any(|row| number(row, "on_front") == 1.0), "{text}");
 }
@@ -120,9 +119,7 @@ fn nothing_is_advised_that_is_slower_than_the_reference() {
 fn a_smooth_disc_with_pooled_debris_needs_the_model_itself_as_the_reference() {
     let directory = with_scene(&[]);
     let smooth = ["disc.prepare.scale=0.01", "plateaus.debris=contact", "plateaus.captured_fraction=0.06"];
-    let sets = smooth.iter().chain(&["numerics.time_acceleration=2"]).map(|set| (*set).to_owned());
-    drop(run(&directory, "two.h5", &sets.collect::<Vec<_>>()));
-    let set: Vec<&str> = smooth.iter().flat_map(|set| ["--set", set]).collect();
-    let message = refusal(&directory, &[&["scene.toml", "--reference", "two.h5"], &set[..]].concat());
+    drop(run(&directory, "two.h5", &[&smooth[..], &["numerics.time_acceleration=2"]].concat()));
+    let message = refusal(&directory, &[&["scene.toml", "--reference", "two.h5"], &sets(&smooth)[..]].concat());
     assert!(message.contains("time_acceleration = 2: expected 1, the model itself"), "{message}");
 }

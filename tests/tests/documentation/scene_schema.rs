@@ -182,15 +182,17 @@ fn table(path: &str) -> Map<String, Value> {
     schema.insert("description".into(), table_meaning(path).unwrap_or_default().into());
     schema.insert("properties".into(), properties.collect::<Map<_, _>>().into());
     schema.insert("additionalProperties".into(), false.into());
-    let exclusions = exclusions(path);
-    if !exclusions.is_empty() {
-        schema.insert("dependencies".into(), exclusions.into());
-    }
-    let meaningless = meaningless(path);
-    if !meaningless.is_empty() {
-        schema.insert("allOf".into(), meaningless.into());
-    }
+    add(&mut schema, "dependencies", exclusions(path));
+    add(&mut schema, "allOf", meaningless(path));
     schema
+}
+
+/// Adds a list or an object unless it is empty.
+fn add(schema: &mut Map<String, Value>, name: &str, value: impl Into<Value>) {
+    let value = value.into();
+    if value != json!([]) && value != json!({}) {
+        schema.insert(name.into(), value);
+    }
 }
 
 /// A key, a table, or what may be either.
@@ -207,19 +209,17 @@ fn property(path: &str) -> Value {
 /// For each alternative of a table: the others are not there. An editor so marks the key that is one too many.
 fn exclusions(path: &str) -> Map<String, Value> {
     let mut dependencies = Map::new();
+    let mut exclude = |name: &str, others: &[&str]| {
+        let absent: Map<_, _> = others.iter().map(|other| ((*other).to_owned(), Value::Bool(false))).collect();
+        dependencies.insert(name.to_owned(), json!({ "properties": absent }));
+    };
     for names in GROUPS.iter().filter_map(|group| members(group, path)) {
         for name in &names {
-            let others = names.iter().filter(|other| *other != name);
-            let absent: Map<_, _> = others.map(|other| ((*other).to_owned(), Value::Bool(false))).collect();
-            dependencies.insert((*name).to_owned(), json!({ "properties": absent }));
+            exclude(name, &names.iter().copied().filter(|other| other != name).collect::<Vec<_>>());
         }
     }
     for ways in WAYS.iter().filter(|ways| ways.section == path) {
-        for name in ways.sets.concat() {
-            let others = ways.other(name).unwrap_or_default().iter();
-            let absent: Map<_, _> = others.map(|other| ((*other).to_owned(), Value::Bool(false))).collect();
-            dependencies.insert(name.to_owned(), json!({ "properties": absent }));
-        }
+        ways.sets.concat().into_iter().for_each(|name| exclude(name, ways.other(name).unwrap_or_default()));
     }
     dependencies
 }
@@ -273,22 +273,13 @@ fn complete(path: &str) -> Map<String, Value> {
     }
 
     let mut schema = Map::new();
-    if !required.is_empty() {
-        schema.insert("required".into(), required.into());
-    }
-    if !properties.is_empty() {
-        schema.insert("properties".into(), properties.into());
-    }
+    add(&mut schema, "required", required);
+    add(&mut schema, "properties", properties);
     let mut choices = choices(path);
     choices.extend(unless(path));
     choices.extend(WAYS.iter().filter(|ways| ways.section == path).map(one_way));
-    if !choices.is_empty() {
-        schema.insert("allOf".into(), choices.into());
-    }
-    let companions = companions(path);
-    if !companions.is_empty() {
-        schema.insert("dependencies".into(), companions.into());
-    }
+    add(&mut schema, "allOf", choices);
+    add(&mut schema, "dependencies", companions(path));
     schema
 }
 
@@ -319,11 +310,9 @@ fn choices(path: &str) -> Vec<Value> {
 /// Keys that are required unless another of the table has a certain value.
 fn unless(path: &str) -> Vec<Value> {
     let of_table = keys().iter().filter(|key| key.section == path);
-    let alternatives = of_table.filter_map(|key| match key.need {
-        Need::RequiredUnless(choose, _) => {
-            Some(json!({ "anyOf": [{ "required": [key.name] }, chooses(path, choose)?] }))
-        }
-        _ => None,
+    let alternatives = of_table.filter_map(|key| {
+        let Need::RequiredUnless(choose, _) = key.need else { return None };
+        Some(json!({ "anyOf": [{ "required": [key.name] }, chooses(path, choose)?] }))
     });
     alternatives.collect()
 }
@@ -411,9 +400,7 @@ fn kind(kind: Kind) -> Value {
             let row = json!([quantity(Dimension::Temperature, Range::POSITIVE), number(Range::NOT_NEGATIVE)]);
             json!({ "type": "array", "minItems": 1, "items": { "type": "array", "items": row, "minItems": 2, "maxItems": 2 } })
         }
-        Kind::Maps => {
-            json!({ "type": "array", "items": { "enum": observe::Map::CHOICES.map(observe::Map::name) } })
-        }
+        Kind::Maps => json!({ "type": "array", "items": { "enum": observe::Map::CHOICES.map(observe::Map::name) } }),
     }
 }
 

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::PathBuf;
 use std::process::Command;
 
-use plateau_tests::program::{WorkingDirectory, run, scene};
+use plateau_tests::program::{WorkingDirectory, run, run_words};
 use plateau_tests::run_file::{RunFile, differences};
 use serde_json::Value;
 
@@ -48,8 +48,7 @@ fn run_files_are_kept_and_nothing_else_changes() {
     assert_eq!(kept(&keeping).len(), RUNS, "nothing but run files: {:?}", kept(&keeping));
     assert_eq!(results(&keeping), results(&plain));
     // Run 15 by hand, with its maps.
-    let (quick, sets) = (scene("quick.toml"), RUN_15.iter().flat_map(|set| ["--set", set]));
-    plain.plateau(["run", &quick, "-o", "alone.h5"].into_iter().chain(sets)).quiet_success();
+    plain.plateau(run_words("quick.toml", "alone.h5", &RUN_15, &[])).quiet_success();
     assert_eq!(content_differs(plain.path("alone.h5"), of_run(&keeping, 15)), [""; 0]);
     assert!(RunFile::open(of_run(&keeping, 15)).shape("/pin/height")[0] > 1);
 
