@@ -99,7 +99,7 @@ fn a_link_that_is_named_stays_and_what_it_leads_to_is_replaced() {
         let with = |more: &[&'static str], name: &str| {
             command.iter().chain([&name]).chain(more).map(|argument| (*argument).to_owned()).collect::<Vec<_>>()
         };
-        directory.plateau(&with(&[], &link)).ends(2, &["--force"]);
+        directory.plateau(with(&[], &link)).ends(2, &["--force"]);
         assert_eq!(directory.text(&real), "mine", "{command:?}");
         directory.plateau(with(&["--force"], &link)).ends(0, &[]);
         assert!(directory.path(&link).is_symlink(), "{command:?}");

@@ -190,7 +190,7 @@ fn ranks_with_different_scenes_do_not_start() {
 #[ignore = "needs MPI"]
 fn a_rank_that_is_asked_to_stop_stops_all_in_good_order() {
     let mut job = EndlessJob::start(2);
-    send("TERM", &job.process(1));
+    send("TERM", job.process(1));
     let (status, stderr) = job.end();
     assert_eq!(status, Some(143), "{stderr}");
     assert_eq!(stderr.matches("plateau: stopped by signal 15").count(), 1, "{stderr}");
@@ -231,7 +231,7 @@ fn ranks_that_prepare_a_run_end_at_a_signal() {
 fn what_ranks_did_is_gone_on_with() {
     let enough = ["--set", "operation.steps=1500000", "--resume"];
     let mut job = EndlessJob::in_directory(WorkingDirectory::new(), 2, &enough);
-    send("TERM", &job.process(1));
+    send("TERM", job.process(1));
     let (status, stderr) = job.end();
     assert_eq!(status, Some(143), "{stderr}");
     let directory = &job.directory;
@@ -250,7 +250,7 @@ fn what_ranks_did_is_gone_on_with() {
 #[ignore = "needs MPI"]
 fn a_rank_that_is_killed_ends_all() {
     let mut job = EndlessJob::start(2);
-    send("KILL", &job.process(1));
+    send("KILL", job.process(1));
     let (status, stderr) = job.end();
     assert_ne!(status, Some(0), "{stderr}");
 }
