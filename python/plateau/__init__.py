@@ -13,46 +13,102 @@
 All quantities are in SI units. The guide is docs/python.md of the project.
 """
 
-import os
 import sys
-from importlib.metadata import PackageNotFoundError, version
+from importlib import import_module
+from importlib.abc import MetaPathFinder
+from importlib.machinery import ModuleSpec
+from importlib.util import find_spec
+from typing import TYPE_CHECKING, Any
 
-from plateau.errors import MissingPackageError, not_installed
+from plateau.errors import (
+    InputError,
+    InputTypeError,
+    MissingFileError,
+    MissingPackageError,
+    PlateauError,
+    PlateauWarning,
+    RunFailed,
+    RunStopped,
+    UnknownNameError,
+    not_installed,
+)
 
-try:
-    import numpy  # noqa: F401
-    import pandas  # noqa: F401
-    import xarray  # noqa: F401
-except ModuleNotFoundError as error:
-    missing = not_installed(error.name)
-    # Of the words of the program, which are run as scripts or with -m, nobody wants a traceback.
-    if sys.argv[0] == "-m" or os.path.basename(sys.argv[0]).startswith("plateau-"):
-        sys.exit(f"plateau: {missing}")
-    raise MissingPackageError(missing) from error
+if TYPE_CHECKING:
+    from plateau import study
+    from plateau.commands import check, collect, command
+    from plateau.drive_cycle import cycle
+    from plateau.exports import export
+    from plateau.figures import plot
+    from plateau.figures.accuracy import plot_accuracy
+    from plateau.figures.surfaces import plot_surfaces
+    from plateau.map_accessor import MapAccessor
+    from plateau.means import Mean
+    from plateau.program import find_program
+    from plateau.run_accessor import RunAccessor
+    from plateau.run_file import open_run
+    from plateau.run_report import report
+    from plateau.runs import run, sweep
+    from plateau.scenes import Scene
+    from plateau.simulation import Simulation
+    from plateau.study import Study, open_study
 
-from plateau import study
-from plateau.commands import check, collect, command
-from plateau.drive_cycle import cycle
-from plateau.errors import InputError, InputTypeError, MissingFileError, PlateauError, PlateauWarning, RunFailed, RunStopped, UnknownNameError
-from plateau.exports import export
-from plateau.figures import plot
-from plateau.figures.accuracy import plot_accuracy
-from plateau.figures.surfaces import plot_surfaces
-from plateau.map_accessor import MapAccessor
-from plateau.means import Mean
-from plateau.program import find_program
-from plateau.run_accessor import RunAccessor
-from plateau.run_file import open_run
-from plateau.run_report import report
-from plateau.runs import run, sweep
-from plateau.scenes import Scene
-from plateau.simulation import Simulation
-from plateau.study import Study, open_study
+# Where names are found when they are asked for first: with pandas and xarray all of them would take half a second.
+HOMES = {"check": "commands", "collect": "commands", "command": "commands", "cycle": "drive_cycle", "export": "exports", "plot": "figures"}
+HOMES |= {"plot_accuracy": "figures.accuracy", "plot_surfaces": "figures.surfaces", "MapAccessor": "map_accessor", "Mean": "means"}
+HOMES |= {"find_program": "program", "RunAccessor": "run_accessor", "open_run": "run_file", "report": "run_report", "run": "runs", "sweep": "runs"}
+HOMES |= {"Scene": "scenes", "Simulation": "simulation", "Study": "study", "open_study": "study"}
 
-try:
-    __version__ = version("plateau-brake")
-except PackageNotFoundError:  # a checkout that is not installed
-    __version__ = "0"
+
+def __getattr__(name: str) -> Any:
+    if name not in HOMES and name not in ("study", "__version__"):
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    try:
+        found = _version() if name == "__version__" else import_module(f"plateau.{HOMES.get(name, name)}")
+    except ModuleNotFoundError as error:
+        raise MissingPackageError(not_installed(error.name)) from error
+    globals()[name] = getattr(found, name) if name in HOMES else found
+    return globals()[name]
+
+
+def _version() -> str:
+    from importlib.metadata import PackageNotFoundError, version
+
+    try:
+        return version("plateau-brake")
+    except PackageNotFoundError:  # a checkout that is not installed
+        return "0"
+
+
+def register(xarray: Any) -> None:
+    """Registers the accessors of runs and maps, which are imported when they are used first."""
+    xarray.register_datatree_accessor("plateau")(lambda run: import_module("plateau.run_accessor").RunAccessor(run))
+    xarray.register_dataarray_accessor("plateau")(lambda found: import_module("plateau.map_accessor").MapAccessor(found))
+
+
+class AfterXarray(MetaPathFinder):
+    """Registers the accessors when xarray is imported, by whomever."""
+
+    def find_spec(self, name: str, path: Any, target: Any = None) -> ModuleSpec | None:
+        """Finds xarray as others do, and has the accessors registered after it."""
+        if name != "xarray":
+            return None
+        sys.meta_path.remove(self)
+        spec = find_spec(name)
+        if spec is not None and spec.loader is not None:
+            execute = spec.loader.exec_module
+
+            def execute_both(module: Any) -> None:
+                execute(module)
+                register(module)
+
+            spec.loader.exec_module = execute_both  # type: ignore[method-assign]
+        return spec
+
+
+if "xarray" in sys.modules:
+    register(sys.modules["xarray"])
+else:
+    sys.meta_path.insert(0, AfterXarray())
 
 __all__ = [
     "InputError",

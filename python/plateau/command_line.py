@@ -18,7 +18,6 @@ from contextlib import contextmanager
 from typing import Any, NoReturn
 
 from plateau.errors import InputError, PlateauError, PlateauNote, PlateauWarning, RunFailed, RunStopped, in_program_words, not_installed
-from plateau.output_folder import plain
 
 # Words, and the modules that add them to a parser.
 OF_STUDIES, OF_RUNS, OF_PROGRAM = "plateau.study.words", "plateau.run_words", "plateau.figure_words"
@@ -225,6 +224,9 @@ def share(text: str) -> float:
 
 def json_of(document: Mapping[str, Any]) -> str:
     """A document in JSON."""
+    # Not above: without NumPy this module is there to say so.
+    from plateau.output_folder import plain
+
     return json.dumps(plain(document), indent=2, ensure_ascii=False, allow_nan=False) + "\n"
 
 

@@ -15,7 +15,6 @@ from plateau.units import quantity, unit_of
 ANGLES = ("disc_angle", "pin_angle")
 
 
-@xarray.register_dataarray_accessor("plateau")
 class MapAccessor:
     """Maps of disc and pin: cells with the dimensions ``disc_angle`` or ``pin_angle`` (rad) and ``radius`` (m).
 

@@ -81,7 +81,6 @@ def _figures() -> list[str]:
     return [name.replace("-", "_") for name in FIGURES]
 
 
-@xarray.register_datatree_accessor("plateau")
 class RunAccessor:
     """A run, opened by `plateau.open_run`.
 

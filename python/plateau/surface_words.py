@@ -5,7 +5,6 @@ from pathlib import Path
 
 from plateau.command_line import Words, of_all
 from plateau.errors import InputError
-from plateau.surface_conversion import convert
 from plateau.surface_description import describe
 
 
@@ -28,6 +27,9 @@ def _describe(given: argparse.Namespace) -> str:
 
 
 def _convert(given: argparse.Namespace) -> str:
+    # What reads instruments takes longer to import than a surface to describe.
+    from plateau.surface_conversion import convert
+
     if given.output is not None and len(given.files) > 1:
         raise InputError(f"-o names one file, and {len(given.files)} are to be converted: leave it out, or give one FILE")
     return "".join(f"{path}: heights are in {convert(path, given.output, force=given.force)}\n" for path in given.files)

@@ -4,10 +4,14 @@
 set -u
 cd "$(dirname "$0")/../.." || exit 1
 root=$PWD
+. tests/cluster/packages.sh
 . scripts/paths.sh
 . scripts/say.sh
 . scripts/lock.sh
 . scripts/toolchain.sh
+
+# What the files hold is read by tests/python/test_export.py at every push.
+only_when_long 'installs vtk, 800 MB'
 
 venv=$root/.venv-paraview
 if ! with_lock .venv-paraview.lock fill_venv "$venv" tests/extra/paraview-requirements.txt; then

@@ -68,6 +68,13 @@ class Documentation(InFolder):
             found = subprocess.run(ruff, capture_output=True, text=True, check=False)
             self.assertEqual(found.returncode, 0, found.stdout + found.stderr)
 
+    def test_what_takes_long_to_import_is_imported_when_it_is_needed(self):
+        heavy = "sorted({'numpy', 'pandas', 'xarray', 'scipy', 'matplotlib'} & set(sys.modules))"
+        accessors = "[hasattr(kind, 'plateau') for kind in (xarray.DataTree, xarray.DataArray)]"
+        self.assertEqual(python(f"import sys, plateau; print({heavy})"), "[]\n")
+        for modules in ("plateau, xarray", "xarray, plateau"):
+            self.assertEqual(python(f"import {modules}; print({accessors})"), "[True, True]\n")
+
     def test_types(self):
         try:
             import mypy.api
