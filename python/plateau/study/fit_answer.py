@@ -17,8 +17,8 @@ from plateau.study.data import Answer, Factor, Numbers, Study
 from plateau.study.figure_axes import dots, file_names, set_axis
 from plateau.study.likelihood import SETTLED, Likelihood, Target, products, profile, region
 from plateau.study.measured import Measurement
-from plateau.study.process import missed_by
 from plateau.study.settings import in_short, joined, not_smooth
+from plateau.study.surrogate import missed_by
 from plateau.style import LINES, NARROW, QUIET, WIDE, Figures, in_style, labelled, new
 from plateau.text_tables import listed
 from plateau.units import shown_unit, unit_for, with_minus

@@ -4,7 +4,6 @@ A constant plus Matérn's correlations (ν = 5/2). Constant and variance are int
 the likeliest places and from what is known beforehand (M. S. Handcock, M. L. Stein, Technometrics 35, 403-410 (1993)).
 """
 
-from collections.abc import Sequence
 from functools import partial
 
 import numpy as np
@@ -149,9 +148,3 @@ class Process:
         freedom = (own + seeds) ** 2 / (own**2 / self.freedom + seeds**2 / max(self.seeds - 1, 1))
         reach = stats.t.ppf(0.5 + confidence / 2.0, freedom) * np.sqrt(own + seeds)
         return np.column_stack([mean, mean - reach[0], mean + reach[0], mean - reach[1], mean + reach[1]])
-
-
-def missed_by(processes: Sequence[Process]) -> float:
-    """Part of the variance of means of points, of all processes together, that errors at points left out have; NaN where means are alike."""
-    missed, whole = sum(np.square(one.loo[0]).mean() for one in processes), sum(one.means.var() for one in processes)
-    return float(missed / whole) if whole > 0.0 else np.nan

@@ -1,5 +1,6 @@
 """Surrogates: what a response is expected to be where no run was made, from a polynomial or a Gaussian process."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
@@ -11,7 +12,7 @@ from plateau.errors import InputError
 from plateau.study.data import Factor, Numbers, Response, Study
 from plateau.study.model import Fitted, NothingToFit, f_test
 from plateau.study.model_choice import cautions, fitted, of_missing
-from plateau.study.process import Process, missed_by
+from plateau.study.process import Process
 from plateau.units import unit_of, with_digits
 
 WORDS = {"main": "main effects", "interactions": "main effects and interactions", "full": "interactions of all orders"}
@@ -183,3 +184,9 @@ def surrogates(study: Study, model: str | None = None, confidence: float = 0.95,
         is_better = process is not None and not one._candidates[0][1] <= one._candidates[1][1]
         found.append(replace(one, takes_process=is_better))
     return found
+
+
+def missed_by(processes: Sequence[Process]) -> float:
+    """Part of the variance of means of points, of all processes together, that errors at points left out have; NaN where means are alike."""
+    missed, whole = sum(np.square(one.loo[0]).mean() for one in processes), sum(one.means.var() for one in processes)
+    return float(missed / whole) if whole > 0.0 else np.nan
