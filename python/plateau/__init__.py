@@ -60,7 +60,7 @@ HOMES |= {"Scene": "scenes", "Simulation": "simulation", "Study": "study", "open
 
 
 def __getattr__(name: str) -> Any:
-    if name not in HOMES and name not in ("study", "__version__"):
+    if name not in HOMES and name != "__version__" and find_spec(f"plateau.{name}") is None:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
     try:
         found = _version() if name == "__version__" else import_module(f"plateau.{HOMES.get(name, name)}")
@@ -68,6 +68,10 @@ def __getattr__(name: str) -> Any:
         raise MissingPackageError(not_installed(error.name)) from error
     globals()[name] = getattr(found, name) if name in HOMES else found
     return globals()[name]
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *__all__})
 
 
 def _version() -> str:
