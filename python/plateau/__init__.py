@@ -14,7 +14,6 @@ All quantities are in SI units. The guide is docs/python.md of the project.
 """
 
 import sys
-from importlib import import_module
 from importlib.abc import MetaPathFinder
 from importlib.machinery import ModuleSpec
 from importlib.util import find_spec
@@ -30,8 +29,8 @@ from plateau.errors import (
     RunFailed,
     RunStopped,
     UnknownNameError,
-    not_installed,
 )
+from plateau.late_names import found
 
 if TYPE_CHECKING:
     from plateau import study
@@ -60,13 +59,7 @@ HOMES |= {"Scene": "scenes", "Simulation": "simulation", "Study": "study", "open
 
 
 def __getattr__(name: str) -> Any:
-    if name not in HOMES and name != "__version__" and find_spec(f"plateau.{name}") is None:
-        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    try:
-        found = _version() if name == "__version__" else import_module(f"plateau.{HOMES.get(name, name)}")
-    except ModuleNotFoundError as error:
-        raise MissingPackageError(not_installed(error.name)) from error
-    globals()[name] = getattr(found, name) if name in HOMES else found
+    globals()[name] = _version() if name == "__version__" else found(__name__, HOMES, name)
     return globals()[name]
 
 
@@ -85,8 +78,8 @@ def _version() -> str:
 
 def register(xarray: Any) -> None:
     """Registers the accessors of runs and maps, which are imported when they are used first."""
-    xarray.register_datatree_accessor("plateau")(lambda run: import_module("plateau.run_accessor").RunAccessor(run))
-    xarray.register_dataarray_accessor("plateau")(lambda found: import_module("plateau.map_accessor").MapAccessor(found))
+    xarray.register_datatree_accessor("plateau")(lambda run: found(__name__, HOMES, "RunAccessor")(run))
+    xarray.register_dataarray_accessor("plateau")(lambda array: found(__name__, HOMES, "MapAccessor")(array))
 
 
 class AfterXarray(MetaPathFinder):
@@ -96,8 +89,12 @@ class AfterXarray(MetaPathFinder):
         """Finds xarray as others do, and has the accessors registered after it."""
         if name != "xarray":
             return None
+        # Without itself, or it would be asked again; with it afterwards, for who finds does not always import.
         sys.meta_path.remove(self)
-        spec = find_spec(name)
+        try:
+            spec = find_spec(name)
+        finally:
+            sys.meta_path.insert(0, self)
         if spec is not None and spec.loader is not None:
             execute = spec.loader.exec_module
 

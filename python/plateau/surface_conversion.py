@@ -114,6 +114,7 @@ def read(path: Path, content: bytes) -> Heights:
                 return by(path, _unfolded(content))
         except (PlateauError, ImportError):
             raise
+        # The libraries raise whatever a damaged file made of them.
         except Exception as error:
             said.append(f"{name}: {_first_line(error)}")
     raise InputError(

@@ -47,7 +47,7 @@ PARAMETERS: dict[str, tuple[str, str, float, str]] = {
     "Sal": (SPATIAL, "um", 1e6, "autocorrelation length"),
     "Str": (SPATIAL, "1", 1.0, "texture aspect ratio"),
     "Std": (SPATIAL, "deg", 180.0 / np.pi, "texture direction: lay from x towards y"),
-}  # fmt: skip
+}
 OF_PROFILES = {"Ra": ("um", 1e6, "arithmetical mean height"), "Rq": ("um", 1e6, "root-mean-square height")}
 OF_PROFILES |= {"Rsk": ("1", 1.0, "skewness"), "Rku": ("1", 1.0, "kurtosis")}
 PARAMETERS |= {

@@ -72,7 +72,8 @@ class Documentation(InFolder):
         heavy = "sorted({'numpy', 'pandas', 'xarray', 'scipy', 'matplotlib'} & set(sys.modules))"
         accessors = "[hasattr(kind, 'plateau') for kind in (xarray.DataTree, xarray.DataArray)]"
         self.assertEqual(python(f"import sys, plateau; print(set(plateau.__all__) <= set(dir(plateau)), {heavy})"), "True []\n")
-        for modules in ("plateau, xarray", "xarray, plateau"):
+        looked_for = "plateau, importlib.util; importlib.util.find_spec('xarray'); import xarray"
+        for modules in ("plateau, xarray", "xarray, plateau", looked_for):
             self.assertEqual(python(f"import {modules}; print({accessors})"), "[True, True]\n")
 
     def test_types(self):

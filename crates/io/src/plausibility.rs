@@ -445,7 +445,11 @@ fn useless(cutoff: Option<&Cutoff>) -> Option<Finding> {
 const SLACK: f64 = 1e-3;
 
 /// A number and when it was reached, s.
-type Reached = (f64, f64);
+#[derive(Debug, Clone, Copy)]
+struct Reached {
+    value: f64,
+    time: f64,
+}
 
 /// The extremes of what a run recorded.
 #[derive(Debug)]
@@ -467,23 +471,24 @@ const RECORDED_RULES: &[Rule<Recorded>] = &[
 impl Recorded {
     /// Nothing recorded yet of a run with these parameters.
     pub fn new(parameters: &Parameters) -> Self {
-        let parameters = parameters.clone();
-        Self { parameters, mean_pressure: (0.0, 0.0), overlap: (0.0, 0.0), filled_fraction: None }
+        let none = Reached { value: 0.0, time: 0.0 };
+        Self { parameters: parameters.clone(), mean_pressure: none, overlap: none, filled_fraction: None }
     }
 
     /// Takes note of a sample.
     pub fn add(&mut self, sample: &Sample) {
-        if sample.mean_pressure > self.mean_pressure.0 {
-            self.mean_pressure = (sample.mean_pressure, sample.time);
+        let reached = |value| Reached { value, time: sample.time };
+        if sample.mean_pressure > self.mean_pressure.value {
+            self.mean_pressure = reached(sample.mean_pressure);
         }
         let overlap = sample.max_pressure / largest_stiffness(&self.parameters, sample);
-        if overlap > self.overlap.0 {
-            self.overlap = (overlap, sample.time);
+        if overlap > self.overlap.value {
+            self.overlap = reached(overlap);
         }
         let beyond = |fraction: f64| (-fraction).max(fraction - 1.0);
-        let so_far = self.filled_fraction.map_or(SLACK, |(filled, _)| beyond(filled));
+        let so_far = self.filled_fraction.map_or(SLACK, |filled| beyond(filled.value));
         if beyond(sample.filled_fraction) > so_far {
-            self.filled_fraction = Some((sample.filled_fraction, sample.time));
+            self.filled_fraction = Some(reached(sample.filled_fraction));
         }
     }
 
@@ -511,19 +516,19 @@ fn largest_stiffness(parameters: &Parameters, sample: &Sample) -> f64 {
 }
 
 fn pressure(recorded: &Recorded) -> Option<Finding> {
-    let (value, time) = recorded.mean_pressure;
+    let Reached { value, time } = recorded.mean_pressure;
     let what = format!("at {} s a mean contact pressure of", number(time));
     too_much_pressure(value, softest_plateau(&recorded.parameters.materials), &what)
 }
 
 fn overlap(recorded: &Recorded) -> Option<Finding> {
-    let (value, time) = recorded.overlap;
+    let Reached { value, time } = recorded.overlap;
     let what = format!("at {} s an overlap of at least", number(time));
     too_much_overlap(value, recorded.parameters.foundation_height, &what)
 }
 
 fn filled_fraction(recorded: &Recorded) -> Option<Finding> {
-    let (value, time) = recorded.filled_fraction?;
+    let Reached { value, time } = recorded.filled_fraction?;
     Some(Finding {
         found: format!("at {} s a filled fraction of {}", number(time), number(value)),
         bound: format!("outside of 0 to 1 by more than {SLACK}"),

@@ -7,6 +7,7 @@ imported when they are called.
 
 from typing import TYPE_CHECKING, Any
 
+from plateau.late_names import found
 from plateau.study.data import Factor, Response, Study
 from plateau.study.results import open_study
 
@@ -31,15 +32,5 @@ __all__ += ["optimize", "predict", "seeds_needed", "sensitivity"]
 
 
 def __getattr__(name: str) -> Any:
-    if name not in ANSWERS:
-        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    from importlib import import_module
-
-    from plateau.errors import MissingPackageError, not_installed
-
-    try:
-        answer = getattr(import_module(f"plateau.study.{ANSWERS[name]}"), name)
-    except ModuleNotFoundError as error:
-        raise MissingPackageError(not_installed(error.name)) from error
-    globals()[name] = answer
-    return answer
+    globals()[name] = found(__name__, ANSWERS, name)
+    return globals()[name]

@@ -208,8 +208,10 @@ fn contact_area(window: &WindowMean) -> String {
         _ => format!("mean of the last {width} s"),
     };
     let contact = in_contact(window);
-    let unknown = ", too few samples or pulses for an error";
-    let error = window.standard_error.map_or(unknown, |_| ", ± standard error");
+    let error = match window.standard_error {
+        Some(_) => ", ± standard error",
+        None => ", too few samples or pulses for an error",
+    };
     format!("{mean} mm² ({over}{contact}{error})")
 }
 
@@ -236,9 +238,12 @@ fn running_in(found: &Result<Drift, NoDrift>, filled: f64) -> String {
     };
     // It falls at first, where the highest points of the disc are worn to, and rises as long as the disc fills.
     let fills_on = drift.trend() == Trend::Steady && HARDLY_FILLED.contains(&filled);
-    let filled = number::rounded(100.0 * filled, 2);
-    let caution = format!("; the disc is filled by {filled} %, and as it fills on the area may rise");
-    let caution = if fills_on { caution } else { String::new() };
+    let caution = if fills_on {
+        let filled = number::rounded(100.0 * filled, 2);
+        format!("; the disc is filled by {filled} %, and as it fills on the area may rise")
+    } else {
+        String::new()
+    };
     format!("{found}: {sign}{percent} % from {start} … {middle} s to {middle} … {end} s{caution}")
 }
 
@@ -247,9 +252,13 @@ const HARDLY_FILLED: std::ops::Range<f64> = 0.001..0.8;
 
 /// Time at which the contact area had come to its value at the end, in words.
 fn running_in_time(found: &Result<f64, NotDefined>) -> String {
-    let (percent, time) = (100.0 * RUN_IN, |time: &f64| number::rounded(*time, 4));
-    let told = |found| format!("{} s, to {percent:.0} % of the contact area at the end", time(found));
-    found.as_ref().map_or_else(ToString::to_string, told)
+    match found {
+        Ok(time) => {
+            let (time, percent) = (number::rounded(*time, 4), 100.0 * RUN_IN);
+            format!("{time} s, to {percent:.0} % of the contact area at the end")
+        }
+        Err(reason) => reason.to_string(),
+    }
 }
 
 /// Over how much of its part a mean of the contact area is, behind that part; nothing where it is all of it.
@@ -263,10 +272,12 @@ fn in_contact(window: &WindowMean) -> String {
 fn acceleration(chosen: &Chosen) -> String {
     let Chosen { tolerance, smallest, largest, last, estimated_error, met } = chosen;
     let [smallest, largest, last] = [smallest, largest, last].map(|m| number::rounded(*m, 3));
-    let only = format!("m = {largest}");
-    let range = if largest == smallest { only } else { format!("m = {smallest} to {largest}, last {last}") };
-    let ([error, tolerance], met) =
-        ([estimated_error, tolerance].map(|part| number::percent(*part)), if *met { "met" } else { "not met" });
+    let range = match largest == smallest {
+        true => format!("m = {largest}"),
+        false => format!("m = {smallest} to {largest}, last {last}"),
+    };
+    let [error, tolerance] = [estimated_error, tolerance].map(|part| number::percent(*part));
+    let met = if *met { "met" } else { "not met" };
     format!("{range}; estimated error of the contact area {error}, tolerance {tolerance} {met}")
 }
 
