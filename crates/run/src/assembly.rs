@@ -11,8 +11,9 @@ use plateau_core::model::cycle::Cycle;
 use plateau_core::model::parameters::Parameters;
 use plateau_core::model::state::InitialSurfaces;
 use plateau_core::observe::event::{EventLog, EventRecord};
+use plateau_core::observe::extra::record_brake;
 use plateau_core::observe::schedule::{Moment, Schedule};
-use plateau_core::observe::{ACCELERATION, CYCLE, ROAD, Sample, Snapshot, brake};
+use plateau_core::observe::{ACCELERATION, CYCLE, ROAD, Sample, Snapshot};
 use plateau_core::simulation::{Course, Execution, Simulation, SimulationError};
 use plateau_io::run_file::checkpoint::SimulationState;
 use plateau_io::scene::{OutputSettings, Scene};
@@ -230,7 +231,7 @@ impl Assembly {
             CYCLE.record(&mut sample, [force, self.simulation.last_speed(), moment.time]);
         }
         if let Some(brake) = &self.brake {
-            brake::record(brake, &parameters.mesh, [force, turning], distance, &mut sample);
+            record_brake(brake, &parameters.mesh, [force, turning], distance, &mut sample);
         }
         if let Some(choice) = self.scout.as_ref().map(Scout::choice) {
             ACCELERATION.record(&mut sample, [choice.acceleration(), choice.error()]);

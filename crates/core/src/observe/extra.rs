@@ -1,5 +1,6 @@
 //! Series that not every run has: their type, their table, and the functions that measure them.
 
+use crate::model::brake::Brake;
 use crate::model::mesh::Mesh;
 use crate::model::parameters::Parameters;
 use crate::observe::map::Map;
@@ -64,17 +65,24 @@ pub const EXTRAS: &[&Extra] = &[
     &EMISSION_ON_ROAD,
 ];
 
+/// Quantities, a row each: name, unit and meaning; behind `part.field =>` where it is one of the accounts, which a run without that part has not.
+macro_rules! quantities {
+    ($($($part:ident . $field:ident =>)? $name:literal, $unit:literal, $long_name:literal;)*) => {
+        &[$(quantities!(@ $($part . $field)?; $name, $unit, $long_name)),*]
+    };
+    (@; $name:literal, $unit:literal, $long_name:literal) => { Quantity::extra($name, $unit, $long_name) };
+    (@ $part:ident . $field:ident; $name:literal, $unit:literal, $long_name:literal) => {
+        Quantity::of($name, $unit, $long_name, |sample| sample.accounts.$part.map(|part| part.$field))
+    };
+}
+
 /// The acceleration at the end of a step, in a run that chooses it.
 pub const ACCELERATION: Extra = Extra {
     name: "acceleration",
-    quantities: &[
-        Quantity::extra("time_acceleration", "1", "revolutions that one simulated revolution stands for"),
-        Quantity::extra(
-            "acceleration_error",
-            "1",
-            "estimate of the relative error of the contact area that the time acceleration causes",
-        ),
-    ],
+    quantities: quantities! {
+        "time_acceleration", "1", "revolutions that one simulated revolution stands for";
+        "acceleration_error", "1", "estimate of the relative error of the contact area that the time acceleration causes";
+    },
     request: None,
     needs: "a time acceleration that the run chooses, numerics.time_acceleration = { tolerance = 0.01, max = 1000 }",
 };
@@ -83,11 +91,11 @@ pub const ACCELERATION: Extra = Extra {
 /// [`Cycle::contact_time_until`](crate::model::cycle::Cycle::contact_time_until) give their values.
 pub const CYCLE: Extra = Extra {
     name: "cycle",
-    quantities: &[
-        Quantity::extra("normal_force", "N", "normal force on the simulated pin in the step, mean over its angle"),
-        Quantity::extra("rotational_speed", "rad s-1", "rotational speed of the disc at the end of the step"),
-        Quantity::extra("contact_time", "s", "time since the first step in which the pin was not lifted"),
-    ],
+    quantities: quantities! {
+        "normal_force", "N", "normal force on the simulated pin in the step, mean over its angle";
+        "rotational_speed", "rad s-1", "rotational speed of the disc at the end of the step";
+        "contact_time", "s", "time since the first step in which the pin was not lifted";
+    },
     request: None,
     needs: "a cycle, table [operation.cycle]",
 };
@@ -95,7 +103,9 @@ pub const CYCLE: Extra = Extra {
 /// Distance that the vehicle has travelled, m, where its speed is given.
 pub const ROAD: Extra = Extra {
     name: "road",
-    quantities: &[Quantity::extra("road_distance", "m", "distance that the vehicle has travelled")],
+    quantities: quantities! {
+        "road_distance", "m", "distance that the vehicle has travelled";
+    },
     request: None,
     needs: "a cycle with the speed on the road, column road_speed",
 };
@@ -120,16 +130,16 @@ pub fn quantities(extras: &[&Extra]) -> impl Iterator<Item = &'static Quantity> 
 /// since all of it passes under the pin, and of the whole pin.
 pub const ROUGHNESS: Extra = Extra {
     name: "roughness",
-    quantities: &[
-        Quantity::extra("disc_sa", "m", "arithmetical mean height Sa of the disc"),
-        Quantity::extra("disc_sq", "m", "root-mean-square height Sq of the disc"),
-        Quantity::extra("disc_ssk", "1", "skewness Ssk of the disc heights"),
-        Quantity::extra("disc_sku", "1", "kurtosis Sku of the disc heights"),
-        Quantity::extra("pin_sa", "m", "arithmetical mean height Sa of the pin"),
-        Quantity::extra("pin_sq", "m", "root-mean-square height Sq of the pin"),
-        Quantity::extra("pin_ssk", "1", "skewness Ssk of the pin heights, peaks toward the disc"),
-        Quantity::extra("pin_sku", "1", "kurtosis Sku of the pin heights"),
-    ],
+    quantities: quantities! {
+        "disc_sa", "m", "arithmetical mean height Sa of the disc";
+        "disc_sq", "m", "root-mean-square height Sq of the disc";
+        "disc_ssk", "1", "skewness Ssk of the disc heights";
+        "disc_sku", "1", "kurtosis Sku of the disc heights";
+        "pin_sa", "m", "arithmetical mean height Sa of the pin";
+        "pin_sq", "m", "root-mean-square height Sq of the pin";
+        "pin_ssk", "1", "skewness Ssk of the pin heights, peaks toward the disc";
+        "pin_sku", "1", "kurtosis Sku of the pin heights";
+    },
     request: Some(Request {
         what: "roughness",
         meaning: "whether Sa, Sq, Ssk and Sku of disc and pin are written with every sample",
@@ -212,14 +222,10 @@ pub(crate) fn root_mean_square_along_tracks(mesh: &Mesh, heights: &[f64]) -> f64
 /// The spread of the pressures with every sample.
 pub const PRESSURE_SPREAD: Extra = Extra {
     name: "pressure_spread",
-    quantities: &[
-        Quantity::extra(
-            "pressure_variation",
-            "1",
-            "coefficient of variation of the pressure over the cells in contact",
-        ),
-        Quantity::extra("pressure_gini", "1", "Gini coefficient of the pressure over the cells in contact"),
-    ],
+    quantities: quantities! {
+        "pressure_variation", "1", "coefficient of variation of the pressure over the cells in contact";
+        "pressure_gini", "1", "Gini coefficient of the pressure over the cells in contact";
+    },
     request: Some(Request {
         what: "spread of the pressure",
         meaning: "whether the coefficient of variation and the Gini coefficient of the pressure are written with every sample",
@@ -254,26 +260,15 @@ fn spread(mesh: &Mesh, pressures: &[f64]) -> [f64; 2] {
     [variance.sqrt() / mean, 1.0 - 2.0 * below / (area * force)]
 }
 
-/// A quantity of one of the accounts; none in a run without it.
-macro_rules! of {
-    ($part:ident . $field:ident, $name:literal, $unit:literal, $long_name:literal) => {
-        Quantity::of($name, $unit, $long_name, |sample| sample.accounts.$part.map(|part| part.$field))
-    };
-}
-
 /// Coefficient and work of friction, with `[friction]`.
 pub const FRICTION: Extra = Extra {
     name: "friction",
-    quantities: &[
-        of!(friction.coefficient, "friction_coefficient", "1", "coefficient of friction"),
-        of!(
-            friction.coefficient_mean,
-            "friction_coefficient_mean",
-            "1",
-            "coefficient of friction, mean over the last simulated revolution, weighted by load"
-        ),
-        of!(friction.work, "friction_work", "J", "work of friction of the simulated pin"),
-    ],
+    quantities: quantities! {
+        friction.coefficient => "friction_coefficient", "1", "coefficient of friction";
+        friction.coefficient_mean => "friction_coefficient_mean", "1",
+            "coefficient of friction, mean over the last simulated revolution, weighted by load";
+        friction.work => "friction_work", "J", "work of friction of the simulated pin";
+    },
     request: None,
     needs: "a law of friction, table [friction]",
 };
@@ -281,13 +276,13 @@ pub const FRICTION: Extra = Extra {
 /// Temperatures and balance of heat, with `[thermal]`.
 pub const HEAT: Extra = Extra {
     name: "heat",
-    quantities: &[
-        of!(heat.contact, "contact_temperature", "K", "temperature of the contact"),
-        of!(heat.disc, "disc_temperature", "K", "mean temperature of the disc"),
-        of!(heat.pin, "pin_temperature", "K", "mean temperature of the pin"),
-        of!(heat.lost, "heat_lost", "J", "heat lost to the air and the holder of the simulated pin"),
-        of!(heat.residual, "heat_residual", "1", "relative residual of the energy balance"),
-    ],
+    quantities: quantities! {
+        heat.contact => "contact_temperature", "K", "temperature of the contact";
+        heat.disc => "disc_temperature", "K", "mean temperature of the disc";
+        heat.pin => "pin_temperature", "K", "mean temperature of the pin";
+        heat.lost => "heat_lost", "J", "heat lost to the air and the holder of the simulated pin";
+        heat.residual => "heat_residual", "1", "relative residual of the energy balance";
+    },
     request: None,
     needs: "heat, table [thermal]",
 };
@@ -295,12 +290,12 @@ pub const HEAT: Extra = Extra {
 /// Airborne emission of the simulated pin, with `[emission]`.
 pub const EMISSION: Extra = Extra {
     name: "emission",
-    quantities: &[
-        of!(emission.mass, "emitted_mass", "kg", "mass of the debris that left the contact of the simulated pin"),
-        of!(emission.pm10, "pm10_mass", "kg", "mass of it that is airborne as PM10, of the simulated pin"),
-        of!(emission.pm25, "pm25_mass", "kg", "mass of it that is airborne as PM2.5, of the simulated pin"),
-        of!(emission.number, "particle_number", "1", "number of airborne particles of the simulated pin"),
-    ],
+    quantities: quantities! {
+        emission.mass => "emitted_mass", "kg", "mass of the debris that left the contact of the simulated pin";
+        emission.pm10 => "pm10_mass", "kg", "mass of it that is airborne as PM10, of the simulated pin";
+        emission.pm25 => "pm25_mass", "kg", "mass of it that is airborne as PM2.5, of the simulated pin";
+        emission.number => "particle_number", "1", "number of airborne particles of the simulated pin";
+    },
     request: None,
     needs: "airborne emission, table [emission]",
 };
@@ -308,7 +303,9 @@ pub const EMISSION: Extra = Extra {
 /// Wear of the pads, with `[brake]`.
 pub const PADS: Extra = Extra {
     name: "pads",
-    quantities: &[Quantity::extra("pad_wear", "m", "thickness that the pads have lost, mean over their area")],
+    quantities: quantities! {
+        "pad_wear", "m", "thickness that the pads have lost, mean over their area";
+    },
     request: None,
     needs: "a brake, table [brake]",
 };
@@ -316,7 +313,9 @@ pub const PADS: Extra = Extra {
 /// Braking torque, with `[brake]` and `[friction]`.
 pub const BRAKE_TORQUE: Extra = Extra {
     name: "brake_torque",
-    quantities: &[Quantity::extra("brake_torque", "N m", "braking torque of the whole brake")],
+    quantities: quantities! {
+        "brake_torque", "N m", "braking torque of the whole brake";
+    },
     request: None,
     needs: "a brake and a law of friction, tables [brake] and [friction]",
 };
@@ -324,16 +323,12 @@ pub const BRAKE_TORQUE: Extra = Extra {
 /// Airborne emission of the whole brake, with `[brake]` and `[emission]`.
 pub const BRAKE_EMISSION: Extra = Extra {
     name: "brake_emission",
-    quantities: &[
-        Quantity::extra(
-            "brake_emitted_mass",
-            "kg",
-            "mass of the debris that left the whole brake: what pads and disc have lost",
-        ),
-        Quantity::extra("brake_pm10_mass", "kg", "mass of it that is airborne as PM10, of the whole brake"),
-        Quantity::extra("brake_pm25_mass", "kg", "mass of it that is airborne as PM2.5, of the whole brake"),
-        Quantity::extra("brake_particle_number", "1", "number of airborne particles of the whole brake"),
-    ],
+    quantities: quantities! {
+        "brake_emitted_mass", "kg", "mass of the debris that left the whole brake: what pads and disc have lost";
+        "brake_pm10_mass", "kg", "mass of it that is airborne as PM10, of the whole brake";
+        "brake_pm25_mass", "kg", "mass of it that is airborne as PM2.5, of the whole brake";
+        "brake_particle_number", "1", "number of airborne particles of the whole brake";
+    },
     request: None,
     needs: "a brake and airborne emission, tables [brake] and [emission]",
 };
@@ -341,14 +336,10 @@ pub const BRAKE_EMISSION: Extra = Extra {
 /// Wear of the pads over the distance of the vehicle, with `[brake]` and the speed on the road.
 pub const PADS_ON_ROAD: Extra = Extra {
     name: "pads_on_road",
-    quantities: &[
-        Quantity::extra(
-            "pad_wear_per_distance",
-            "1",
-            "thickness that the pads have lost over the distance of the vehicle",
-        ),
-        Quantity::extra("pad_life", "m", "distance of the vehicle after which the pads are worn down at that rate"),
-    ],
+    quantities: quantities! {
+        "pad_wear_per_distance", "1", "thickness that the pads have lost over the distance of the vehicle";
+        "pad_life", "m", "distance of the vehicle after which the pads are worn down at that rate";
+    },
     request: None,
     needs: "a brake and a cycle with the speed on the road, table [brake] and column road_speed",
 };
@@ -356,28 +347,12 @@ pub const PADS_ON_ROAD: Extra = Extra {
 /// Emission of the brake over the distance of the vehicle, with `[brake]`, `[emission]` and the speed on the road.
 pub const EMISSION_ON_ROAD: Extra = Extra {
     name: "emission_on_road",
-    quantities: &[
-        Quantity::extra(
-            "brake_emitted_per_distance",
-            "kg m-1",
-            "mass that the whole brake lost over the distance of the vehicle",
-        ),
-        Quantity::extra(
-            "brake_pm10_per_distance",
-            "kg m-1",
-            "PM10 of the whole brake over the distance of the vehicle",
-        ),
-        Quantity::extra(
-            "brake_pm25_per_distance",
-            "kg m-1",
-            "PM2.5 of the whole brake over the distance of the vehicle",
-        ),
-        Quantity::extra(
-            "brake_particles_per_distance",
-            "m-1",
-            "particles of the whole brake over the distance of the vehicle",
-        ),
-    ],
+    quantities: quantities! {
+        "brake_emitted_per_distance", "kg m-1", "mass that the whole brake lost over the distance of the vehicle";
+        "brake_pm10_per_distance", "kg m-1", "PM10 of the whole brake over the distance of the vehicle";
+        "brake_pm25_per_distance", "kg m-1", "PM2.5 of the whole brake over the distance of the vehicle";
+        "brake_particles_per_distance", "m-1", "particles of the whole brake over the distance of the vehicle";
+    },
     request: None,
     needs: "a brake, airborne emission and a cycle with the speed on the road, tables [brake] and [emission] and column road_speed",
 };
@@ -385,21 +360,37 @@ pub const EMISSION_ON_ROAD: Extra = Extra {
 /// The series of a brake.
 pub const OF_BRAKES: &[&Extra] = &[&PADS, &PADS_ON_ROAD, &BRAKE_TORQUE, &BRAKE_EMISSION, &EMISSION_ON_ROAD];
 
+/// Adds the values of the series of a brake to a sample of the pin of a mesh, which is pressed with a force (N) at a rotational speed (rad/s),
+/// and whose vehicle has come a distance (m). What the scene does not have is NaN, as is the torque that holds a disc at rest.
+pub fn record_brake(brake: &Brake, mesh: &Mesh, [force, speed]: [f64; 2], distance: f64, sample: &mut Sample) {
+    let pad_wear = sample.lost_pin() / mesh.pin_area();
+    let per_distance = |total: f64| total / distance;
+    PADS.record(sample, [pad_wear]);
+    PADS_ON_ROAD.record(sample, [per_distance(pad_wear), brake.pad_thickness / per_distance(pad_wear)]);
+    if let Some(friction) = sample.accounts.friction {
+        let friction_force = match (force, speed) {
+            // Where nothing presses, there is no coefficient.
+            (0.0, _) => 0.0,
+            (_, 0.0) => f64::NAN,
+            _ => friction.coefficient * force,
+        };
+        BRAKE_TORQUE.record(sample, [brake.torque(friction_force, mesh)]);
+    }
+    if let Some(emission) = sample.accounts.emission {
+        let of_brake =
+            [emission.mass, emission.pm10, emission.pm25, emission.number].map(|of_pin| of_pin / brake.share(mesh));
+        BRAKE_EMISSION.record(sample, of_brake);
+        EMISSION_ON_ROAD.record(sample, of_brake.map(per_distance));
+    }
+}
+
 /// Mean and largest contact temperature, K, over its map, which is written, too.
 pub const CONTACT_TEMPERATURE: Extra = Extra {
     name: "contact_temperature",
-    quantities: &[
-        Quantity::extra(
-            "contact_temperature_heated",
-            "K",
-            "temperature of the cells in contact, mean over their area, pressures frozen during the pass",
-        ),
-        Quantity::extra(
-            "contact_temperature_max",
-            "K",
-            "largest temperature of any pin cell, pressures frozen during the pass",
-        ),
-    ],
+    quantities: quantities! {
+        "contact_temperature_heated", "K", "temperature of the cells in contact, mean over their area, pressures frozen during the pass";
+        "contact_temperature_max", "K", "largest temperature of any pin cell, pressures frozen during the pass";
+    },
     request: Some(Request {
         what: "contact temperatures and their map",
         meaning: "whether the temperature of every cell of the contact is reckoned with every sample, and written with the maps; needs [thermal]",

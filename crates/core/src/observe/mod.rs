@@ -3,14 +3,12 @@
 //! | file | what is in it |
 //! |---|---|
 //! | `sample.rs` | quantities of every run: the fields of a sample, and their names and units |
-//! | `extra.rs` | series that not every run has: on request, or of runs with friction, heat or emission |
-//! | `brake.rs` | series of the brake of whose pads the pin is a piece |
+//! | `extra.rs` | series that not every run has: on request, or of runs with friction, heat, emission or a brake |
 //! | `event.rs` | records of the events of a cycle |
 //! | `map.rs` | fields that can be recorded as maps |
 //! | `schedule.rs` | times at which samples and maps are due |
 //! | `window_mean.rs`, `running_in.rs` | evaluation of series and maps afterwards |
 
-pub mod brake;
 pub mod event;
 pub mod extra;
 pub mod map;

@@ -26,7 +26,6 @@ pub(crate) enum Fft {
 pub(crate) trait Point:
     Copy + Default + Add<Output = Self> + Sub<Output = Self> + Mul<Complex, Output = Self>
 {
-    /// The complex conjugate.
     fn conjugate(self) -> Self;
 }
 

@@ -15,7 +15,6 @@ mod patch;
 mod prepare;
 pub(crate) mod random;
 mod resample;
-mod rotate;
 mod straighten;
 mod synthesis;
 mod unroll;

@@ -8,8 +8,8 @@
 
 mod statistics;
 
-pub(super) use statistics::crossing;
 use statistics::{Line, Quantiles, Reach, Spectrum};
+pub(super) use statistics::{crossing, few_lengths};
 
 use super::error::PreparationError;
 use super::heights::{mean, rms};
@@ -43,11 +43,9 @@ impl Extension {
 
 /// Statistics from which random heights are made.
 struct Statistics {
-    /// The grid of the field.
     grid: Grid,
     /// Autocorrelation at every lag of the grid, column by column.
     correlation: Vec<f64>,
-    /// Distribution of the heights.
     quantiles: Quantiles,
 }
 

@@ -70,7 +70,6 @@ impl Quantiles {
 /// Tapers in either direction.
 const TAPERS: usize = 2;
 
-/// The spectrum of a patch.
 pub(super) struct Spectrum {
     /// Power at every harmonic of the padded grid, column by column, up to a factor.
     pub(super) power: Vec<f64>,
@@ -206,25 +205,33 @@ impl Reach {
                 Length(body_sizes[1])
             ));
         }
-        for (axis, direction) in ["along", "across"].into_iter().enumerate() {
-            let few = match self.lengths[axis].filter(|length| *length < WHOLE * sizes[axis]) {
-                None => format!("{direction} sliding, heights are related over a third of the patch or more"),
-                Some(length) if sizes[axis] < FEW * length => {
-                    let times = sizes[axis] / length;
-                    format!(
-                        "{direction} sliding, the patch is only {times:.1} times its correlation length of {}",
-                        Length(length)
-                    )
-                }
-                Some(_) => continue,
-            };
-            remarks.push(format!(
-                "warning: {few}, expected some {FEW} correlation lengths: its rms height is known to {:.0} %, its texture less",
-                100.0 * self.error
-            ));
-        }
+        let known = [0, 1].map(|axis| self.lengths[axis].filter(|length| *length < WHOLE * sizes[axis]));
+        remarks.extend(
+            few_lengths(known, sizes, ["heights are", "a third", "patch"])
+                .map(|few| format!("{few}: its rms height is known to {:.0} %, its texture less", 100.0 * self.error)),
+        );
         remarks
     }
+}
+
+/// Warnings of directions in which a patch or picture of this size, m, has few correlation lengths, m, or none that is known: what is
+/// related over which part of which whole, in words.
+pub(in crate::surface) fn few_lengths(
+    lengths: [Option<f64>; 2],
+    size: [f64; 2],
+    [related, part, whole]: [&'static str; 3],
+) -> impl Iterator<Item = String> {
+    ["along", "across"].into_iter().enumerate().filter_map(move |(axis, direction)| {
+        let few = match lengths[axis] {
+            None => format!("{related} related over {part} of the {whole} or more"),
+            Some(length) if size[axis] < FEW * length => {
+                let times = size[axis] / length;
+                format!("the {whole} is only {times:.1} times its correlation length of {}", Length(length))
+            }
+            Some(_) => return None,
+        };
+        Some(format!("warning: {direction} sliding, {few}, expected some {FEW} correlation lengths"))
+    })
 }
 
 /// The place at which values first fall to the threshold, linear between them.

@@ -17,12 +17,12 @@
 
 use std::f64::consts::{FRAC_1_SQRT_2, FRAC_PI_2, PI, TAU};
 
-use super::super::extend::{crossing, gaussian_power};
+use super::super::extend::{crossing, few_lengths, gaussian_power};
 use super::super::fft::Complex;
 use super::super::random::{Random, Stream};
 use super::super::synthesis::planar::{self, Grid, Plane};
 use super::super::{Body, Extension, Length};
-use super::picture::{MicrographError, Picture};
+use super::{MicrographError, Picture};
 use crate::model::mesh::Mesh;
 use crate::model::state::Base;
 
@@ -33,8 +33,6 @@ const KEPT: f64 = 0.25;
 const TOLD: f64 = 2.0;
 /// Points in a cell along either direction; of finer pixels every n-th is taken.
 const POINTS: f64 = 8.0;
-/// Fewest correlation lengths in a direction that are not warned of.
-const FEW: f64 = 10.0;
 
 /// Base of every pin cell, by a picture whose pixels are this far apart, m. What is done, and what the picture cannot tell, goes
 /// into the report.
@@ -238,24 +236,9 @@ impl Autocorrelation {
             crossing((0..kept[0]).map(|lag| self.values[lag * self.lags[1]])).map(|lag| lag * self.pitch[0]),
             crossing((0..kept[1]).map(|lag| self.values[lag])).map(|lag| lag * self.pitch[1]),
         ];
-        let mut warnings = Vec::new();
-        for (axis, direction) in ["along", "across"].into_iter().enumerate() {
-            let few = match lengths[axis] {
-                None => format!("{direction} sliding, fibre is related over a quarter of the picture or more"),
-                Some(length) if size[axis] < FEW * length => {
-                    let times = size[axis] / length;
-                    format!(
-                        "{direction} sliding, the picture is only {times:.1} times its correlation length of {}",
-                        Length(length)
-                    )
-                }
-                Some(_) => continue,
-            };
-            warnings.push(format!(
-                "warning: {few}, expected some {FEW} correlation lengths: its fraction and correlation are those of few fibres"
-            ));
-        }
-        warnings
+        few_lengths(lengths, size, ["fibre is", "a quarter", "picture"])
+            .map(|few| format!("{few}: its fraction and correlation are those of few fibres"))
+            .collect()
     }
 }
 

@@ -112,7 +112,9 @@ impl HeightSynthesis {
                 planar::separable_field(&grid, along / grid.column_width, across / grid.row_height, &mut random)
             }
             (texture, translation) => {
-                refuse_too_large(&grid)?;
+                if grid.is_too_large() {
+                    return Err(SynthesisError::TooLarge { columns: grid.padded_columns, rows: grid.padded_rows });
+                }
                 let power = match texture {
                     Texture::Correlation { along, across } => {
                         planar::gaussian_on(&grid, along / grid.column_width, across / grid.row_height)
@@ -185,11 +187,6 @@ impl HeightSynthesis {
         }
         Ok(())
     }
-}
-
-fn refuse_too_large(grid: &Grid) -> Result<(), SynthesisError> {
-    let (columns, rows) = (grid.padded_columns, grid.padded_rows);
-    if grid.is_too_large() { Err(SynthesisError::TooLarge { columns, rows }) } else { Ok(()) }
 }
 
 /// Takes out the mean and scales to the rms height, both of the cells that are there; `None` when nothing but the mean is.

@@ -162,7 +162,6 @@ pub(in crate::surface) struct Plane {
 }
 
 impl Plane {
-    /// Plane of so many columns and rows.
     pub(in crate::surface) fn new(columns: usize, rows: usize) -> Self {
         Self { columns, rows, along_y: Fft::new(rows), along_x: Fft::new(columns) }
     }
@@ -171,7 +170,6 @@ impl Plane {
         Self::new(grid.padded_columns, grid.padded_rows)
     }
 
-    /// Columns and rows of the plane.
     pub(in crate::surface) fn size(&self) -> [usize; 2] {
         [self.columns, self.rows]
     }
