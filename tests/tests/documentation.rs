@@ -89,7 +89,7 @@ fn plain(key: &Key) -> String {
     let example = || format!("`{}`", example_of(key).expect("an example"));
     match key.kind {
         Kind::Quantity { .. } | Kind::Times | Kind::Rows | Kind::Factor => example(),
-        Kind::Lengths { single: true, count, .. } => format!("{} or {count} of them", example()),
+        Kind::Lengths { single: true, .. } => format!("{} or 2 of them", example()),
         Kind::Lengths { .. } => example(),
         Kind::LengthUnit => format!("{} or a length", example()),
         Kind::Number(range) => format!("number{}", limits(range)),

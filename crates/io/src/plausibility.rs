@@ -6,14 +6,13 @@
 //! | with its surfaces | [`of_surfaces`] |
 //! | from what a run recorded | [`Recorded`] |
 //!
-//! Each is a list of rules. A rule belongs to the key that is most likely wrong; it looks, and tells what it found, the
-//! bound and what to do. `docs/scenes.md` lists them all.
+//! Each is a list of rules. A rule belongs to the key that is most likely wrong, and tells what it found, the bound and what to
+//! do. `docs/scenes.md` lists them all.
 
 use std::ops::RangeInclusive;
 
 use plateau_core::model::first_contact::FirstContact;
 use plateau_core::model::material::{Material, Materials, Status};
-use plateau_core::model::mesh::Mesh;
 use plateau_core::model::parameters::Parameters;
 use plateau_core::model::thermal::{Substance, Thermal};
 use plateau_core::observe::Sample;
@@ -26,30 +25,24 @@ use crate::surface::Loaded;
 /// the overlap is a tenth of the foundation.
 const LARGEST_STRAIN: f64 = 0.1;
 
-/// The key that is named when a subject cannot be meant, and the look at it.
-type Rule<Subject> = (&'static str, fn(&Subject) -> Option<Finding>);
-
-/// Finding of a rule.
 struct Finding {
     /// The value found, in words, with its number.
     found: String,
     /// The bound that it misses, with its number.
     bound: String,
-    /// Advice.
     advice: &'static str,
 }
 
-/// Warnings of the rules, for keys that the scene gives and that no warning has named yet.
+/// Warnings of what rules found, for keys that the scene gives and that no warning has named yet.
 ///
 /// Where a key has its default, the key that this follows from is named.
-fn apply<Subject>(rules: &[Rule<Subject>], subject: &Subject, scene: &Scene) -> Vec<Warning> {
+fn warnings<const RULES: usize>(scene: &Scene, found: [(&str, Option<Finding>); RULES]) -> Vec<Warning> {
     let mut warnings: Vec<Warning> = Vec::new();
-    for (key, look) in rules {
-        let place = scene.places.get(*key).filter(|place| **place != Origin::Default);
-        let named = scene.warnings.iter().chain(&warnings).any(|warning| warning.key == *key);
-        let (Some(place), false) = (place, named) else { continue };
-        if let Some(Finding { found, bound, advice }) = look(subject) {
-            let (place, key, advice) = (place.clone(), (*key).to_owned(), advice.to_owned());
+    for (key, finding) in found {
+        let place = scene.places.get(key).filter(|place| **place != Origin::Default);
+        let named = scene.warnings.iter().chain(&warnings).any(|warning| warning.key == key);
+        if let (Some(place), false, Some(Finding { found, bound, advice })) = (place, named, finding) {
+            let (place, key, advice) = (place.clone(), key.to_owned(), advice.to_owned());
             warnings.push(Warning { place, key, found, bound, advice });
         }
     }
@@ -118,38 +111,41 @@ const LEAST_LENGTHS: f64 = 10.0;
 /// Part that rounding may take off a length that was given as a whole number of others.
 const ROUNDING: f64 = 1e-9;
 
-const RULES: &[Rule<Scene>] = &[
-    ("operation.normal_force", nominal_pressure),
-    ("operation.rotational_speed", sliding_speed),
-    ("operation.sliding_speed", sliding_speed),
-    ("operation.duration", duration),
-    ("materials.disc_primary.youngs_modulus", |scene| modulus(&scene.parameters.materials.disc_primary)),
-    ("materials.disc_secondary.youngs_modulus", |scene| modulus(&scene.parameters.materials.disc_secondary)),
-    ("materials.pin_primary.youngs_modulus", |scene| modulus(&scene.parameters.materials.pin_primary)),
-    ("materials.pin_secondary.youngs_modulus", |scene| modulus(&scene.parameters.materials.pin_secondary)),
-    ("materials.pin_resin.youngs_modulus", |scene| modulus(&scene.parameters.materials.pin_resin)),
-    ("disc.surface.synthetic.correlation_length", |scene| correlation_length(scene, &scene.disc_surface, "disc")),
-    ("disc.surface.synthetic.correlation_length_across", |scene| correlation_length_across(scene, &scene.disc_surface)),
-    ("disc.surface.synthetic.patch", patch),
-    ("pin.surface.synthetic.correlation_length", |scene| correlation_length(scene, &scene.pin_surface, "pin")),
-    ("pin.surface.synthetic.correlation_length_across", |scene| correlation_length_across(scene, &scene.pin_surface)),
-    ("pin.base.synthetic.fibre_length", fibre_length),
-    ("plateaus.transport_length", transport_length),
-    ("friction.shear_strength", shear_strength),
-    ("thermal.ambient", ambient),
-    ("thermal.disc.conductivity", |scene| substance(&thermal(scene)?.disc.substance)),
-    ("thermal.disc.coating.conductivity", |scene| substance(&thermal(scene)?.disc.coating?.substance)),
-    ("thermal.disc.coating.thickness", coating_thickness),
-    ("thermal.pin.conductivity", |scene| substance(&thermal(scene)?.pin.substance)),
-    ("thermal.disc.thickness", heat_capacity),
-    ("thermal.pin.area", pin_area),
-    ("emission.pin_density", |scene| density(scene.parameters.emission.as_ref()?.pin_density)),
-    ("emission.disc_density", |scene| density(scene.parameters.emission.as_ref()?.disc_density)),
-];
-
 /// Values that cannot be meant, as far as the scene tells without its surfaces.
 pub fn of_scene(scene: &Scene) -> Vec<Warning> {
-    apply(RULES, scene, scene)
+    let Scene { disc_surface: disc, pin_surface: pin, .. } = scene;
+    let Parameters { materials, emission, .. } = &scene.parameters;
+    let thermal = scene.parameters.thermal.as_deref();
+    let coating = thermal.and_then(|thermal| thermal.disc.coating);
+    let rules = [
+        ("operation.normal_force", nominal_pressure(scene)),
+        ("operation.rotational_speed", sliding_speed(scene)),
+        ("operation.sliding_speed", sliding_speed(scene)),
+        ("operation.duration", duration(scene)),
+        ("materials.disc_primary.youngs_modulus", modulus(&materials.disc_primary)),
+        ("materials.disc_secondary.youngs_modulus", modulus(&materials.disc_secondary)),
+        ("materials.pin_primary.youngs_modulus", modulus(&materials.pin_primary)),
+        ("materials.pin_secondary.youngs_modulus", modulus(&materials.pin_secondary)),
+        ("materials.pin_resin.youngs_modulus", modulus(&materials.pin_resin)),
+        ("disc.surface.synthetic.correlation_length", correlation_length(scene, disc, "disc")),
+        ("disc.surface.synthetic.correlation_length_across", correlation_length_across(scene, disc)),
+        ("disc.surface.synthetic.patch", patch(disc)),
+        ("pin.surface.synthetic.correlation_length", correlation_length(scene, pin, "pin")),
+        ("pin.surface.synthetic.correlation_length_across", correlation_length_across(scene, pin)),
+        ("pin.base.synthetic.fibre_length", fibre_length(scene)),
+        ("plateaus.transport_length", transport_length(scene)),
+        ("friction.shear_strength", shear_strength(scene)),
+        ("thermal.ambient", thermal.and_then(ambient)),
+        ("thermal.disc.conductivity", thermal.and_then(|thermal| substance(&thermal.disc.substance))),
+        ("thermal.disc.coating.conductivity", coating.and_then(|coating| substance(&coating.substance))),
+        ("thermal.disc.coating.thickness", thermal.and_then(coating_thickness)),
+        ("thermal.pin.conductivity", thermal.and_then(|thermal| substance(&thermal.pin.substance))),
+        ("thermal.disc.thickness", thermal.and_then(|thermal| heat_capacity(scene, thermal))),
+        ("thermal.pin.area", thermal.and_then(|thermal| pin_area(scene, thermal))),
+        ("emission.pin_density", emission.as_ref().and_then(|emission| density(emission.pin_density))),
+        ("emission.disc_density", emission.as_ref().and_then(|emission| density(emission.disc_density))),
+    ];
+    warnings(scene, rules)
 }
 
 fn nominal_pressure(scene: &Scene) -> Option<Finding> {
@@ -206,7 +202,6 @@ fn modulus(material: &Material) -> Option<Finding> {
     })
 }
 
-/// Settings of synthetic heights, if they are synthetic.
 fn synthesis(heights: &HeightSettings) -> Option<&HeightSynthesis> {
     match &heights.source {
         HeightSource::Synthetic(synthesis) => Some(synthesis),
@@ -219,7 +214,8 @@ fn synthesis(heights: &HeightSettings) -> Option<&HeightSynthesis> {
 fn correlation_length(scene: &Scene, heights: &HeightSettings, body: &str) -> Option<Finding> {
     let mesh = &scene.parameters.mesh;
     let across = format!("{body}.surface.synthetic.correlation_length_across");
-    let cell = if scene.places.contains_key(&across) { mesh.column_width() } else { shorter_side(mesh) };
+    let shorter_side = mesh.column_width().min(mesh.row_height());
+    let cell = if scene.places.contains_key(&across) { mesh.column_width() } else { shorter_side };
     too_few_cells(lengths(heights)?[0], cell)
 }
 
@@ -236,10 +232,6 @@ fn lengths(heights: &HeightSettings) -> Option<[f64; 2]> {
     }
 }
 
-fn shorter_side(mesh: &Mesh) -> f64 {
-    mesh.column_width().min(mesh.row_height())
-}
-
 fn too_few_cells(length: f64, cell: f64) -> Option<Finding> {
     (length < LEAST_CELLS * cell * (1.0 - ROUNDING)).then(|| Finding {
         found: format!("{}, which is {} cells of {}", Length(length), number(length / cell), Length(cell)),
@@ -248,8 +240,8 @@ fn too_few_cells(length: f64, cell: f64) -> Option<Finding> {
     })
 }
 
-fn patch(scene: &Scene) -> Option<Finding> {
-    let (patch, [length, _]) = (synthesis(&scene.disc_surface)?.patch?, lengths(&scene.disc_surface)?);
+fn patch(heights: &HeightSettings) -> Option<Finding> {
+    let (patch, [length, _]) = (synthesis(heights)?.patch?, lengths(heights)?);
     (patch < LEAST_LENGTHS * length * (1.0 - ROUNDING)).then(|| Finding {
         found: format!(
             "{}, which is {} correlation lengths of {}",
@@ -284,10 +276,6 @@ const SPECIFIC_HEAT: RangeInclusive<f64> = 100.0..=4200.0;
 /// No film that shears is stronger than what it lies on, Pa.
 const STRONGEST: f64 = 1e9;
 
-fn thermal(scene: &Scene) -> Option<&Thermal> {
-    scene.parameters.thermal.as_deref()
-}
-
 fn shear_strength(scene: &Scene) -> Option<Finding> {
     let strength = scene.parameters.friction?.primary.shear_strength;
     (strength > STRONGEST).then(|| Finding {
@@ -297,9 +285,8 @@ fn shear_strength(scene: &Scene) -> Option<Finding> {
     })
 }
 
-fn ambient(scene: &Scene) -> Option<Finding> {
-    let ambient = thermal(scene)?.ambient;
-    outside(ambient, AMBIENT, "an ambient temperature of", "K", "check its unit: degC or K")
+fn ambient(thermal: &Thermal) -> Option<Finding> {
+    outside(thermal.ambient, AMBIENT, "an ambient temperature of", "K", "check its unit: degC or K")
 }
 
 /// Of the three properties, the first that is out of all proportion.
@@ -311,8 +298,8 @@ fn substance(substance: &Substance) -> Option<Finding> {
 }
 
 /// Heat goes through the coating into the disc; the coating of a brake disc is a small part of it.
-fn coating_thickness(scene: &Scene) -> Option<Finding> {
-    let disc = &thermal(scene)?.disc;
+fn coating_thickness(thermal: &Thermal) -> Option<Finding> {
+    let disc = &thermal.disc;
     let thickness = disc.coating?.thickness;
     (thickness > disc.thickness).then(|| Finding {
         found: format!("a coating of {}", Length(thickness)),
@@ -326,8 +313,8 @@ fn coating_thickness(scene: &Scene) -> Option<Finding> {
 const CAPACITY_PER_AREA: RangeInclusive<f64> = 4e4..=8e6;
 
 /// The heat of the simulated pin warms the disc, so the disc must be as small a part of the real one as the pin is of the pads.
-fn heat_capacity(scene: &Scene) -> Option<Finding> {
-    let disc = &thermal(scene)?.disc;
+fn heat_capacity(scene: &Scene, thermal: &Thermal) -> Option<Finding> {
+    let disc = &thermal.disc;
     let capacity = disc.substance.density * disc.substance.specific_heat * disc.area * disc.thickness;
     let per_area = capacity / scene.parameters.mesh.pin_area();
     let advice = if scene.brake.is_some() {
@@ -360,8 +347,8 @@ fn outside(value: f64, range: RangeInclusive<f64>, what: &str, unit: &str, advic
 }
 
 /// The pin of the mesh is a part of the pin that heat sees, or all of it; its corners may reach beyond a round pin.
-fn pin_area(scene: &Scene) -> Option<Finding> {
-    let (area, of_mesh) = (thermal(scene)?.pin.area, scene.parameters.mesh.pin_area());
+fn pin_area(scene: &Scene, thermal: &Thermal) -> Option<Finding> {
+    let (area, of_mesh) = (thermal.pin.area, scene.parameters.mesh.pin_area());
     (area < 0.5 * of_mesh).then(|| Finding {
         found: format!("{} mm^2", number(area * 1e6)),
         bound: format!("less than half of the {} mm^2 of the pin in [mesh]", number(of_mesh * 1e6)),
@@ -372,58 +359,34 @@ fn pin_area(scene: &Scene) -> Option<Finding> {
 /// Fraction of the points that a cutoff takes off peaks alone: from here on it is in the valleys.
 const HALF: f64 = 0.5;
 
-/// Subject of the rules.
-struct Beginning {
-    disc_cutoff: Option<Cutoff>,
-    pin_cutoff: Option<Cutoff>,
-    contact: Option<FirstContact>,
-    foundation_height: f64,
-    softest_plateau: f64,
-}
-
-/// A cutoff and what it did.
-struct Cutoff {
-    /// Height above the mean, m.
-    height: f64,
-    /// Fraction of the points that stood higher.
-    cut: f64,
-}
-
-const SURFACE_RULES: &[Rule<Beginning>] = &[
-    ("disc.prepare.cutoff", |beginning| useless(beginning.disc_cutoff.as_ref())),
-    ("pin.prepare.cutoff", |beginning| useless(beginning.pin_cutoff.as_ref())),
-    ("operation.normal_force", |beginning| {
-        let what = "in the first step a mean contact pressure of";
-        too_much_pressure(beginning.contact?.mean_pressure, beginning.softest_plateau, what)
-    }),
-    ("contact.foundation_height", |beginning| {
-        let what = "in the first step an overlap of";
-        too_much_overlap(beginning.contact?.largest_overlap, beginning.foundation_height, what)
-    }),
-];
-
 /// Values that cannot be meant, now that the surfaces are known, of keys that `scene.warnings` does not name yet.
 pub fn of_surfaces(scene: &Scene, loaded: &Loaded) -> Vec<Warning> {
     let parameters = &scene.parameters;
     // Where heights are flat nothing can be cut, and whoever tries a flat disc in a scene need not take its cutoff away.
     let cutoff = |heights: &HeightSettings, cut: Option<f64>| match heights.source {
         HeightSource::Flat => None,
-        HeightSource::File { .. } | HeightSource::Synthetic(_) => {
-            Some(Cutoff { height: heights.preparation.cutoff?, cut: cut? })
-        }
+        HeightSource::File { .. } | HeightSource::Synthetic(_) => useless(heights.preparation.cutoff?, cut?),
     };
-    let beginning = Beginning {
-        disc_cutoff: cutoff(&scene.disc_surface, loaded.disc_cut),
-        pin_cutoff: cutoff(&scene.pin_surface, loaded.pin_cut),
-        contact: FirstContact::of(parameters, &loaded.surfaces),
-        foundation_height: parameters.foundation_height,
-        softest_plateau: softest_plateau(&parameters.materials),
-    };
-    apply(SURFACE_RULES, &beginning, scene)
+    let contact = FirstContact::of(parameters, &loaded.surfaces);
+    let pressure = contact.and_then(|contact| {
+        let what = "in the first step a mean contact pressure of";
+        too_much_pressure(contact.mean_pressure, softest_plateau(&parameters.materials), what)
+    });
+    let overlap = contact.and_then(|contact| {
+        let what = "in the first step an overlap of";
+        too_much_overlap(contact.largest_overlap, parameters.foundation_height, what)
+    });
+    let rules = [
+        ("disc.prepare.cutoff", cutoff(&scene.disc_surface, loaded.disc_cut)),
+        ("pin.prepare.cutoff", cutoff(&scene.pin_surface, loaded.pin_cut)),
+        ("operation.normal_force", pressure),
+        ("contact.foundation_height", overlap),
+    ];
+    warnings(scene, rules)
 }
 
-fn useless(cutoff: Option<&Cutoff>) -> Option<Finding> {
-    let Cutoff { height, cut } = *cutoff?;
+/// Says that a cutoff, m above the mean, cuts nothing, or a fraction of the points that is more than peaks.
+fn useless(height: f64, cut: f64) -> Option<Finding> {
     let (bound, advice) = if cut == 0.0 {
         ("no point at all", "no peak is so high: check its unit, or say cutoff = \"none\"")
     } else if cut >= HALF {
@@ -462,12 +425,6 @@ pub struct Recorded {
     filled_fraction: Option<Reached>,
 }
 
-const RECORDED_RULES: &[Rule<Recorded>] = &[
-    ("operation.normal_force", pressure),
-    ("contact.foundation_height", overlap),
-    ("materials.disc_primary.specific_wear_rate", filled_fraction),
-];
-
 impl Recorded {
     /// Nothing recorded yet of a run with these parameters.
     pub fn new(parameters: &Parameters) -> Self {
@@ -494,7 +451,12 @@ impl Recorded {
 
     /// Values that cannot be meant, of keys that `scene.warnings` does not name yet.
     pub fn warnings(&self, scene: &Scene) -> Vec<Warning> {
-        apply(RECORDED_RULES, self, scene)
+        let rules = [
+            ("operation.normal_force", pressure(self)),
+            ("contact.foundation_height", overlap(self)),
+            ("materials.disc_primary.specific_wear_rate", filled_fraction(self)),
+        ];
+        warnings(scene, rules)
     }
 }
 

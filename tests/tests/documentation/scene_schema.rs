@@ -371,9 +371,9 @@ fn key(key: &Key) -> Map<String, Value> {
 fn kind(kind: Kind) -> Value {
     match kind {
         Kind::Quantity { dimension, range, .. } => quantity(dimension, range),
-        Kind::Lengths { count, single, range, .. } => {
+        Kind::Lengths { single, range, .. } => {
             let one = quantity(Dimension::Length, range);
-            let list = json!({ "type": "array", "items": one, "minItems": count, "maxItems": count });
+            let list = json!({ "type": "array", "items": one, "minItems": 2, "maxItems": 2 });
             if single { json!({ "anyOf": [one, list] }) } else { list }
         }
         Kind::LengthUnit => json!({ "type": "string", "pattern": units::length_unit() }),

@@ -88,7 +88,8 @@ fn build(mut settings: Settings, mut files: Vec<(PathBuf, String)>, path: &Path)
     }
     let output = output(&mut settings, end, &mut warnings)?;
     let workers = match settings.get("numerics.workers") {
-        Some(Setting::Integer(count)) => Workers::Count(address(*count)),
+        // What is too large for this machine is too large in any case, and refused as such later.
+        Some(Setting::Integer(count)) => Workers::Count(usize::try_from(*count).unwrap_or(usize::MAX)),
         _ => Workers::Auto,
     };
     let seeds = schema::keys().iter().filter(|key| key.is_seed()).map(Key::path);
@@ -117,11 +118,6 @@ fn build(mut settings: Settings, mut files: Vec<(PathBuf, String)>, path: &Path)
         parameters,
         output,
     })
-}
-
-/// Converts a count to an address; one that is too large for this machine is too large in any case, and refused as such later.
-fn address(count: u64) -> usize {
-    usize::try_from(count).unwrap_or(usize::MAX)
 }
 
 /// Choice of the acceleration by the run, if it chooses it.
@@ -331,7 +327,7 @@ fn map_times(settings: &mut Settings, end: f64, warnings: &mut Vec<Warning>) -> 
     let key = "output.maps_at";
     let origin = settings.origin(key);
     let mut times = match settings.get(key) {
-        Some(Setting::Numbers(times)) => times.clone(),
+        Some(Setting::Times(times)) => times.clone(),
         _ => Vec::new(),
     };
     times.sort_unstable_by(f64::total_cmp);
@@ -349,14 +345,13 @@ fn map_times(settings: &mut Settings, end: f64, warnings: &mut Vec<Warning>) -> 
             advice: "they are not taken: give earlier times, or a longer operation.duration".to_owned(),
         });
     }
-    settings.insert(key, Setting::Numbers(kept.clone()), &origin);
+    settings.insert(key, Setting::Times(kept.clone()), &origin);
     kept
 }
 
 /// Most steps that a double counts one by one (2^53); with more the time of a step would be wrong.
 const MOST_STEPS: u64 = 1 << f64::MANTISSA_DIGITS;
 
-/// Steps and duration.
 pub(super) struct Length {
     pub steps: u64,
     /// Physical time, s.

@@ -15,9 +15,8 @@ use super::interpret::Setting;
 use super::schema::{ACCELERATION, CYCLE, CYCLE_COLUMNS, choices, join};
 use super::settings::Settings;
 use crate::input::digested;
-use crate::number;
+use crate::{limits, number};
 
-/// A load that does not change.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct ConstantLoad {
     /// Normal force F, N, or braking torque T, N m.
@@ -47,7 +46,7 @@ pub(super) fn operation(
             let quantity = |name: &'static str| name.rsplit('.').next().unwrap_or(name);
             let headers = given.map(|name| Ok((quantity(name), settings.text(&join("operation", name))?)));
             let headers = headers.collect::<Result<Vec<_>, Problem>>()?;
-            let read = digested(path, || cycle_table::read(path, &headers), failed);
+            let read = digested(path, || cycle_table::read(path, &headers, limits::ROWS), failed);
             let (table, digest) = read.map_err(|problem| named(settings, problem))?;
             file = Some((path.to_owned(), digest));
             (key("file"), table)

@@ -79,7 +79,6 @@ pub struct CycleTable {
 
 /// A column of a table that is being read.
 struct Column {
-    /// Its place in a row.
     place: usize,
     header: String,
     unit: String,
@@ -91,12 +90,9 @@ struct Column {
 /// Problem, with the header of the column if it is of one.
 type Wrong = (Option<String>, Fault);
 
-/// Reads a table, whose columns have these headers, each beside the name of its quantity; without any they have those names.
-pub fn read(path: &Path, headers: &[(&str, &str)]) -> Result<CycleTable, Problem> {
-    read_rows(path, headers, limits::ROWS)
-}
-
-fn read_rows(path: &Path, headers: &[(&str, &str)], most: usize) -> Result<CycleTable, Problem> {
+/// Reads a table of at most so many rows, whose columns have these headers, each beside the name of its quantity; without any they have
+/// those names.
+pub fn read(path: &Path, headers: &[(&str, &str)], most: usize) -> Result<CycleTable, Problem> {
     let file: Arc<Path> = path.into();
     let of_file = |message: String| Problem::without_key(&Origin::File(file.clone()), message);
     let origin = |line: usize, column: usize| Origin::Place { file: file.clone(), line, column };

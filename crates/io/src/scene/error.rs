@@ -72,7 +72,8 @@ impl<'a> Locator<'a> {
 }
 
 /// One thing that is wrong: where, which key, what was found, what was expected, what to do.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[error("{origin}: {}{}", key.as_ref().map_or_else(String::new, |key| format!("{}: ", short(key))), shown_problem(message))]
 pub struct Problem {
     /// Place of what is wrong.
     pub origin: Origin,
@@ -91,16 +92,6 @@ impl Problem {
 
     pub(crate) fn without_key(origin: &Origin, message: impl Into<String>) -> Self {
         Self { origin: origin.clone(), key: None, message: message.into(), system: None }
-    }
-}
-
-impl fmt::Display for Problem {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let message = shown_problem(&self.message);
-        match &self.key {
-            Some(key) => write!(f, "{}: {}: {message}", self.origin, short(key)),
-            None => write!(f, "{}: {message}", self.origin),
-        }
     }
 }
 

@@ -85,7 +85,6 @@ fn cycle_rows(list: &[Entry]) -> Result<CycleTable, (Origin, String)> {
     Ok(CycleTable { times, start: 0.0, loads, speeds, road_speeds: None, places })
 }
 
-/// Rows of temperature and factor.
 fn factor_rows(list: &[Entry]) -> Result<Factor, (Origin, String)> {
     let mut points = Vec::with_capacity(list.len());
     for entry in list {
@@ -105,14 +104,14 @@ fn factor_rows(list: &[Entry]) -> Result<Factor, (Origin, String)> {
     })
 }
 
-/// A checked value.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Setting {
     Number(f64),
     Integer(u64),
     Bool(bool),
     Text(String),
-    Numbers(Vec<f64>),
+    Pair([f64; 2]),
+    Times(Vec<f64>),
     Maps(Vec<Map>),
     Rows(CycleTable),
     Factor(Factor),
@@ -121,9 +120,9 @@ pub(super) enum Setting {
 /// Reads the value of the key `path`; input files named by no scene file are relative to the one at `scene`.
 pub(super) fn interpret(path: &str, kind: Kind, entry: &Entry, scene: &Path) -> Result<Setting, Problem> {
     match (kind, &entry.value) {
-        (Kind::Times, Value::Array(list)) => quantities(list, Time, Range::NOT_NEGATIVE),
-        (Kind::Lengths { count, range, .. }, Value::Array(list)) if list.len() == count => {
-            quantities(list, Dimension::Length, range)
+        (Kind::Times, Value::Array(list)) => quantities(list, Time, Range::NOT_NEGATIVE).map(Setting::Times),
+        (Kind::Lengths { range, .. }, Value::Array(list)) if list.len() == 2 => {
+            quantities(list, Dimension::Length, range).map(|lengths| Setting::Pair([lengths[0], lengths[1]]))
         }
         (Kind::Maps, Value::Array(list)) => list.iter().map(map).collect::<Result<_, _>>().map(Setting::Maps),
         (Kind::Rows, Value::Array(list)) if list.len() >= 2 => cycle_rows(list).map(Setting::Rows),
@@ -143,8 +142,8 @@ pub(super) fn interpret(path: &str, kind: Kind, entry: &Entry, scene: &Path) -> 
 fn plain(kind: Kind, value: &Value) -> Result<Setting, String> {
     match (kind, value) {
         (Kind::Quantity { dimension, range, .. }, _) => quantity(value, dimension, range).map(Setting::Number),
-        (Kind::Lengths { count, single: true, range, .. }, Value::Text(_)) => {
-            quantity(value, Dimension::Length, range).map(|length| Setting::Numbers(vec![length; count]))
+        (Kind::Lengths { single: true, range, .. }, Value::Text(_)) => {
+            quantity(value, Dimension::Length, range).map(|length| Setting::Pair([length; 2]))
         }
         (Kind::LengthUnit, Value::Text(text)) => length_unit(text, value).map(Setting::Number),
         (Kind::NumberOr(_, word) | Kind::CountOr(word), Value::Text(text)) if text == word => {
@@ -169,9 +168,9 @@ fn plain(kind: Kind, value: &Value) -> Result<Setting, String> {
 fn expectation(kind: Kind) -> String {
     match kind {
         Kind::Quantity { dimension, .. } => dimension.to_string(),
-        Kind::Lengths { single, count, range, .. } => {
+        Kind::Lengths { single, range, .. } => {
             let one = if single { format!("{} or ", Dimension::Length) } else { String::new() };
-            format!("{one}a list of {count} lengths, each {range}")
+            format!("{one}a list of 2 lengths, each {range}")
         }
         Kind::LengthUnit => "a unit of length such as \"um\", or a length such as \"0.5 um\"".to_owned(),
         Kind::Number(range) => format!("a number, {range}"),
@@ -223,9 +222,8 @@ fn one_of<'a, T>(text: &str, choices: &'a [T], name: impl Fn(&T) -> &'static str
     })
 }
 
-fn quantities(list: &[Entry], dimension: Dimension, range: Range) -> Result<Setting, (Origin, String)> {
-    let values = list.iter().map(|entry| quantity(&entry.value, dimension, range).map_err(at(entry)));
-    values.collect::<Result<_, _>>().map(Setting::Numbers)
+fn quantities(list: &[Entry], dimension: Dimension, range: Range) -> Result<Vec<f64>, (Origin, String)> {
+    list.iter().map(|entry| quantity(&entry.value, dimension, range).map_err(at(entry))).collect()
 }
 
 fn map(entry: &Entry) -> Result<Map, (Origin, String)> {

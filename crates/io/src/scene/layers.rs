@@ -356,7 +356,6 @@ pub(super) fn is_undecided(entries: &Entries, choice: &str) -> bool {
         .is_some_and(|entry| !matches!(&entry.value, Value::Text(text) if words.contains(&text.as_str())))
 }
 
-/// A value and where it was given.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Entry {
     pub(super) value: Value,

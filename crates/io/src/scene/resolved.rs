@@ -36,10 +36,11 @@ fn value(key: &Key, setting: &Setting) -> String {
         Setting::Integer(integer) => integer.to_string(),
         Setting::Bool(value) => value.to_string(),
         Setting::Text(text) => string(text),
-        Setting::Numbers(numbers) => match key.kind {
-            Kind::Lengths { unit, .. } => list(numbers, |length| units::format(*length, unit, Dimension::Length)),
-            _ => list(numbers, |time| units::format(*time, "s", Dimension::Time)),
-        },
+        Setting::Pair(lengths) => {
+            let unit = if let Kind::Lengths { unit, .. } = key.kind { unit } else { "m" };
+            list(lengths, |length| units::format(*length, unit, Dimension::Length))
+        }
+        Setting::Times(times) => list(times, |time| units::format(*time, "s", Dimension::Time)),
         Setting::Rows(table) => rows(table),
         Setting::Factor(factor) => {
             let row = |(temperature, factor): &(f64, f64)| {

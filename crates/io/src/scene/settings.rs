@@ -67,7 +67,6 @@ impl Settings {
         self.value(path, "a number", |found| if let Setting::Number(number) = found { Some(*number) } else { None })
     }
 
-    /// The value of an integer that a checked scene has.
     pub(super) fn integer(&self, path: &str) -> Result<u64, Problem> {
         self.value(path, "an integer", |found| if let Setting::Integer(count) = found { Some(*count) } else { None })
     }
@@ -97,7 +96,6 @@ impl Settings {
         self.get(path).map(|_| self.choice(path, choices)).transpose()
     }
 
-    /// The value of a switch that a checked scene has.
     pub(super) fn bool(&self, path: &str) -> Result<bool, Problem> {
         self.value(path, "true or false", |found| if let Setting::Bool(value) = found { Some(*value) } else { None })
     }
@@ -118,18 +116,14 @@ impl Settings {
         self.get(path).map(|_| self.number(path)).transpose()
     }
 
-    /// An integer that may be absent.
     pub(super) fn optional_integer(&self, path: &str) -> Result<Option<u64>, Problem> {
         self.get(path).map(|_| self.integer(path)).transpose()
     }
 
     /// A list of two numbers (SI units) that may be absent.
     pub(super) fn optional_pair(&self, path: &str) -> Result<Option<[f64; 2]>, Problem> {
-        match self.get(path) {
-            None => Ok(None),
-            Some(Setting::Numbers(numbers)) if numbers.len() == 2 => Ok(Some([numbers[0], numbers[1]])),
-            other => Err(self.unlike(path, "two numbers", other)),
-        }
+        let pair = |found: &Setting| if let Setting::Pair(pair) = found { Some(*pair) } else { None };
+        self.get(path).map(|_| self.value(path, "two numbers", pair)).transpose()
     }
 
     /// The value of a key, if it is of the kind that is expected.

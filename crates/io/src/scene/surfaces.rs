@@ -25,7 +25,6 @@ pub(super) fn heights(settings: &Settings, body: &str) -> Result<HeightSettings,
     Ok(HeightSettings { source, mirror: settings.bool(&surface("mirror"))?, preparation })
 }
 
-/// The preparation chain of this table.
 fn preparation(settings: &Settings, table: &str) -> Result<Preparation, Problem> {
     let key = |name: &str| format!("{table}.{name}");
     let number = |name: &str| settings.optional_number(&key(name));
@@ -106,7 +105,6 @@ fn synthesis(settings: &Settings, table: &str) -> Result<HeightSynthesis, Proble
     })
 }
 
-/// The pin's fibre map.
 pub(super) fn base(settings: &Settings) -> Result<BaseSource, Problem> {
     if let Some((path, dataset)) = file(settings, "pin.base") {
         return Ok(BaseSource::File { path, dataset });
@@ -177,7 +175,6 @@ fn micrograph(settings: &Settings) -> Result<Micrograph, Problem> {
     })
 }
 
-/// Input file and dataset of a source.
 fn file(settings: &Settings, section: &str) -> Option<(PathBuf, Option<String>)> {
     let text = |name: &str| settings.text(&format!("{section}.{name}")).ok();
     Some((text("file")?.into(), text("dataset").map(str::to_owned)))

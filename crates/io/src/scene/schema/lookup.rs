@@ -3,8 +3,8 @@
 use std::collections::HashMap;
 use std::sync::LazyLock;
 
-use super::key::{Key, Kind, Role, is_below, join};
 use super::keys::all;
+use super::{Key, Kind, Role, is_below, join};
 use crate::text::{nearest, short};
 
 /// Every key, in the order of docs/scenes.md.
@@ -84,7 +84,8 @@ pub(crate) fn unknown(table: &str, name: &str) -> String {
         return format!("unknown key, keys below [{table}] stand without the name of the table before them");
     }
     // Columns of a cycle are called as the keys of other tables are.
-    let tables = tables().into_iter().filter(|other| known(&join(other, name)) && !other.ends_with(".columns"));
+    let is_known = |path: &str| find(path).is_some() || is_table(path);
+    let tables = tables().into_iter().filter(|other| is_known(&join(other, name)) && !other.ends_with(".columns"));
     if let Some((first, more)) = of_the_same_body(table, tables.collect()).split_first() {
         let more: String = more.iter().map(|table| format!(" or [{table}]")).collect();
         return format!("unknown key here, it belongs in [{first}]{more}");
@@ -107,10 +108,6 @@ fn of_the_same_body(table: &str, tables: Vec<String>) -> Vec<String> {
     let body = |table: &str| table.split('.').next().map(str::to_owned);
     let same: Vec<_> = tables.iter().filter(|other| body(other) == body(table)).cloned().collect();
     if same.is_empty() { tables } else { same }
-}
-
-fn known(path: &str) -> bool {
-    find(path).is_some() || is_table(path)
 }
 
 /// Names directly below a table, in the order of docs/scenes.md.

@@ -8,7 +8,8 @@ fn read_with(text: &str, headers: &[(&str, &str)]) -> Result<CycleTable, String>
     let directory = tempfile::tempdir().unwrap();
     let path = directory.path().join("stops.csv");
     std::fs::write(&path, text).unwrap();
-    read(&path, headers).map_err(|error| error.to_string().replace(&format!("{}/", directory.path().display()), ""))
+    read(&path, headers, limits::ROWS)
+        .map_err(|error| error.to_string().replace(&format!("{}/", directory.path().display()), ""))
 }
 
 fn lines(table: &CycleTable) -> Vec<usize> {
@@ -43,7 +44,7 @@ fn the_table_is_the_same_in_every_encoding() {
     let windows: Vec<u8> = text.chars().map(|letter| letter as u8).collect();
     for content in [text.as_bytes(), &utf16, &windows, text.replace("\r\n", "\r").as_bytes()] {
         std::fs::write(&path, content).unwrap();
-        let table = read(&path, &[]).unwrap();
+        let table = read(&path, &[], limits::ROWS).unwrap();
         assert_eq!((&table.times, lines(&table)), (&vec![0.0, 0.25], vec![4, 5]));
         assert_eq!(table.loads, Some((Load::Force, vec![47.5, 10.0])));
     }
@@ -54,8 +55,8 @@ fn more_rows_than_are_read_are_refused() {
     let directory = tempfile::tempdir().unwrap();
     let path = directory.path().join("stops.csv");
     std::fs::write(&path, "time [s]\n\n0\n1\n2\n3\n").unwrap();
-    assert_eq!(read_rows(&path, &[], 4).unwrap().times, [0.0, 1.0, 2.0, 3.0]);
-    let error = read_rows(&path, &[], 3).unwrap_err().to_string();
+    assert_eq!(read(&path, &[], 4).unwrap().times, [0.0, 1.0, 2.0, 3.0]);
+    let error = read(&path, &[], 3).unwrap_err().to_string();
     assert!(error.ends_with("stops.csv:6:1: more rows, expected at most 3"), "{error}");
 }
 
