@@ -7,6 +7,8 @@ use plateau_core::surface::Patch;
 use plateau_io::surface::{ReadOptions, read};
 use sha2::{Digest, Sha256};
 
+use crate::fixtures::patch_of;
+
 /// Where sample files are: those that come with the project, and the folder of surfaces that may not be committed.
 fn folders() -> Vec<PathBuf> {
     let here = Path::new(env!("CARGO_MANIFEST_DIR"));
@@ -40,7 +42,7 @@ fn every_sample_has_the_heights_that_other_programs_read() {
         };
         let measured = read(&path, &ReadOptions::default()).unwrap_or_else(|error| panic!("{name}: {error}"));
         assert!(measured.instrument && measured.warnings.is_empty(), "{name}: {:?}", measured.warnings);
-        let patch = measured.into_patch().unwrap();
+        let patch = patch_of(measured);
         assert_eq!((patch.columns, patch.rows), (columns.parse().unwrap(), rows.parse().unwrap()), "{name}");
         assert_eq!((patch.column_pitch, patch.row_pitch), (x.parse().unwrap(), y.parse().unwrap()), "{name}");
         assert_eq!(patch.missing(), missing.parse::<usize>().unwrap(), "{name}");

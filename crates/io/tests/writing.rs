@@ -7,7 +7,7 @@ use plateau_core::surface::Patch;
 use plateau_io::surface::sdf::{Dialect, Encoding, SdfKind};
 use plateau_io::surface::{Format, ReadOptions, WriteError, read, write};
 
-use crate::fixtures::{entries, place};
+use crate::fixtures::{entries, patch_of, place};
 
 /// Heights of every size and sign, missing points at the corners and in a row, pitches that decimals round.
 fn patch(columns: usize, rows: usize) -> Patch {
@@ -32,7 +32,7 @@ fn check_equal(found: &Patch, expected: &Patch) {
 fn read_patch(path: &Path) -> Patch {
     let measured = read(path, &ReadOptions::default()).unwrap();
     assert_eq!(measured.warnings, [""; 0]);
-    measured.into_patch().unwrap()
+    patch_of(measured)
 }
 
 #[test]
@@ -52,7 +52,7 @@ fn what_was_written_is_read_bit_for_bit() {
         assert_eq!(fs::metadata(&path).unwrap().len(), size, "data start at a multiple of 64");
         assert_eq!(read(&path, &ReadOptions::default()).unwrap().pitch, None);
         let options = ReadOptions { pitch: Some([patch.column_pitch, patch.row_pitch]), ..ReadOptions::default() };
-        check_equal(&read(&path, &options).unwrap().into_patch().unwrap(), &patch);
+        check_equal(&patch_of(read(&path, &options).unwrap()), &patch);
     }
 }
 

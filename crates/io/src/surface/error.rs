@@ -319,7 +319,6 @@ fn advice(skip: Option<usize>) -> String {
     }
 }
 
-/// A decimal mark in words.
 fn name(mark: Decimal) -> &'static str {
     if mark == Decimal::Comma { "comma" } else { "point" }
 }

@@ -231,7 +231,6 @@ pub enum WriteError {
     System { path: PathBuf, reason: io::Error },
 }
 
-/// Endings that are written.
 const ENDINGS: &str = ".sdf, .npy or .h5";
 
 /// Writes heights so that reading the file gives the same heights, bit for bit, missing points as missing points.

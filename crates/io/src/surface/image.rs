@@ -3,8 +3,6 @@
 //! The first line of an image is at the top, where y is largest. Stored numbers are taken as they are: colour profiles
 //! and gamma are for the eye.
 
-mod jpeg;
-
 use std::io::Cursor;
 
 use plateau_core::surface::micrograph::Picture;
@@ -13,7 +11,10 @@ use thiserror::Error;
 use tiff::decoder::ifd::Value;
 use tiff::decoder::{Decoder, DecodingResult, Limits};
 use tiff::tags::Tag;
+use zune_jpeg::JpegDecoder;
 use zune_jpeg::errors::DecodeErrors;
+use zune_jpeg::zune_core::colorspace::ColorSpace;
+use zune_jpeg::zune_core::options::DecoderOptions;
 
 use super::format::Format;
 use super::measured::{MOST_POINTS, Measured, ReadOptions, inflated};
@@ -77,22 +78,27 @@ struct Raster {
     warnings: Vec<String>,
 }
 
-/// Samples that make a pixel.
+/// Samples that make a pixel, and how many they are.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Colour {
-    Grey,
+    Grey = 1,
     GreyAlpha,
     Rgb,
     RgbAlpha,
 }
 
-/// The numbers of an image.
 #[derive(Debug, PartialEq)]
 enum Samples {
     U8(Vec<u8>),
     U16(Vec<u16>),
     F32(Vec<f32>),
 }
+
+/// Bytes of pixels that a byte of a JPEG file holds at most: blocks of 8 by 8 samples of less than a bit each, and colours that a quarter
+/// of the pixels share along and across.
+const JPEG_INFLATED: usize = 4096;
+/// Largest width and height that such a file can state.
+const LARGEST: usize = u16::MAX as usize;
 
 const EXPECTED: &str = "grey or RGB pixels of 8 or 16 bits, or grey ones of 32 bits float: save it so";
 
@@ -179,6 +185,36 @@ impl Raster {
         Self { width: width as usize, height: height as usize, colour, samples, pixel, warnings }.checked()
     }
 
+    /// Decodes a JPEG image, which has to be complete: what is missing of one would be a grey area.
+    fn jpeg(content: &[u8]) -> Result<Self, ImageError> {
+        let bytes = content.len();
+        let options = DecoderOptions::default().set_strict_mode(true).set_max_width(LARGEST).set_max_height(LARGEST);
+        let mut decoder = JpegDecoder::new_with_options(Cursor::new(content), options);
+        decoder.decode_headers()?;
+        let (width, height) = decoder.dimensions().unwrap_or_default();
+        let (space, colour) = match decoder.input_colorspace() {
+            Some(ColorSpace::Luma) => (ColorSpace::Luma, Colour::Grey),
+            Some(ColorSpace::YCbCr | ColorSpace::RGB) => (ColorSpace::RGB, Colour::Rgb),
+            other => {
+                let found = other.map_or("no colours".to_owned(), |space| format!("{space:?} pixels"));
+                return Err(ImageError::Pixels { found, expected: "grey or RGB pixels: save it so" });
+            }
+        };
+        if let Some(found) = decoder.exif().and_then(|exif| orientation(exif)).filter(|found| *found != 1) {
+            return Err(ImageError::Orientation { kind: "EXIF", found });
+        }
+        let [width_64, height_64] = [width, height].map(|count| count as u64);
+        let needed = width_64.saturating_mul(height_64).saturating_mul(colour as u64);
+        refuse_promise(width_64, height_64, needed, bytes.saturating_mul(JPEG_INFLATED), bytes)?;
+        decoder.set_options(options.jpeg_set_out_colorspace(space));
+        let samples = Samples::U8(decoder.decode()?);
+        // The decoder makes up the rest of an image that ends early.
+        if !content.ends_with(b"\xff\xd9") && !has_end(content) {
+            return Err(ImageError::Jpeg("its end is missing".to_owned()));
+        }
+        Self { width, height, colour, samples, pixel: density(content), warnings: Vec::new() }.checked()
+    }
+
     /// Refuses pixels that do not fill the image, whatever a decoder did.
     fn checked(self) -> Result<Self, ImageError> {
         let found = match &self.samples {
@@ -186,7 +222,7 @@ impl Raster {
             Samples::U16(samples) => samples.len(),
             Samples::F32(samples) => samples.len(),
         };
-        if found == self.width * self.height * self.colour.samples() && found > 0 {
+        if found == self.width * self.height * self.colour as usize && found > 0 {
             Ok(self)
         } else {
             Err(ImageError::Pixels { found: format!("{found} samples"), expected: "as many as its size says" })
@@ -235,18 +271,6 @@ fn per_metre(pixels: [f64; 2]) -> Option<[f64; 2]> {
     distances.iter().all(|distance| *distance > 0.0 && distance.is_finite()).then_some(distances)
 }
 
-impl Colour {
-    /// Number of samples of a pixel.
-    fn samples(self) -> usize {
-        match self {
-            Self::Grey => 1,
-            Self::GreyAlpha => 2,
-            Self::Rgb => 3,
-            Self::RgbAlpha => 4,
-        }
-    }
-}
-
 /// Refuses an image that promises more than its file can hold, than is read, or than memory holds. `needed` are the bytes of its
 /// pixels.
 fn refuse_promise(width: u64, height: u64, needed: u64, most: usize, bytes: usize) -> Result<(), ImageError> {
@@ -261,6 +285,53 @@ fn refuse_promise(width: u64, height: u64, needed: u64, most: usize, bytes: usiz
         height,
         no_room,
     })
+}
+
+/// Tells whether there is an end-of-image marker behind the first scan: cameras write more behind it.
+fn has_end(content: &[u8]) -> bool {
+    let scan = segments(content).find(|(marker, _)| *marker == 0xda);
+    scan.is_some_and(|(_, at)| content[at..].windows(2).any(|pair| pair == b"\xff\xd9"))
+}
+
+/// Markers of the segments of a file up to its first scan, and where their contents begin.
+fn segments(content: &[u8]) -> impl Iterator<Item = (u8, usize)> {
+    let mut at = 2;
+    std::iter::from_fn(move || {
+        let [0xff, marker, high, low] = *content.get(at..at + 4)? else { return None };
+        let begin = at + 4;
+        at += 2 + usize::from(u16::from_be_bytes([high, low]));
+        Some((marker, begin))
+    })
+}
+
+/// Distance of the pixels along x and y, m, that a JFIF header states.
+fn density(content: &[u8]) -> Option<[f64; 2]> {
+    let (_, at) = segments(content).next().filter(|(marker, _)| *marker == 0xe0)?;
+    let [b'J', b'F', b'I', b'F', 0, _, _, unit, x_high, x_low, y_high, y_low] = *content.get(at..at + 12)? else {
+        return None;
+    };
+    let unit = match unit {
+        1 => 0.0254,
+        2 => 0.01,
+        _ => return None,
+    };
+    let pixels = [[x_high, x_low], [y_high, y_low]].map(|pair| f64::from(u16::from_be_bytes(pair)));
+    per_metre(pixels.map(|pixels| pixels / unit))
+}
+
+/// The orientation that EXIF data state.
+fn orientation(exif: &[u8]) -> Option<u32> {
+    const TAG: u16 = 0x0112;
+    let is_little = exif.starts_with(b"II");
+    let number = |at: usize| {
+        let pair = [*exif.get(at)?, *exif.get(at + 1)?];
+        Some(if is_little { u16::from_le_bytes(pair) } else { u16::from_be_bytes(pair) })
+    };
+    let [low, high] = if is_little { [4, 6] } else { [6, 4] };
+    let begin = usize::from(number(high)?) << 16 | usize::from(number(low)?);
+    let mut entries = (0..usize::from(number(begin)?)).map(|entry| begin + 2 + 12 * entry);
+    let entry = entries.find(|entry| number(*entry) == Some(TAG))?;
+    number(entry + 8).map(u32::from)
 }
 
 fn decode(content: &[u8], format: Format) -> Result<Raster, ImageError> {
@@ -333,7 +404,6 @@ fn by_columns<T: Copy>(pixels: &[T], (width, height): (usize, usize), of: impl F
     places.map(|at| of(pixels[at])).collect()
 }
 
-/// An image as grey levels.
 pub(super) struct Grey {
     /// Levels from black 0 to white 1.
     pub(super) picture: Picture<f32>,
@@ -373,7 +443,7 @@ fn levels<T: Copy + Into<f64>>(samples: &[T], colour: Colour, white: f64) -> Res
         [grey, ..] => value(grey),
         [] => 0.0,
     };
-    let pixels = || samples.chunks_exact(colour.samples());
+    let pixels = || samples.chunks_exact(colour as usize);
     let transparent = matches!(colour, Colour::GreyAlpha | Colour::RgbAlpha)
         && pixels().any(|pixel| pixel.last().is_some_and(|alpha| value(alpha) < 1.0));
     if transparent {

@@ -78,7 +78,6 @@ impl Loader<'_> {
         Ok(content)
     }
 
-    /// Base of every cell of the pin.
     fn base(&mut self, source: &BaseSource, mirror: bool) -> Result<Vec<Base>, SurfaceError> {
         let key = "pin.base";
         let mut base = match source {
@@ -183,7 +182,6 @@ fn keys(body: Body) -> [&'static str; 2] {
     }
 }
 
-/// Names heights in an error of their preparation.
 fn source_name(source: &HeightSource) -> String {
     match source {
         HeightSource::File { path, .. } => path.display().to_string(),

@@ -53,13 +53,6 @@ impl Measured {
         }
     }
 
-    /// The heights with their pitch, if that is known.
-    pub fn into_patch(self) -> Option<Patch> {
-        let Self { columns, rows, heights, .. } = self;
-        let [column_pitch, row_pitch] = self.pitch?;
-        Some(Patch { columns, rows, column_pitch, row_pitch, heights })
-    }
-
     /// Takes the heights as a profile: in one row, with one pitch.
     pub(super) fn take_as_profile(&mut self, lay: Lay) -> Result<(), ProfileError> {
         let size = (self.columns, self.rows);

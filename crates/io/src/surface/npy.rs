@@ -92,7 +92,6 @@ struct Header {
 }
 
 impl Header {
-    /// Reads the start of a file.
     fn read(content: &[u8]) -> Result<Self, NpyError> {
         let wrong = |found: &[u8], expected| {
             let found = format!("\"{}\"", found[..found.len().min(60)].escape_ascii());
@@ -308,25 +307,25 @@ pub(super) fn read_archive(content: &[u8], options: &ReadOptions) -> Result<Meas
     let (chosen, others): (Vec<_>, Vec<_>) = members.into_iter().partition(wanted);
     let [Member { index, name, header }] = <[Member; 1]>::try_from(chosen)
         .map_err(|chosen| NpyError::choice(name, &chosen.into_iter().chain(others).collect::<Vec<_>>()))?;
-    let wrap = |reason| NpyError::Member { name: name.clone(), reason: Box::new(reason) };
-    let header = header.map_err(wrap)?;
-    let number = number(&header.descr).map_err(wrap)?;
-    let (columns, rows, points) = header.grid().map_err(wrap)?;
-    let needed = header.data + points * number.size;
-    let most = inflated(content.len());
-    if needed > most {
-        let shape = (columns as u64, rows as u64);
-        return Err(wrap(NpyError::TooLarge { shape, most: most / number.size }));
-    }
-    refuse_beyond(needed as u64).map_err(|no_room| wrap(NpyError::Memory(no_room)))?;
-    // One byte more than needed, so that what is too long is found and the checksum at the end is verified.
-    let bytes = inflate(&mut archive, index, needed as u64 + 1).map_err(wrap)?;
-    let mut measured = read(&bytes, options).map_err(wrap)?;
+    let read = || {
+        let header = header?;
+        let number = number(&header.descr)?;
+        let (columns, rows, points) = header.grid()?;
+        let needed = header.data + points * number.size;
+        let most = inflated(content.len());
+        if needed > most {
+            let shape = (columns as u64, rows as u64);
+            return Err(NpyError::TooLarge { shape, most: most / number.size });
+        }
+        refuse_beyond(needed as u64).map_err(NpyError::Memory)?;
+        // One byte more than needed, so that what is too long is found and the checksum at the end is verified.
+        read(&inflate(&mut archive, index, needed as u64 + 1)?, options)
+    };
+    let mut measured = read().map_err(|reason| NpyError::Member { name: name.clone(), reason: Box::new(reason) })?;
     measured.notes.insert(0, format!("array {name}"));
     Ok(Measured { format: Format::Npz, ..measured })
 }
 
-/// An array of an archive.
 struct Member {
     index: usize,
     name: String,

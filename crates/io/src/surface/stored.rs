@@ -2,7 +2,6 @@
 
 use half::f16;
 
-/// A type of number.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Number {
     pub(super) kind: Kind,

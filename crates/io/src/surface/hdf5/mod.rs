@@ -22,7 +22,6 @@ use crate::number;
 use crate::run_file::{ReadError, RunFile, State, map_path};
 use crate::text::short;
 
-/// Kind of dataset that is looked for.
 #[derive(Clone, Copy)]
 enum Wanted {
     Heights,

@@ -28,7 +28,6 @@ pub(super) struct Packing {
 }
 
 impl Packing {
-    /// Tells whether a factor is stated.
     pub(super) fn is_packed(dataset: &Dataset) -> bool {
         dataset.attr(SCALE_FACTOR).is_ok()
     }
@@ -333,7 +332,6 @@ fn step(dataset: &Dataset, place: usize, scale: &Dataset) -> Result<Option<f64>,
     Ok(Some(step * unit))
 }
 
-/// The text of the attribute `units`, if it is there.
 pub(super) fn stated_unit(dataset: &Dataset) -> Result<Option<String>, Hdf5Error> {
     let unit = text_attribute(dataset, "units")?;
     if unit.is_none() && dataset.attr("units").is_ok() {
@@ -347,7 +345,6 @@ pub(super) fn stated_unit(dataset: &Dataset) -> Result<Option<String>, Hdf5Error
     Ok(unit)
 }
 
-/// Tells whether a text is a name of the metre.
 pub(super) fn is_metre(unit: &str) -> bool {
     ["m", "metre", "metres", "meter", "meters"].contains(&unit)
 }

@@ -56,6 +56,13 @@ pub enum SdfError {
     TooMany { at: Position, points: usize, profiles: usize },
 }
 
+impl SdfError {
+    /// Error of a field with another value than is expected.
+    pub(super) fn field(field: &'static str, found: impl ToString, at: Position, expected: &'static str) -> Self {
+        Self::Field { at, field, found: found.to_string(), expected }
+    }
+}
+
 /// Document that defines a file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Dialect {
@@ -210,19 +217,6 @@ pub struct Surface {
     pub warnings: Vec<String>,
 }
 
-/// The numbers of a header as they stand in the file, with where they stand.
-pub(super) struct RawHeader {
-    pub(super) points: (i64, Position),
-    pub(super) profiles: (i64, Position),
-    pub(super) x_scale: (f64, Position),
-    pub(super) y_scale: (f64, Position),
-    pub(super) z_scale: (f64, Position),
-    pub(super) compression: (i64, Position),
-    pub(super) data_type: (i64, Position),
-    pub(super) check_type: (i64, Position),
-}
-
-/// A header that was checked.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Header {
     pub(super) dialect: Dialect,
@@ -234,27 +228,43 @@ pub(super) struct Header {
     pub(super) data_type: DataType,
 }
 
-impl RawHeader {
-    pub(super) fn check(&self, dialect: Dialect) -> Result<Header, SdfError> {
-        let (code, at) = self.data_type;
-        let (field, expected) = ("DataType", DataType::codes(dialect));
-        let unknown = || SdfError::Field { at, field, found: code.to_string(), expected };
-        let data_type = DataType::from_code(code, dialect).ok_or_else(unknown)?;
-        zero("Compression", self.compression, "0: compressed data are not read")?;
-        zero("CheckType", self.check_type, "0: data with check sums are not read")?;
-        Ok(Header {
+impl Header {
+    /// Checks the numbers of a header as they stand in the file, each with where it stands.
+    pub(super) fn checked(
+        dialect: Dialect,
+        [points, profiles]: [(i64, Position); 2],
+        [x_scale, y_scale, z_scale]: [(f64, Position); 3],
+        [compression, data_type, check_type]: [(i64, Position); 3],
+    ) -> Result<Self, SdfError> {
+        let (code, at) = data_type;
+        let data_type = DataType::from_code(code, dialect);
+        let codes = DataType::codes(dialect);
+        let Some(data_type) = data_type else { return Err(SdfError::field("DataType", code, at, codes)) };
+        let zero = |field, (found, at): (i64, _), expected| match found {
+            0 => Ok(()),
+            _ => Err(SdfError::field(field, found, at, expected)),
+        };
+        zero("Compression", compression, "0: compressed data are not read")?;
+        zero("CheckType", check_type, "0: data with check sums are not read")?;
+        let count = |field, (found, at): (i64, _)| match usize::try_from(found) {
+            Ok(count) if count > 0 => Ok(count),
+            _ => Err(SdfError::field(field, found, at, "at least 1")),
+        };
+        let scale = |field, (found, at): (f64, _)| {
+            let is_scale = found > 0.0 && found.is_finite();
+            is_scale.then_some(found).ok_or_else(|| SdfError::field(field, found, at, "a positive, finite number"))
+        };
+        Ok(Self {
             dialect,
-            points: count("NumPoints", self.points)?,
-            profiles: count("NumProfiles", self.profiles)?,
-            x_scale: scale("Xscale", self.x_scale)?,
-            y_scale: scale("Yscale", self.y_scale)?,
-            z_scale: scale("Zscale", self.z_scale)?,
+            points: count("NumPoints", points)?,
+            profiles: count("NumProfiles", profiles)?,
+            x_scale: scale("Xscale", x_scale)?,
+            y_scale: scale("Yscale", y_scale)?,
+            z_scale: scale("Zscale", z_scale)?,
             data_type,
         })
     }
-}
 
-impl Header {
     /// Room for the heights in the order of the file. In BCR-1.0 the first profile has the largest y (so MountainsMap
     /// shows such files, and so sdfio reads them; the document itself does not say), in ISO 25178-71 y is 0 there.
     pub(super) fn room(&self) -> Profiles {
@@ -269,42 +279,20 @@ impl Header {
     }
 }
 
-fn count(field: &'static str, (found, at): (i64, Position)) -> Result<usize, SdfError> {
-    match usize::try_from(found) {
-        Ok(count) if count > 0 => Ok(count),
-        _ => Err(SdfError::Field { at, field, found: found.to_string(), expected: "at least 1" }),
-    }
-}
-
-fn scale(field: &'static str, (found, at): (f64, Position)) -> Result<f64, SdfError> {
-    if found > 0.0 && found.is_finite() {
-        Ok(found)
-    } else {
-        Err(SdfError::Field { at, field, found: found.to_string(), expected: "a positive, finite number" })
-    }
-}
-
-fn zero(field: &'static str, (found, at): (i64, Position), expected: &'static str) -> Result<(), SdfError> {
-    if found == 0 { Ok(()) } else { Err(SdfError::Field { at, field, found: found.to_string(), expected }) }
-}
-
 /// Takes heights in the order of a file, x growing fastest, and stores them column by column.
 pub(super) struct Profiles {
     /// The patch that they make, with NaN where a height is still to come.
     pub(super) patch: Patch,
     /// True if the first profile has the largest y.
     downward: bool,
-    /// Number of heights taken so far.
     done: usize,
 }
 
 impl Profiles {
-    /// Number of heights taken so far.
     pub(super) fn len(&self) -> usize {
         self.done
     }
 
-    /// Number of heights that are not there yet.
     pub(super) fn missing(&self) -> usize {
         self.patch.heights.len() - self.done
     }

@@ -12,7 +12,7 @@ mod header;
 
 use std::io::{self, BufRead, ErrorKind, Read, Write};
 
-use header::{Header, RawHeader};
+use header::Header;
 use plateau_core::surface::Patch;
 
 pub(super) use header::without_margin;
@@ -172,7 +172,6 @@ fn read_magic(text: &mut Lexer<impl BufRead>) -> Result<Dialect, SdfError> {
     Err(SdfError::Magic { found: String::new() })
 }
 
-/// The dialect that the first line names.
 fn dialect(line: &[u8]) -> Result<Dialect, SdfError> {
     if let Some(SdfKind { dialect, encoding: Encoding::Ascii }) = SdfKind::from_magic(line) {
         let rest = line[8..].trim_ascii();
@@ -207,10 +206,9 @@ fn read_fields(text: &mut Lexer<impl BufRead>, dialect: Dialect) -> Result<Field
 }
 
 fn not(field: &'static str, value: &str, at: Position, expected: &'static str) -> SdfError {
-    SdfError::Field { at, field, found: format!("\"{}\"", short(value.as_bytes())), expected }
+    SdfError::field(field, format!("\"{}\"", short(value.as_bytes())), at, expected)
 }
 
-/// Shortens a text for a message.
 fn short(text: &[u8]) -> String {
     text[..text.len().min(40)].escape_ascii().to_string()
 }
@@ -235,17 +233,14 @@ const WORDS: [(&str, i64); 8] = [
 
 impl Fields {
     fn header(&self) -> Result<Header, SdfError> {
-        RawHeader {
-            points: self.integer("NumPoints", &[])?,
-            profiles: self.integer("NumProfiles", &[])?,
-            x_scale: self.real("Xscale")?,
-            y_scale: self.real("Yscale")?,
-            z_scale: self.real("Zscale")?,
-            compression: self.integer("Compression", &[("null", 0), ("none", 0), ("rll", 1)])?,
-            data_type: self.integer("DataType", &WORDS)?,
-            check_type: self.integer("CheckType", &[("null", 0), ("none", 0), ("uinttrace", 1)])?,
-        }
-        .check(self.dialect)
+        let counts = [self.integer("NumPoints", &[])?, self.integer("NumProfiles", &[])?];
+        let scales = [self.real("Xscale")?, self.real("Yscale")?, self.real("Zscale")?];
+        let codes = [
+            self.integer("Compression", &[("null", 0), ("none", 0), ("rll", 1)])?,
+            self.integer("DataType", &WORDS)?,
+            self.integer("CheckType", &[("null", 0), ("none", 0), ("uinttrace", 1)])?,
+        ];
+        Header::checked(self.dialect, counts, scales, codes)
     }
 
     /// A whole number, for which BCR-1.0 may have one of the words.
@@ -368,17 +363,7 @@ fn binary_header(bytes: &[u8], count_size: usize, dialect: Dialect) -> Result<He
     let scales = 2 * count_size;
     let real = |index: usize| (f64::from_le_bytes(array(scales + 8 * index, 8)), at(scales + 8 * index));
     let code = |index: usize| (i64::from(bytes[scales + 32 + index]), at(scales + 32 + index));
-    RawHeader {
-        points: count(0),
-        profiles: count(count_size),
-        x_scale: real(0),
-        y_scale: real(1),
-        z_scale: real(2),
-        compression: code(0),
-        data_type: code(1),
-        check_type: code(2),
-    }
-    .check(dialect)
+    Header::checked(dialect, [count(0), count(count_size)], [0, 1, 2].map(real), [0, 1, 2].map(code))
 }
 
 /// A trailer is text, filled up with zeros by some programs: bytes of another kind hint at a header that does not fit

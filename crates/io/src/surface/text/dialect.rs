@@ -4,7 +4,6 @@
 use crate::delimited::{Decimal, Separator};
 use crate::surface::error::TextError;
 
-/// Fault of a cell.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Fault {
     NotANumber,

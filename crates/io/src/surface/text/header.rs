@@ -3,7 +3,6 @@
 use crate::delimited::{Decimal, Separator};
 use crate::units::{self, Dimension};
 
-/// A number that a length can have.
 pub(super) fn positive(number: Option<f64>) -> Option<f64> {
     number.filter(|number| *number > 0.0 && number.is_finite())
 }
@@ -52,12 +51,10 @@ pub(super) enum Columns {
     Profile([usize; 2]),
 }
 
-/// The names of columns.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Names {
     /// Line that has them.
     pub(super) line: usize,
-    /// Number of columns.
     pub(super) count: usize,
     /// Columns that are coordinates and heights.
     pub(super) columns: Columns,
@@ -140,7 +137,6 @@ fn unit(cell: &str) -> Option<f64> {
 const BEFORE_VALUES: [char; 3] = ['=', ':', '：'];
 const BEFORE_NAMES: [char; 2] = [',', ';'];
 
-/// Statements of a header.
 #[derive(Debug, Default, PartialEq)]
 pub(super) struct Header {
     /// Length that the height 1 stands for, m.
@@ -153,7 +149,6 @@ pub(super) struct Header {
     pub(super) extent: [Option<f64>; 2],
     /// Numbers of columns and rows.
     pub(super) counts: [Option<u64>; 2],
-    /// The names of the columns.
     pub(super) names: Option<Names>,
 }
 
