@@ -166,7 +166,6 @@ impl Separator {
         self.parts(line, terminated).map(|cell| cell.trim_matches('"').trim())
     }
 
-    /// Tells whether a line ends with a separator.
     pub(crate) fn ends(self, line: &str) -> bool {
         match self {
             Self::Character(mark) => line.trim_end_matches(|c: char| c.is_whitespace() && c != mark).ends_with(mark),
@@ -216,7 +215,6 @@ pub(crate) fn stated_separator(text: &str) -> Option<char> {
 pub(crate) enum Kind {
     /// Says what stands below: names, a unit, a pitch.
     Header,
-    /// A row of the table.
     Row,
     /// Says nothing of the table.
     Comment,
@@ -255,7 +253,6 @@ pub(crate) fn starts<'a>(
     })
 }
 
-/// A table.
 pub(crate) struct Named<'a> {
     separator: char,
     /// True if a separator ends every line.
@@ -265,7 +262,6 @@ pub(crate) struct Named<'a> {
     rows: Vec<(usize, &'a str)>,
 }
 
-/// A line of a table.
 pub(crate) struct Line<'a> {
     /// Number of the line in the file, from 1.
     pub(crate) number: usize,
@@ -273,7 +269,6 @@ pub(crate) struct Line<'a> {
     pub(crate) cells: Vec<Cell<'a>>,
 }
 
-/// A cell of a line.
 pub(crate) struct Cell<'a> {
     /// Text of the cell, without quotation marks; numbers with a decimal point.
     pub(crate) text: Cow<'a, str>,

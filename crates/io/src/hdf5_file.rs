@@ -44,8 +44,9 @@ pub(crate) fn in_words(error: impl Display) -> hdf5::Error {
 /// Beginning of an HDF5 file, at byte 0 or at 512, 1024 and so on.
 const SIGNATURE: &[u8] = b"\x89HDF\r\n\x1a\n";
 
-/// True where the superblock says that a program has the file open for writing; if it was killed, it still does.
-fn is_being_written(file: &File) -> io::Result<bool> {
+/// True where the superblock says that a program has the file open for writing; if it was killed, it still does, and plain readers refuse
+/// the file.
+pub(crate) fn is_being_written(file: &File) -> io::Result<bool> {
     Ok(superblock(file)?.is_some_and(|superblock| superblock.version == 3 && superblock.consistency & 1 != 0))
 }
 
@@ -58,7 +59,6 @@ struct Superblock {
     consistency: u8,
 }
 
-/// A file's superblock, if it has one.
 fn superblock(file: &File) -> io::Result<Option<Superblock>> {
     let length = file.metadata()?.len();
     let mut bytes = [0; 16];
@@ -273,13 +273,10 @@ const MOST_INFLATED: u64 = 1032;
 /// Bytes of a dataset of which nothing need be in the file, for a value of its own may fill it.
 const MADE_UP: u64 = 64 << 20;
 
-/// Reason why a file is not opened.
 #[derive(Debug, Error)]
 pub(crate) enum OpenError {
-    /// Message of the system.
     #[error(transparent)]
     System(#[from] io::Error),
-    /// Message of the library.
     #[error(transparent)]
     Hdf5(#[from] hdf5::Error),
     /// Some of it is in other files.
@@ -352,11 +349,6 @@ pub(crate) fn guarded<T>(data: usize, work: impl FnOnce() -> T) -> T {
 /// Tells whether a file has a superblock, which is where an HDF5 file begins.
 pub(crate) fn is_hdf5(path: &Path) -> io::Result<bool> {
     Ok(superblock(&input::open(path)?)?.is_some())
-}
-
-/// Tells whether a file is marked as being written, or was when its writer was killed: then plain readers refuse it.
-pub(crate) fn is_marked(path: &Path) -> io::Result<bool> {
-    is_being_written(&input::open(path)?)
 }
 
 /// An attribute that is one text of any kind, if there is one.

@@ -98,7 +98,7 @@ pub fn count(number: usize, one: &str) -> String {
 }
 
 /// A number with the sign that is as wide as a plus.
-pub fn with_minus(number: &str) -> String {
+fn with_minus(number: &str) -> String {
     number.replace('-', "\u{2212}")
 }
 

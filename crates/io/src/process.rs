@@ -25,7 +25,6 @@ pub struct Machine {
     pub(crate) hardware: Vec<String>,
 }
 
-/// Relation of one machine to another.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Relation {
     /// Same machine, not started anew since.
@@ -133,7 +132,6 @@ pub struct Process {
     started: u64,
     /// Namespace in which its number holds: a container may have numbers of its own.
     numbers: String,
-    /// Number of its user.
     user: u32,
 }
 
@@ -209,7 +207,6 @@ fn life_by(status: io::Result<String>, started: u64, hidden: bool) -> Life {
     }
 }
 
-/// Status of a process of this machine.
 fn status_of(number: u32) -> io::Result<String> {
     fs::read_to_string(format!("/proc/{number}/stat"))
 }
@@ -249,19 +246,17 @@ pub fn writer_of(path: &Path) -> Writer {
         Ok(false) if wanted.uid() != user => Writer::Hidden,
         _ => Writer::Nobody,
     };
+    let is_of_owner =
+        |process: u32| fs::metadata(format!("/proc/{process}")).is_ok_and(|process| process.uid() == wanted.uid());
     let numbers = processes.flatten().filter_map(|process| process.file_name().to_str()?.parse::<u32>().ok());
     for process in numbers.filter(|process| *process != std::process::id()) {
         match written_by(process, (wanted.dev(), wanted.ino())).map(|mut names| names.next()) {
             Ok(Some(_)) => return Writer::Process(process),
-            Err(_) if belongs_to(process, wanted.uid()) => found = Writer::Hidden,
+            Err(_) if is_of_owner(process) => found = Writer::Hidden,
             _ => {}
         }
     }
     found
-}
-
-fn belongs_to(process: u32, user: u32) -> bool {
-    fs::metadata(format!("/proc/{process}")).is_ok_and(|process| process.uid() == user)
 }
 
 /// Numbers of the open files with which this process writes a file, given by device and inode.

@@ -57,7 +57,6 @@ impl Digests {
         self.maps.entry(path).or_default().push(digest);
     }
 
-    /// Number of maps.
     pub(super) fn maps(&self) -> usize {
         self.maps.values().map(Vec::len).sum()
     }
@@ -82,7 +81,6 @@ impl Digests {
     }
 }
 
-/// Digest of floating-point values.
 pub(super) fn of_floats(values: &[f64]) -> String {
     let mut hasher = Sha256::new();
     update(&mut hasher, values);
@@ -237,7 +235,6 @@ pub(super) fn texts(file: &File, attribute: &Attribute) -> hdf5::Result<Option<V
     Ok(Some(texts))
 }
 
-/// Path of the dataset that a reference means.
 fn path_of(file: &File, reference: &ObjectReference1) -> hdf5::Result<String> {
     match file.dereference(reference)? {
         ReferencedObject::Dataset(dataset) => Ok(dataset.name()),
@@ -388,7 +385,6 @@ impl Check<'_> {
         Ok(())
     }
 
-    /// Compares a dataset with its one digest.
     fn compare(&mut self, path: &str, found: Result<String, String>) {
         let written = self.written(path).map(|digests| digests.and_then(|digests| digests.first().cloned()));
         self.judge(format!("/{path}"), found, written);

@@ -37,7 +37,6 @@ impl State {
         }
     }
 
-    /// All states.
     pub(super) const ALL: [Self; 4] = [Self::Running, Self::Finished, Self::Interrupted, Self::Failed];
 
     pub(super) fn of(name: &str) -> Option<Self> {
@@ -129,7 +128,6 @@ pub enum End {
 }
 
 impl End {
-    /// State that the run file gives it.
     pub(super) fn state(&self) -> State {
         match self {
             Self::Finished => State::Finished,

@@ -11,9 +11,7 @@ use plateau_core::observe::{ABSENT, Map, quantities};
 
 use crate::hdf5_file::write_text;
 
-/// `format_version` of the files written here.
 pub(super) const FORMAT_VERSION: i32 = 1;
-/// The conventions that the files follow.
 pub(crate) const CONVENTIONS: &str = "CF-1.11";
 
 /// Path of the datasets that say how much of a file is complete.
@@ -29,7 +27,6 @@ pub(super) const MAP_TIME: &str = "map_time";
 /// Attribute of the root: what the time acceleration that a run chose was like, as JSON.
 pub(super) const ACCELERATION: &str = "time_acceleration";
 
-/// Path of the base of the pin's cells.
 pub(super) const PIN_BASE: &str = "pin/base";
 
 /// The type of statuses. No variable has its name: xarray writes a type into the group of the variable that has it.
@@ -40,7 +37,6 @@ pub(super) const EVENT_GROUP: &str = "event";
 /// Path of the numbers of the events.
 pub(super) const EVENT: &str = "event/event";
 
-/// Path of a quantity of the events.
 pub(super) fn event_path(name: &str) -> String {
     format!("{EVENT_GROUP}/{name}")
 }
@@ -70,7 +66,6 @@ pub fn map_path(map: Map) -> &'static str {
     facts_of(map).0
 }
 
-/// SI unit of a map.
 pub(crate) fn map_unit(map: Map) -> &'static str {
     facts_of(map).1
 }
@@ -175,7 +170,6 @@ fn coordinate_bytes(mesh: &Mesh) -> u64 {
 trait Stored: H5Type + Copy + 'static {
     const ALL: &[Self];
 
-    /// All of these.
     fn all(values: &[u8]) -> hdf5::Result<Vec<Self>> {
         let all: Option<Vec<Self>> = values.iter().map(|value| Self::ALL.get(usize::from(*value)).copied()).collect();
         all.ok_or_else(|| "a value is not a status".into())

@@ -120,7 +120,6 @@ fn refused_in(path: &Path) -> impl Fn(io::Error) -> RunFileError + '_ {
     }
 }
 
-/// No file can be made in this directory.
 fn no_file_in(directory: &Path, error: &io::Error) -> RunFileError {
     let directory = directory.display();
     RunFileError::Refused(format!(

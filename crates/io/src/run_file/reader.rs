@@ -221,7 +221,6 @@ impl RunFile {
         })
     }
 
-    /// All of a file but series and maps.
     fn read(opening: &Opening<'_>) -> Result<Self, ReadError> {
         opening.check_version()?;
         let text = |name: &str| {
@@ -397,6 +396,12 @@ impl RunFile {
         }
         Ok(Some(base.into_raw_vec_and_offset().0))
     }
+
+    /// Base of every pin cell, column by column, resin beyond the pin's outline; nothing if it was not recorded.
+    pub(super) fn bases(&self) -> Result<Option<Vec<Base>>, ReadError> {
+        let of = |base: u8| if base == Status::Primary as u8 { Base::Primary } else { Base::Resin };
+        Ok(self.pin_base()?.map(|found| found.into_iter().map(of).collect()))
+    }
 }
 
 /// Tells what is expected in place of a file that is not HDF5, and which command makes it: also of a scene or study that was named.
@@ -416,7 +421,6 @@ fn expected_of(path: &Path) -> String {
 }
 
 impl Header {
-    /// The header of a file that is there.
     pub(super) fn of(run: &RunFile) -> Result<Self, ReadError> {
         let damaged = |reason: String| ReadError::of_library(run.path(), reason);
         let text = |name: &str| run.attribute(name).ok_or_else(|| damaged(format!("it has no {name}")));
@@ -424,11 +428,9 @@ impl Header {
         let base = run.bases()?.ok_or_else(|| damaged("it has no base of the pin".to_owned()))?;
         let seeds: serde_json::Map<String, serde_json::Value> = json(run.path(), "seeds", &text("seeds")?)?;
         let inputs: Vec<InputFile> = json(run.path(), "inputs", &text("inputs")?)?;
-        let seeds = seeds.into_iter().map(|(key, seed)| {
-            let number = seed.as_u64();
-            number
-                .map(|number| (key.clone(), number))
-                .ok_or_else(|| damaged(format!("the seed of {} is {}", short(&key), short(&seed.to_string()))))
+        let seeds = seeds.into_iter().map(|(key, seed)| match seed.as_u64() {
+            Some(number) => Ok((key, number)),
+            None => Err(damaged(format!("the seed of {} is {}", short(&key), short(&seed.to_string())))),
         });
         Ok(Self {
             title: run.title().to_owned(),
@@ -448,14 +450,6 @@ impl Header {
             inputs,
             surfaces: text("surfaces")?.lines().map(str::to_owned).collect(),
         })
-    }
-}
-
-impl RunFile {
-    /// Base of every pin cell, column by column, resin beyond the pin's outline; nothing if it was not recorded.
-    pub(super) fn bases(&self) -> Result<Option<Vec<Base>>, ReadError> {
-        let of = |base: u8| if base == Status::Primary as u8 { Base::Primary } else { Base::Resin };
-        Ok(self.pin_base()?.map(|found| found.into_iter().map(of).collect()))
     }
 }
 

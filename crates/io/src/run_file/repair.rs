@@ -18,7 +18,7 @@ use crate::hdf5_file::EMPTY_FILE;
 use crate::process::Process;
 use crate::temporary::Temporary;
 use crate::text::short;
-use crate::{hdf5_file, temporary};
+use crate::{hdf5_file, input, temporary};
 
 /// Outcome of a repair.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -81,7 +81,7 @@ pub enum RepairError {
 /// Tells whether a run file was closed in good order.
 pub fn is_healthy(path: &Path) -> Result<bool, ReadError> {
     let run = RunFile::open(path)?;
-    let marked = hdf5_file::is_marked(path);
+    let marked = input::open(path).and_then(|file| hdf5_file::is_being_written(&file));
     let marked = marked.map_err(|error| ReadError::of_system(path, &error))?;
     Ok(run.state() != State::Running && !marked)
 }
@@ -166,14 +166,13 @@ fn make(path: &Path, old: Restored, holds: [usize; 2], left_out: LeftOut) -> Res
         set_up(&place, &header, start_time, &temporary::unique_word()).map_err(not_anew(path))?;
     datasets.copy(&file, run, Earlier { samples, snapshots: moments, wall_time })?;
     file.flush().map_err(not_anew(path))?;
-    let digests = datasets.into_digests();
     let seal = Seal {
         header: &header,
         start_time,
         end: &End::Interrupted,
         end_time,
         wall_time,
-        digests,
+        digests: datasets.digests,
         events: &[],
         acceleration: None,
     };

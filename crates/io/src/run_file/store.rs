@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant, SystemTime};
 
-use hdf5::{Dataset, File, H5Type};
+use hdf5::{Dataset, File};
 use ndarray::{ArrayView2, s};
 use plateau_core::acceleration::Chosen;
 use plateau_core::observe::event::EventRecord;
@@ -46,7 +46,7 @@ pub(super) struct Datasets {
     maps: Vec<(Map, Dataset)>,
     rows: usize,
     statuses: Statuses,
-    digests: Digests,
+    pub(super) digests: Digests,
     pub(super) samples: usize,
     pub(super) snapshots: usize,
 }
@@ -76,11 +76,6 @@ impl Datasets {
         })
     }
 
-    pub(super) fn into_digests(self) -> Digests {
-        self.digests
-    }
-
-    /// All datasets.
     pub(super) fn all(&self) -> impl Iterator<Item = &Dataset> {
         let series = self.series.iter().map(|(_, dataset)| dataset);
         let maps = self.maps.iter().map(|(_, dataset)| dataset);
@@ -139,13 +134,16 @@ impl Datasets {
         let Some(map_time) = &self.map_time else { return Ok(()) };
         let level = self.snapshots;
         for (map, dataset) in &self.maps {
+            let resize = |cells: usize| dataset.resize((level + 1, cells / self.rows, self.rows));
             let digest = match snapshot.maps.iter().find(|(name, _)| name == map) {
                 Some((_, MapValues::Float(values))) => {
-                    write_level(dataset, level, values, self.rows)?;
+                    resize(values.len())?;
+                    let columns = ArrayView2::from_shape((values.len() / self.rows, self.rows), values)?;
+                    dataset.write_slice(columns, s![level, .., ..])?;
                     digest::of_floats(values)
                 }
                 Some((_, MapValues::Status(values))) => {
-                    dataset.resize((level + 1, values.len() / self.rows, self.rows))?;
+                    resize(values.len())?;
                     self.statuses.write(dataset, s![level, .., ..].try_into()?, values, self.rows)?;
                     sha256_of(values)
                 }
@@ -170,14 +168,6 @@ fn publish(times: &Dataset, file: &File) -> hdf5::Result<()> {
     file.flush()
 }
 
-/// Writes one map, given column by column, as the last level of its dataset.
-fn write_level<T: H5Type>(dataset: &Dataset, level: usize, values: &[T], rows: usize) -> hdf5::Result<()> {
-    let columns = values.len() / rows;
-    let values = ArrayView2::from_shape((columns, rows), values)?;
-    dataset.resize((level + 1, columns, rows))?;
-    dataset.write_slice(values, s![level, .., ..])
-}
-
 /// A run file that is read, or a copy of it as it was at a checkpoint.
 pub(super) struct Restored {
     pub(super) run: RunFile,
@@ -186,7 +176,6 @@ pub(super) struct Restored {
 }
 
 impl Restored {
-    /// Opens a file as it is.
     pub(super) fn as_it_is(path: &Path) -> Result<Self, ReadError> {
         Ok(Self { run: RunFile::open(path)?, _copy: None })
     }
@@ -308,12 +297,10 @@ impl Store {
         }
     }
 
-    /// Appends samples and makes them visible to readers.
     pub(super) fn append_samples(&mut self, batch: &[Sample]) -> Result<(), RunFileError> {
         self.datasets.append_samples(&self.file, batch).map_err(failed(&self.path))
     }
 
-    /// Appends the maps of one moment and makes them visible to readers.
     pub(super) fn append_snapshot(&mut self, snapshot: &Snapshot) -> Result<(), RunFileError> {
         self.datasets.append_snapshot(&self.file, snapshot).map_err(failed(&self.path))
     }
@@ -338,7 +325,7 @@ impl Store {
         let (samples, snapshots) = (datasets.samples, datasets.snapshots);
         let (end_time, wall_time) = (SystemTime::now(), started.elapsed());
         let header = &header;
-        let digests = datasets.into_digests();
+        let digests = datasets.digests;
         let seal = Seal { header, start_time, end, end_time, wall_time, digests, events, acceleration };
         file.close().map_err(failed(&path))?;
         seal.put_on(&path)?;

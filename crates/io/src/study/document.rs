@@ -9,7 +9,6 @@ use toml::{Spanned, Value};
 use crate::scene::{Locator, Origin, Problem};
 use crate::text::{nearest, odd_character, short, shown_title, too_long};
 
-/// The whole file.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Document {
@@ -186,7 +185,6 @@ pub(super) fn unseen(name: &str) -> Option<String> {
 const MARK: char = '\u{feff}';
 
 impl Locator<'_> {
-    /// Problem with something that was found.
     pub(super) fn problem<T>(&self, found: &Spanned<T>, key: &str, message: impl Into<String>) -> Problem {
         Problem::new(&self.origin(found.span()), key, message)
     }

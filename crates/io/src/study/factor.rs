@@ -116,6 +116,11 @@ fn holds_text(key: &str) -> bool {
     schema::find(key).is_some_and(|key| matches!(key.kind, Kind::Text | Kind::InputFile | Kind::Choice(_)))
 }
 
+/// Tells whether a key holds whole numbers.
+pub(super) fn is_whole(key: &str) -> bool {
+    schema::find(key).is_some_and(|key| matches!(key.kind, Kind::Integer(_) | Kind::CountOr(_)))
+}
+
 /// A number that is finite and written as one: `007` is a name.
 fn plain_number(text: &str) -> Option<f64> {
     let text = text.trim();
@@ -281,8 +286,7 @@ impl Factor {
 
     /// Tells whether its keys hold whole numbers, so that nothing lies between two of them.
     pub fn is_whole(&self) -> bool {
-        let kind = schema::find(self.key()).map(|key| &key.kind);
-        kind.is_some_and(|kind| matches!(kind, Kind::Integer(_) | Kind::CountOr(_)))
+        is_whole(self.key())
     }
 
     /// Names of the factor: its own name, and its keys.

@@ -9,13 +9,12 @@ use toml::{Spanned, Value};
 
 use crate::scene::{Locator, Origin, Problem, schema};
 use crate::study::document::{self, Document, Mean, Response as Table, unseen};
-use crate::study::factor::{Factor, Level, Values};
+use crate::study::factor::{Factor, Level, Values, is_whole};
 use crate::study::record::{EVENT, unit_of};
 use crate::study::response::{Question, Response, TRANSFORMS, WhichEvent, units};
 use crate::text::{self, MOST_PROBLEMS, odd_character, short, too_long};
 use crate::units::{self, Dimension, parse, parse_as};
 
-/// The factors of a study.
 pub(super) fn factors(document: &Document, locator: &Locator<'_>, problems: &mut Vec<Problem>) -> Vec<Factor> {
     let mut factors: Vec<Factor> = Vec::new();
     let (mut names, mut varied) = (HashSet::new(), HashSet::new());
@@ -85,7 +84,6 @@ pub(super) fn stated_unit(level: Option<&Level>) -> String {
     level.and_then(Level::split).map_or_else(String::new, |(_, unit)| unit.to_owned())
 }
 
-/// The levels or the range of a factor.
 fn values(table: &document::Factor, key: &str, in_file: bool, locator: &Locator<'_>) -> Result<Values, Problem> {
     let start =
         table.key.as_ref().map(Spanned::span).or(table.name.as_ref().map(Spanned::span)).unwrap_or_default().start;
@@ -162,7 +160,7 @@ fn range(
         return Err(locator.problem(range, "factor.range", message));
     }
     let whole = |end: &Spanned<toml::Value>| matches!(end.get_ref(), toml::Value::Integer(_));
-    if schema::find(key).is_some_and(|key| matches!(key.kind, schema::Kind::Integer(_) | schema::Kind::CountOr(_))) {
+    if is_whole(key) {
         return Err(locator.problem(range, "factor.range", "this key holds whole numbers: give levels"));
     }
     let units_of_ends =
@@ -179,7 +177,6 @@ fn range(
     Ok(Values::Range { low, high, logarithmic })
 }
 
-/// The responses of a study.
 pub(super) fn responses(tables: &[Table], locator: &Locator<'_>, problems: &mut Vec<Problem>) -> Vec<Response> {
     let mut responses: Vec<Response> = Vec::new();
     let mut names = HashSet::new();

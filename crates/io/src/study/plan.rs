@@ -227,7 +227,6 @@ impl Plan {
     }
 }
 
-/// A setting in words.
 fn place(setting: Setting) -> String {
     match setting {
         Setting::Level(level) => format!("level {}", level + 1),

@@ -142,7 +142,6 @@ fn surface_files(scene: &Scene) -> impl Iterator<Item = (&'static str, &PathBuf)
     all.into_iter().filter_map(|(key, path)| Some((key, path?)))
 }
 
-/// The file that heights come from.
 fn heights(source: &HeightSource) -> Option<&PathBuf> {
     match source {
         HeightSource::File { path, .. } => Some(path),

@@ -314,7 +314,6 @@ pub fn lacking(scene: &Scene, series: &str) -> Option<String> {
     Some(if is_asked_for { needs(extra) } else { format!("output.{} = true", extra.name) })
 }
 
-/// Series that are fractions.
 const FRACTIONS: [&str; 7] =
     ["contact_ratio", "pin_primary", "pin_secondary", "pin_none", "disc_secondary", "filled_fraction", "pressure_gini"];
 /// Units of what is not negative, whatever it is: areas and volumes, pressures, masses.

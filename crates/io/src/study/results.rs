@@ -41,9 +41,7 @@ pub struct CollectedRun {
     /// Wall time, s; NaN if it has not ended.
     pub wall_time: f64,
     pub(super) entry: Option<Entry>,
-    /// Times of its samples, if it finished.
     pub(super) time: Vec<f64>,
-    /// Names of its series.
     pub(super) series: Vec<String>,
 }
 

@@ -19,7 +19,6 @@ struct ValueTable {
     rows: Vec<Row>,
 }
 
-/// A line of the table.
 #[derive(Debug, Clone, PartialEq, Eq)]
 struct Row {
     /// Number of the line in the file, from 1.
@@ -28,13 +27,8 @@ struct Row {
 }
 
 impl ValueTable {
-    /// Reads a CSV file. Lines that begin with # are passed over.
-    fn read(path: &Path) -> Result<Self, String> {
-        Self::read_rows(path, limits::ROWS)
-    }
-
-    /// Reads as [`ValueTable::read`] does, at most so many lines, and at most [`limits::CELLS`] values.
-    fn read_rows(path: &Path, most: usize) -> Result<Self, String> {
+    /// Reads a CSV file of at most so many lines, and at most [`limits::CELLS`] values. Lines that begin with # are passed over.
+    fn read(path: &Path, most: usize) -> Result<Self, String> {
         let shown = path.display();
         let text = delimited::read(path, limits::TABLE).map_err(|error| format!("cannot read {shown}: {error}"))?;
         let wrong = |fault: Fault| format!("{shown}:{}: {}", fault.line, fault.message);
@@ -115,7 +109,6 @@ impl ValueTable {
         factors.iter().map(column).collect()
     }
 
-    /// Level of a factor in a line.
     fn level(&self, row: &Row, column: usize, factor: &Factor) -> Result<Level, String> {
         let cell = row.cells[column].as_str();
         if cell.is_empty() {
@@ -129,7 +122,6 @@ impl ValueTable {
         Ok(factor.parse(&text))
     }
 
-    /// File and line of a row.
     fn place(&self, row: &Row) -> String {
         format!("{}:{}", self.path.display(), row.line)
     }
@@ -141,7 +133,7 @@ pub type Points = Vec<Vec<Level>>;
 /// Reads a CSV file whose first line names the factors, or the keys that they set; every other line is a point. Columns of what
 /// is measured at the points, `others`, may stand beside them.
 pub(super) fn read_points(path: &Path, factors: &[Factor], others: &[&str]) -> Result<Points, String> {
-    let table = ValueTable::read(path)?;
+    let table = ValueTable::read(path, limits::ROWS)?;
     let shown = path.display();
     let columns = table.factor_columns(factors)?;
     let column = |(factor, column): (&Factor, &Option<usize>)| {

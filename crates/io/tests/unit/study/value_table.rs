@@ -10,7 +10,7 @@ fn read<T>(text: &str, reading: impl Fn(&Path) -> Result<T, String>) -> Result<T
 }
 
 fn table(text: &str) -> Result<ValueTable, String> {
-    read(text, ValueTable::read)
+    read(text, |path| ValueTable::read(path, limits::ROWS))
 }
 
 /// A factor whose levels the table has.
@@ -35,7 +35,7 @@ fn columns_have_names_and_units() {
 
 #[test]
 fn what_is_too_much_or_no_text_is_refused() {
-    let read = |text: &str| read(text, |path| ValueTable::read_rows(path, 3));
+    let read = |text: &str| read(text, |path| ValueTable::read(path, 3));
     assert_eq!(read("a\n1\n2\n3\n4\n").unwrap_err(), "./t.csv:5: more points, expected at most 3");
     let bell = read("a,b\n5 N\u{7},1\n").unwrap_err();
     assert_eq!(bell, "./t.csv:2: \"a\" has the control character U+0007; take it out");
