@@ -353,7 +353,8 @@ pub(crate) fn is_hdf5(path: &Path) -> io::Result<bool> {
 
 /// An attribute that is one text of any kind, if there is one.
 pub(crate) fn text_attribute(location: &Location, name: &str) -> hdf5::Result<Option<String>> {
-    attribute_of_one(location, name)?.map_or(Ok(None), |attribute| text_of(&attribute))
+    // There is no other way to ask whether it is there.
+    location.attr(name).map_or(Ok(None), |attribute| text_of(&attribute))
 }
 
 /// The text that an attribute of one value holds, of any kind; none of other values.
@@ -376,16 +377,11 @@ pub(crate) fn texts_of(attribute: &Attribute) -> hdf5::Result<Vec<String>> {
     }
 }
 
+/// An attribute that is one number, if there is one. What an empty one (of a null dataspace) is said to hold is whatever the memory
+/// held before.
 pub(crate) fn number_attribute<T: H5Type>(location: &Location, name: &str) -> hdf5::Result<Option<T>> {
-    attribute_of_one(location, name)?.map(|attribute| attribute.read_scalar()).transpose()
-}
-
-/// An attribute that holds one value, if there is one. What an empty one (of a null dataspace) is said to hold is whatever the
-/// memory held before.
-fn attribute_of_one(location: &Location, name: &str) -> hdf5::Result<Option<Attribute>> {
-    // There is no other way to ask whether it is there.
     let Ok(attribute) = location.attr(name) else { return Ok(None) };
-    Ok(if attribute.space()?.size() == 1 { Some(attribute) } else { None })
+    if attribute.space()?.size() == 1 { attribute.read_scalar().map(Some) } else { Ok(None) }
 }
 
 /// The bytes of a damaged file may be no text.

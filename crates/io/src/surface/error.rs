@@ -215,18 +215,13 @@ pub enum TextError {
          x, y, z: {}", advice(*skip)
     )]
     Line { line: usize, found: String, skip: Option<usize> },
-    #[error(
-        "line {line}, column {column}: found \"{found}\", expected a number, or an empty cell, NaN, BAD or *** for a missing \
-         point"
-    )]
-    Number { line: usize, column: usize, found: String },
+    #[error("line {line}, column {column}: {}", in_words(*fault, found, beside.as_deref()))]
+    Cell { line: usize, column: usize, found: String, fault: Fault, beside: Option<Box<str>> },
     #[error(
         "line {line}, column {column}: a coordinate is missing, expected a number: only heights may be missing; are the columns in another \
          order than x, y, z? Names above them say which is which, such as x z y"
     )]
     NoCoordinate { line: usize, column: usize },
-    #[error("line {line}, column {column}: \"{found}\" has a decimal {}, {}", name(*mark), other(*mark, beside.as_deref()))]
-    Mark { line: usize, column: usize, found: String, mark: Decimal, beside: Option<Box<str>> },
     #[error(
         "line {line}: another table begins here, {sign} (\"{found}\"), and a surface has one: dataset = \"1\" below file in the scene \
          chooses the first of the {tables}; if all is one surface, take blank lines and headers out of it"
@@ -234,11 +229,6 @@ pub enum TextError {
     Several { line: usize, sign: &'static str, found: String, tables: usize },
     #[error("dataset = \"{dataset}\", expected the number of a table of the file, which has {tables}")]
     NoTable { dataset: String, tables: usize },
-    #[error(
-        "line {line}, column {column}: \"{found}\" has digits in groups, expected a number without: save the file without \
-         thousands separators"
-    )]
-    Grouped { line: usize, column: usize, found: String },
     #[error(
         "line {line}, column {column}: \"{found}\" may be {} or {}: decimal = \",\" below file in the scene says the first; of a file with \
          thousands separators save one without",
@@ -255,8 +245,6 @@ pub enum TextError {
          the file with decimal points, or with semicolons between the numbers"
     )]
     CommaTwice { line: usize, found: String, part: String },
-    #[error("line {line}, column {column}: {found} is not finite, expected a finite number, NaN for a missing point")]
-    Infinite { line: usize, column: usize, found: String },
     #[error("line {line} has {found} numbers, expected {expected} as in line {first}")]
     Ragged { line: usize, found: usize, expected: usize, first: usize },
     #[error("the header states {expected} {what}, but the file has {found}")]
@@ -309,6 +297,32 @@ pub enum TextError {
         100.0 * (found - expected).abs() / step, short(*step), short(*expected), short(gaps[0]), short(gaps[1])
     )]
     Uneven { line: usize, found: f64, expected: f64, step: f64, gaps: [f64; 2] },
+}
+
+/// Fault of a cell.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[allow(missing_docs)] // The messages say what they mean.
+pub enum Fault {
+    NotANumber,
+    /// Decimal mark in place of the other one.
+    Mark(Decimal),
+    /// Digits in groups of three.
+    Grouped,
+    Infinite,
+}
+
+/// Says what is wrong with a cell; of a wrong mark with a number `beside` it that has the right one.
+fn in_words(fault: Fault, found: &str, beside: Option<&str>) -> String {
+    match fault {
+        Fault::NotANumber => {
+            format!("found \"{found}\", expected a number, or an empty cell, NaN, BAD or *** for a missing point")
+        }
+        Fault::Mark(mark) => format!("\"{found}\" has a decimal {}, {}", name(mark), other(mark, beside)),
+        Fault::Grouped => format!(
+            "\"{found}\" has digits in groups, expected a number without: save the file without thousands separators"
+        ),
+        Fault::Infinite => format!("{found} is not finite, expected a finite number, NaN for a missing point"),
+    }
 }
 
 /// Advises how to leave out lines that are not understood.

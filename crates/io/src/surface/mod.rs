@@ -13,7 +13,7 @@ mod stored;
 mod text;
 
 pub use crate::delimited::Decimal;
-pub use error::{FileError, Hdf5Error, SurfaceError, TextError};
+pub use error::{Fault, FileError, Hdf5Error, SurfaceError, TextError};
 pub use files::{WriteError, read, write};
 pub use format::{Format, Instrument};
 pub use image::ImageError;

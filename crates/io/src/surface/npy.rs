@@ -365,10 +365,7 @@ fn inflate(archive: &mut ZipArchive<Cursor<&[u8]>>, index: usize, bytes: u64) ->
 
 /// Writes the heights of a patch as an .npy file: float64, shape (columns, rows), m, NaN where a point is missing. The
 /// format has no place for the pitch.
-pub fn write(path: &Path, patch: &Patch) -> io::Result<()> {
-    if patch.columns.checked_mul(patch.rows) != Some(patch.heights.len()) {
-        return Err(io::Error::new(io::ErrorKind::InvalidInput, "the patch has other than columns times rows heights"));
-    }
+pub(super) fn write(path: &Path, patch: &Patch) -> io::Result<()> {
     write_array(path, "<f8", &[patch.columns, patch.rows], patch.heights.iter().flat_map(|height| height.to_le_bytes()))
 }
 

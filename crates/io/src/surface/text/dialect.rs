@@ -2,36 +2,7 @@
 //! words for points without a height.
 
 use crate::delimited::{Decimal, Separator};
-use crate::surface::error::TextError;
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Fault {
-    NotANumber,
-    /// Decimal mark in place of the other one.
-    Mark(Decimal),
-    /// Digits in groups of three.
-    Grouped,
-    Infinite,
-}
-
-impl Fault {
-    /// The error of a cell; of a wrong mark it tells a number `beside` it that has the right one.
-    pub(super) fn at(
-        self,
-        line: usize,
-        column: usize,
-        cell: &str,
-        beside: impl FnOnce() -> Option<Box<str>>,
-    ) -> TextError {
-        let found = shown(cell);
-        match self {
-            Self::NotANumber => TextError::Number { line, column, found },
-            Self::Mark(mark) => TextError::Mark { line, column, found, mark, beside: beside() },
-            Self::Grouped => TextError::Grouped { line, column, found },
-            Self::Infinite => TextError::Infinite { line, column, found },
-        }
-    }
-}
+use crate::surface::error::{Fault, TextError};
 
 /// The number in a cell; NaN where a point is missing.
 pub(super) fn number(cell: &str, decimal: Decimal) -> Result<f64, Fault> {
@@ -239,7 +210,8 @@ fn decimal<'a>(lines: impl Iterator<Item = (usize, &'a str)>, separator: Separat
                 continue;
             }
             if number(cell, Decimal::Point) == Err(Fault::Grouped) {
-                return Err(TextError::Grouped { line, column: column + 1, found: shown(cell) });
+                let (column, found) = (column + 1, shown(cell));
+                return Err(TextError::Cell { line, column, found, fault: Fault::Grouped, beside: None });
             }
             if cell.contains('.') && number(cell, Decimal::Point).is_ok() {
                 return Ok(Decimal::Point);

@@ -3,10 +3,10 @@
 
 use std::ops::Range;
 
-use super::dialect::{Dialect, Fault, is_comment, number, shown, starts_numbers};
+use super::dialect::{Dialect, is_comment, number, shown, starts_numbers};
 use super::header::{Header, Names};
 use crate::delimited::{Decimal, Kind, Separator, starts};
-use crate::surface::error::TextError;
+use crate::surface::error::{Fault, TextError};
 use crate::surface::format::Format;
 use crate::surface::measured::{Measured, ReadOptions, agreed, agreed_pitch};
 
@@ -148,7 +148,7 @@ impl Numbers {
         }
         let table =
             Self::table(header, numbers.clone(), dialect).map_err(|error| match (&error, odd_beginning(numbers)) {
-                (TextError::Number { line, .. }, Some((first, text))) if *line == first => {
+                (TextError::Cell { line, fault: Fault::NotANumber, .. }, Some((first, text))) if *line == first => {
                     TextError::Line { line: first, found: shown(text.trim()), skip: lines_before(below) }
                 }
                 _ => error,
@@ -169,9 +169,12 @@ impl Numbers {
         for (line, text) in lines.clone() {
             let before = numbers.values.len();
             for (column, cell) in separator.cells(text, terminated).enumerate() {
-                let beside = || beside(lines.clone(), separator, decimal);
-                let value = number(cell, decimal).map_err(|fault| fault.at(line, column + 1, cell, beside));
-                numbers.values.push(value?);
+                let wrong = |fault| {
+                    let is_mark = matches!(fault, Fault::Mark(_));
+                    let beside = if is_mark { beside(lines.clone(), separator, decimal) } else { None };
+                    TextError::Cell { line, column: column + 1, found: shown(cell), fault, beside }
+                };
+                numbers.values.push(number(cell, decimal).map_err(wrong)?);
             }
             let found = numbers.values.len() - before;
             if line == first {
@@ -248,7 +251,7 @@ impl Numbers {
         heights.iter_mut().for_each(|height| *height *= unit);
         let Some(height) = heights.iter().find(|height| height.is_infinite()) else { return Ok(()) };
         let found = format!("a height of {height} m");
-        Err(TextError::Infinite { line: self.first_line(), column: 1, found })
+        Err(TextError::Cell { line: self.first_line(), column: 1, found, fault: Fault::Infinite, beside: None })
     }
 }
 
