@@ -166,13 +166,14 @@ fn make(path: &Path, old: Restored, holds: [usize; 2], left_out: LeftOut) -> Res
         set_up(&place, &header, start_time, &temporary::unique_word()).map_err(not_anew(path))?;
     datasets.copy(&file, run, Earlier { samples, snapshots: moments, wall_time })?;
     file.flush().map_err(not_anew(path))?;
+    let digests = datasets.into_digests();
     let seal = Seal {
         header: &header,
         start_time,
         end: &End::Interrupted,
         end_time,
         wall_time,
-        digests: datasets.digests,
+        digests,
         events: &[],
         acceleration: None,
     };

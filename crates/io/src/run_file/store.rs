@@ -46,7 +46,7 @@ pub(super) struct Datasets {
     maps: Vec<(Map, Dataset)>,
     rows: usize,
     statuses: Statuses,
-    pub(super) digests: Digests,
+    digests: Digests,
     pub(super) samples: usize,
     pub(super) snapshots: usize,
 }
@@ -74,6 +74,11 @@ impl Datasets {
             samples: 0,
             snapshots: 0,
         })
+    }
+
+    /// Lets go of the datasets, which have to be closed before their file is, and keeps the digests.
+    pub(super) fn into_digests(self) -> Digests {
+        self.digests
     }
 
     pub(super) fn all(&self) -> impl Iterator<Item = &Dataset> {
@@ -325,7 +330,7 @@ impl Store {
         let (samples, snapshots) = (datasets.samples, datasets.snapshots);
         let (end_time, wall_time) = (SystemTime::now(), started.elapsed());
         let header = &header;
-        let digests = datasets.digests;
+        let digests = datasets.into_digests();
         let seal = Seal { header, start_time, end, end_time, wall_time, digests, events, acceleration };
         file.close().map_err(failed(&path))?;
         seal.put_on(&path)?;
