@@ -15,6 +15,7 @@ mod patch;
 mod prepare;
 pub(crate) mod random;
 mod resample;
+mod rotate;
 mod straighten;
 mod synthesis;
 mod unroll;

@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use super::error::PreparationError;
 use super::heights::{change, rms};
 use super::patch::neighbours;
-use super::straighten::{height_at, place};
+use super::rotate::{height_at, place};
 use super::{Length, Patch};
 
 /// Tells whether each point lies within what was measured: all but the missing points that other missing points join to the edge

@@ -1,6 +1,6 @@
 //! Place of a picture on the pin, and how much of every cell it shows as fibre.
 
-use super::{MicrographError, Picture};
+use super::picture::{MicrographError, Picture};
 use crate::model::mesh::Mesh;
 
 /// Points of a cell along either direction: at least this many, and at least [`PER_PIXEL`] for every pixel, up to

@@ -22,7 +22,7 @@ use super::super::fft::Complex;
 use super::super::random::{Random, Stream};
 use super::super::synthesis::planar::{self, Grid, Plane};
 use super::super::{Body, Extension, Length};
-use super::{MicrographError, Picture};
+use super::picture::{MicrographError, Picture};
 use crate::model::mesh::Mesh;
 use crate::model::state::Base;
 

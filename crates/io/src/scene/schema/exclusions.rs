@@ -1,9 +1,9 @@
 //! Keys that exclude each other, keys that have no meaning beside a value of another, and ways to say the same with different keys of a
 //! table.
 
+use super::key::{Choose, Key, Need, join};
 use super::keys::{self, BRAKING_TORQUE, CYCLE, CYCLE_COLUMNS, DEBRIS_IS_LOCAL};
 use super::lookup::find;
-use super::{Choose, Key, Need, join};
 
 /// Alternatives, each with the keys that have a meaning only beside it.
 type Members = &'static [(&'static str, &'static [&'static str])];

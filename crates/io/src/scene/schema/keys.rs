@@ -6,7 +6,7 @@
 use plateau_core::observe::EXTRAS;
 
 use super::choices::{self, words};
-use super::{Choose, Key, Kind, Need, Range, Role};
+use super::key::{Choose, Key, Kind, Need, Range, Role};
 use crate::units::Dimension::{
     self, Angle, Area, Cooling, CoolingPerSpeed, Density, Force, Length, NumberPerMass, Pressure, RotationalSpeed,
     SpecificHeat, SpecificWearRate, Speed, Temperature, ThermalConductivity, Time, Torque,

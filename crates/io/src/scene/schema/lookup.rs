@@ -3,8 +3,8 @@
 use std::collections::HashMap;
 use std::sync::LazyLock;
 
+use super::key::{Key, Kind, Role, is_below, join};
 use super::keys::all;
-use super::{Key, Kind, Role, is_below, join};
 use crate::text::{nearest, short};
 
 /// Every key, in the order of docs/scenes.md.
