@@ -131,16 +131,13 @@ impl Terminal {
         })
     }
 
-    /// Listens as [`listen`](Self::listen) does, and notes SIGUSR1 as a wish for a checkpoint.
-    pub fn listen_for_save(visible: bool) -> io::Result<Self> {
+    /// Listens as [`listen`](Self::listen) does, also for SIGUSR1 as a wish for a checkpoint. Until the run is prepared, which takes long
+    /// enough for a large scene, a signal ends the program at once, and each process of a job by itself: nothing is written yet.
+    pub fn listen_for_run(visible: bool) -> io::Result<Self> {
         let terminal = Self::listen(visible)?;
         terminal.interrupt.listen_for_save()?;
+        *terminal.preparation.borrow_mut() = Some(terminal.interrupt.end_at_once(visible));
         Ok(terminal)
-    }
-
-    /// Lets a signal end the program at once until the run is prepared.
-    pub fn end_while_preparing(&self) {
-        *self.preparation.borrow_mut() = Some(self.interrupt.end_at_once(self.visible));
     }
 }
 

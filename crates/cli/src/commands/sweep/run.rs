@@ -19,7 +19,7 @@ use plateau_run::{Job, Observer, RunOptions, signal_in_words};
 use crate::arguments::{SlurmArguments, SweepRunArguments, SweepSceneArguments};
 use crate::failure::{Failure, in_job, of_study};
 use crate::output::{print, print_json, table};
-use crate::terminal::{Interrupt, Messages};
+use crate::terminal::{Interrupt, Messages, Terminal};
 use crate::{commands, invocation, message, output, program};
 
 /// Makes the runs, together with the other processes of the job if there are any.
@@ -43,7 +43,7 @@ fn run_alone(arguments: &SweepRunArguments, number: usize, job: &mut Job) -> Res
         program: program::this(),
         ..RunOptions::default()
     };
-    let terminal = commands::run::preparing(job)?;
+    let terminal = Terminal::listen_for_run(job.leads()).map_err(Failure::run)?;
     commands::run::make(commands::run::warned(scene), &options, arguments.json, job, terminal)
 }
 
