@@ -38,14 +38,20 @@ struct Progress {
     looked: Instant,
 }
 
+/// A bar of that length on standard error, which may be silent: `-q` keeps it back.
+pub fn bar(length: u64, visible: bool) -> ProgressBar {
+    let bar = if visible && !message::is_quiet() { ProgressBar::new(length) } else { ProgressBar::hidden() };
+    if let Ok(style) = ProgressStyle::with_template("{prefix}{bar:28} {percent:>3} %  {msg}  {eta} left") {
+        bar.set_style(style);
+    }
+    bar
+}
+
 impl Progress {
     /// Progress over so much simulated time (s), with the name of what is simulated, if it has one; to be seen or not.
     fn new(duration: f64, name: &str, visible: bool) -> Self {
         let visible = visible && !message::is_quiet();
-        let bar = if visible { ProgressBar::new(PARTS) } else { ProgressBar::hidden() };
-        if let Ok(style) = ProgressStyle::with_template("{prefix}{bar:28} {percent:>3} %  {msg}  {eta} left") {
-            bar.set_style(style);
-        }
+        let bar = bar(PARTS, visible);
         if !name.is_empty() {
             bar.set_prefix(format!("{name}  "));
         }

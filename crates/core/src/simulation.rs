@@ -403,27 +403,28 @@ impl Simulation {
     pub fn snapshot_at(&mut self, moment: &Moment, maps: &[Map]) -> Result<Snapshot, SimulationError> {
         let mut values = Vec::with_capacity(maps.len());
         for map in maps {
-            let found = match map {
+            let mut found = match map {
                 Map::Pressure => MapValues::Float(self.pressures_at(moment)?),
                 Map::Temperature => MapValues::Float(self.temperatures_at(moment)?),
                 map => self.field(*map)?,
             };
-            values.push((*map, self.outlined(*map, found)));
+            self.fill_absent(*map, &mut found, f64::NAN, ABSENT);
+            values.push((*map, found));
         }
         Ok(Snapshot { time: moment.time, maps: values })
     }
 
-    /// A map in which the cells beyond the pin's outline are told from the others.
-    fn outlined(&self, map: Map, mut values: MapValues) -> MapValues {
-        if !map.on_disc() {
-            for cell in self.parameters.mesh.absent_cells() {
-                match &mut values {
-                    MapValues::Float(values) => values[cell] = f64::NAN,
-                    MapValues::Status(statuses) => statuses[cell] = ABSENT,
-                }
+    /// Gives the cells of a map that are beyond the pin's outline this number, or this status.
+    fn fill_absent(&self, map: Map, values: &mut MapValues, number: f64, status: u8) {
+        if map.on_disc() {
+            return;
+        }
+        for cell in self.parameters.mesh.absent_cells() {
+            match values {
+                MapValues::Float(values) => values[cell] = number,
+                MapValues::Status(statuses) => statuses[cell] = status,
             }
         }
-        values
     }
 
     /// Pressure p of every pin cell at a moment, Pa; 0 beyond the pin's outline.
@@ -455,15 +456,8 @@ impl Simulation {
     fn field(&mut self, map: Map) -> Result<MapValues, SimulationError> {
         let found = self.workers.snapshot(&[map])?.maps.into_iter().next();
         let mut values = found.map_or(MapValues::Float(Vec::new()), |(_, values)| values);
-        if !map.on_disc() {
-            // What the workers keep there is their own affair.
-            for cell in self.parameters.mesh.absent_cells() {
-                match &mut values {
-                    MapValues::Float(values) => values[cell] = 0.0,
-                    MapValues::Status(statuses) => statuses[cell] = 0,
-                }
-            }
-        }
+        // What the workers keep there is their own affair.
+        self.fill_absent(map, &mut values, 0.0, 0);
         if let MapValues::Float(values) = &values {
             let name = |place| format!("cell {place} of {}", map.name());
             self.refuse_not_finite(values.iter().copied(), name)?;

@@ -142,14 +142,12 @@ fn failure(error: AccuracyError) -> Failure {
 
 /// Reference, errors, advice and notes.
 fn text(report: &Report) -> String {
+    let mut parts = vec![reference(report), errors(report), list("Advice", &[advice(report)])];
     let notes = notes(report);
-    let parts = [
-        reference(report),
-        errors(report),
-        list("Advice", &[advice(report)]),
-        if notes.is_empty() { String::new() } else { list("Notes", &notes) },
-    ];
-    parts.into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join("\n")
+    if !notes.is_empty() {
+        parts.push(list("Notes", &notes));
+    }
+    parts.join("\n")
 }
 
 fn reference(report: &Report) -> String {

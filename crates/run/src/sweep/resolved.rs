@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 use plateau_core::observe::window_mean::LEAST_REVOLUTIONS;
-use plateau_core::simulation::{Execution, Simulation};
+use plateau_core::simulation::Simulation;
 use plateau_io::run_file::size_estimate;
 use plateau_io::scene::{Scene, memory_estimate};
 use plateau_io::study::Study;
@@ -334,9 +334,7 @@ impl Estimate {
             let making = start.elapsed().as_secs_f64();
             warnings.add(of_surfaces(&scene, &loaded));
             let surfaces = loaded.surfaces;
-            let execution = Execution { workers: 1, ..Execution::default() };
-            let mut simulation =
-                Simulation::with_execution(scene.parameters.clone(), surfaces, execution).map_err(Failure::input)?;
+            let mut simulation = Simulation::new(scene.parameters.clone(), surfaces).map_err(Failure::input)?;
             let step = time_per_step(&mut simulation, scene.steps, TRIAL).map_err(Failure::run)?;
             // Surfaces are a part of the run that does not grow with its steps.
             let steps = scene.steps.max(1) as f64;
