@@ -27,7 +27,6 @@ const WEARING_IN: f64 = 100.0;
 /// Parameters and surfaces of a simulation.
 #[derive(Debug, Clone)]
 pub struct Case {
-    /// Parameters of the simulation.
     pub parameters: Parameters,
     /// The surfaces before the first step.
     pub surfaces: InitialSurfaces,

@@ -62,16 +62,12 @@ pub struct Session {
     pub quick: bool,
 }
 
-/// Times of one entry.
+/// Times of one [`Entry`], with what it is.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Measurement {
-    /// Name that sets it apart from the others.
     pub name: String,
-    /// Place of the entry that it is compared with.
     pub against: usize,
-    /// Counts of cells of its mesh.
     pub mesh: MeshSize,
-    /// Threads that share the ring.
     pub workers: usize,
     /// Steps of a block.
     pub steps_per_block: u64,
@@ -163,23 +159,25 @@ pub fn race(mut entries: Vec<Entry>, pace: Pace) -> Outcome<Vec<Measurement>> {
             times.push(entry.runner.advance(*steps)?.as_secs_f64() * 1e6 / *steps as f64);
         }
     }
-    let results = entries.into_iter().zip(blocks).zip(times).zip(before);
-    let measurement =
-        |(((entry, steps_per_block), microseconds_per_step), before): (((Entry, u64), Vec<f64>), Vec<_>)| {
-            let time = microseconds_per_step.iter().sum::<f64>() * steps_per_block as f64 * 1e-6;
-            let steps = steps_per_block * pace.repeats as u64;
-            Measurement {
-                sharing: Sharing::of(&before, &entry.runner.exchanges(), steps, Duration::from_secs_f64(time)),
-                load_evaluations_per_step: entry.runner.load_evaluations_per_step(),
-                name: entry.name,
-                against: entry.against,
-                mesh: entry.mesh,
-                workers: entry.workers,
-                steps_per_block,
-                microseconds_per_step,
-            }
-        };
-    Ok(results.map(measurement).collect())
+    let mut measurements = Vec::with_capacity(entries.len());
+    for (((entry, steps_per_block), microseconds_per_step), before) in
+        entries.into_iter().zip(blocks).zip(times).zip(before)
+    {
+        let time = microseconds_per_step.iter().sum::<f64>() * steps_per_block as f64 * 1e-6;
+        let steps = steps_per_block * pace.repeats as u64;
+        let Entry { name, against, mesh, workers, runner } = entry;
+        measurements.push(Measurement {
+            name,
+            against,
+            mesh,
+            workers,
+            steps_per_block,
+            load_evaluations_per_step: runner.load_evaluations_per_step(),
+            microseconds_per_step,
+            sharing: Sharing::of(&before, &runner.exchanges(), steps, Duration::from_secs_f64(time)),
+        });
+    }
+    Ok(measurements)
 }
 
 #[cfg(test)]

@@ -135,14 +135,12 @@ pub enum Command {
     Man(ManArguments),
 }
 
-/// Arguments of `plateau completions`.
 #[derive(Debug, Args)]
 pub struct CompletionsArguments {
     /// The shell
     pub shell: Shell,
 }
 
-/// Arguments of `plateau man`.
 #[derive(Debug, Args)]
 pub struct ManArguments {
     /// Command whose page is printed; that of the program unless given
@@ -179,7 +177,6 @@ fn positive(dimension: Dimension) -> impl Fn(&str) -> Result<String, String> + C
     }
 }
 
-/// Arguments of `plateau run`.
 #[derive(Debug, Args)]
 pub struct RunArguments {
     #[command(flatten)]
@@ -200,7 +197,6 @@ pub struct RunArguments {
     pub execution: ExecutionArguments,
 }
 
-/// Arguments of `plateau check`.
 #[derive(Debug, Args)]
 pub struct CheckArguments {
     #[command(flatten)]
@@ -275,7 +271,6 @@ fn instruction_set(text: &str) -> Result<InstructionSet, String> {
     found.ok_or_else(|| format!("this processor has {}", available().collect::<Vec<_>>().join(", ")))
 }
 
-/// Arguments of `plateau watch`.
 #[derive(Debug, Args)]
 pub struct WatchArguments {
     /// Run file, which need not be there yet
@@ -293,7 +288,6 @@ fn seconds(text: &str) -> Result<u64, &'static str> {
     text.parse::<NonZeroU64>().map(NonZeroU64::get).map_err(|_| "expected whole seconds, at least 1")
 }
 
-/// Arguments of `plateau verify`.
 #[derive(Debug, Args)]
 pub struct VerifyArguments {
     /// Run files
@@ -304,7 +298,6 @@ pub struct VerifyArguments {
     pub json: bool,
 }
 
-/// Arguments of `plateau repair`.
 #[derive(Debug, Args)]
 pub struct RepairArguments {
     /// Run files
@@ -315,7 +308,6 @@ pub struct RepairArguments {
     pub force: bool,
 }
 
-/// Arguments of `plateau summary`.
 #[derive(Debug, Args)]
 pub struct SummaryArguments {
     /// Run file, also of a run that goes on or was stopped
@@ -419,7 +411,6 @@ fn is_sliding_speed(text: &str) -> bool {
     units::parse(text, Dimension::Speed).is_ok()
 }
 
-/// Arguments of `plateau accuracy`.
 #[derive(Debug, Args)]
 pub struct AccuracyArguments {
     #[command(flatten)]

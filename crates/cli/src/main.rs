@@ -1,7 +1,24 @@
 //! The program `plateau`.
 
 mod arguments;
-mod commands;
+/// Commands, one file or folder for each.
+mod commands {
+    pub mod accuracy;
+    pub mod check;
+    pub mod new;
+    pub mod reference;
+    pub mod repair;
+    pub mod run;
+    pub mod runs;
+    pub mod surface;
+    pub mod sweep {
+        pub mod collect;
+        pub mod plan;
+        pub mod run;
+    }
+    pub mod verify;
+    pub mod watch;
+}
 mod failure;
 mod hand_over;
 mod invocation;

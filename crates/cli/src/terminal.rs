@@ -38,14 +38,20 @@ struct Progress {
     looked: Instant,
 }
 
+/// A bar of that length on standard error, which may be silent: `-q` keeps it back.
+pub fn bar(length: u64, visible: bool) -> ProgressBar {
+    let bar = if visible && !message::is_quiet() { ProgressBar::new(length) } else { ProgressBar::hidden() };
+    if let Ok(style) = ProgressStyle::with_template("{prefix}{bar:28} {percent:>3} %  {msg}  {eta} left") {
+        bar.set_style(style);
+    }
+    bar
+}
+
 impl Progress {
     /// Progress over so much simulated time (s), with the name of what is simulated, if it has one; to be seen or not.
     fn new(duration: f64, name: &str, visible: bool) -> Self {
         let visible = visible && !message::is_quiet();
-        let bar = if visible { ProgressBar::new(PARTS) } else { ProgressBar::hidden() };
-        if let Ok(style) = ProgressStyle::with_template("{prefix}{bar:28} {percent:>3} %  {msg}  {eta} left") {
-            bar.set_style(style);
-        }
+        let bar = bar(PARTS, visible);
         if !name.is_empty() {
             bar.set_prefix(format!("{name}  "));
         }
@@ -131,16 +137,13 @@ impl Terminal {
         })
     }
 
-    /// Listens as [`listen`](Self::listen) does, and notes SIGUSR1 as a wish for a checkpoint.
-    pub fn listen_for_save(visible: bool) -> io::Result<Self> {
+    /// Listens as [`listen`](Self::listen) does, also for SIGUSR1 as a wish for a checkpoint. Until the run is prepared, which takes long
+    /// enough for a large scene, a signal ends the program at once, and each process of a job by itself: nothing is written yet.
+    pub fn listen_for_run(visible: bool) -> io::Result<Self> {
         let terminal = Self::listen(visible)?;
         terminal.interrupt.listen_for_save()?;
+        *terminal.preparation.borrow_mut() = Some(terminal.interrupt.end_at_once(visible));
         Ok(terminal)
-    }
-
-    /// Lets a signal end the program at once until the run is prepared.
-    pub fn end_while_preparing(&self) {
-        *self.preparation.borrow_mut() = Some(self.interrupt.end_at_once(self.visible));
     }
 }
 

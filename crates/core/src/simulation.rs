@@ -29,6 +29,8 @@ use crate::simulation::checkpoint::{Checkpoint, Kept, LastContact};
 use crate::simulation::workers::Workers;
 
 /// A pin on a disc, and everything that happened to them so far.
+///
+/// Whatever may fail does so with [`SimulationError::Worker`] when a worker failed.
 #[derive(Debug)]
 pub struct Simulation {
     parameters: Arc<Parameters>,
@@ -68,7 +70,7 @@ impl Simulation {
     /// Creates a simulation at t = 0 that is carried out in a certain way.
     ///
     /// # Errors
-    /// [`SimulationError`] as [`Simulation::new`], and when there are no more threads to be had.
+    /// As [`Simulation::new`], and [`SimulationError::Threads`] when there are no more threads to be had.
     pub fn with_execution(
         parameters: Parameters,
         surfaces: InitialSurfaces,
@@ -78,9 +80,6 @@ impl Simulation {
     }
 
     /// Creates a simulation with the disc turned by `columns` columns: step n faces the columns that step n + `columns` would face.
-    ///
-    /// # Errors
-    /// [`SimulationError`] as [`Simulation::with_execution`].
     pub fn with_disc_turned(
         parameters: Parameters,
         surfaces: InitialSurfaces,
@@ -149,24 +148,17 @@ impl Simulation {
     /// Takes one step: see the table in [`crate`].
     ///
     /// # Errors
-    /// [`SimulationError::Contact`] when no displacement carries the load, [`SimulationError::Worker`] when a worker
-    /// failed.
+    /// [`SimulationError::Contact`] when no displacement carries the load.
     pub fn advance(&mut self) -> Result<(), SimulationError> {
         self.advance_to(self.steps_done() + 1)
     }
 
     /// Takes steps until `step` of them are done.
-    ///
-    /// # Errors
-    /// As [`Simulation::advance`].
     pub fn advance_to(&mut self, step: u64) -> Result<(), SimulationError> {
         self.take_steps(step, true)
     }
 
     /// Takes steps until `step` of them are done, where no sample and no map of pressure is to follow: the last pressures are not kept.
-    ///
-    /// # Errors
-    /// As [`Simulation::advance`].
     pub fn pass_to(&mut self, step: u64) -> Result<(), SimulationError> {
         self.take_steps(step, false)
     }
@@ -179,9 +171,6 @@ impl Simulation {
     }
 
     /// Has the coming steps stand for another number of revolutions than those so far (model 4.6).
-    ///
-    /// # Errors
-    /// As [`Simulation::advance`].
     pub fn accelerate(&mut self, acceleration: f64) -> Result<(), SimulationError> {
         self.workers.accelerate(acceleration)?;
         self.resting = None;
@@ -195,7 +184,7 @@ impl Simulation {
     ///
     /// # Errors
     /// [`SimulationError::Checkpoint`], [`SimulationError::OtherState`] and [`SimulationError::OtherEngine`] when it is of another mesh,
-    /// scene or engine, [`SimulationError::Worker`] when a worker failed.
+    /// scene or engine.
     pub fn restore(&mut self, checkpoint: &Checkpoint) -> Result<(), SimulationError> {
         checkpoint.check(&self.parameters.mesh)?;
         let (found, expected) = (checkpoint.engine().name(), self.execution.engine.name());
@@ -295,8 +284,7 @@ impl Simulation {
     /// The reported quantities after the last step.
     ///
     /// # Errors
-    /// [`SimulationError::Worker`] when a worker failed, [`SimulationError::NotWatched`] after [`Simulation::pass_to`],
-    /// [`SimulationError::NotFinite`] when an amount is no number.
+    /// [`SimulationError::NotWatched`] after [`Simulation::pass_to`], [`SimulationError::NotFinite`] when an amount is no number.
     pub fn sample(&mut self) -> Result<Sample, SimulationError> {
         if let Some(contact) = self.last_contact() {
             return Ok(contact.sample.clone());
@@ -320,10 +308,7 @@ impl Simulation {
     }
 
     /// Keeps what the last step showed, which in a pause is reported again and again, and also by who goes on from a checkpoint
-    /// of the pause.
-    ///
-    /// # Errors
-    /// As [`Simulation::sample`].
+    /// of the pause. It fails as [`Simulation::sample`] does.
     pub fn keep_contact(&mut self) -> Result<(), SimulationError> {
         if self.last_contact().is_none() {
             let [pressure] = self.fields([Map::Pressure])?;
@@ -341,10 +326,7 @@ impl Simulation {
     /// long as the maps that it is measured of.
     ///
     /// In a pause (model 9) without load nothing touches and there is no displacement; a pin that stands touches as in the
-    /// step.
-    ///
-    /// # Errors
-    /// As [`Simulation::sample`], of all quantities.
+    /// step. It fails as [`Simulation::sample`] does, of all quantities.
     pub fn sample_at(&mut self, moment: &Moment, extras: &[&Extra]) -> Result<Sample, SimulationError> {
         let mut sample = self.sample()?;
         if let (Some(cycle), Some(pause)) = (self.parameters.cycle.clone(), moment.pause) {
@@ -388,9 +370,6 @@ impl Simulation {
     }
 
     /// Friction, heat and emission at a moment that the last step belongs to; none of them where the scene asks for none.
-    ///
-    /// # Errors
-    /// [`SimulationError::Worker`] when a worker failed.
     pub fn accounts_at(&mut self, moment: &Moment) -> Result<AccountsReport, SimulationError> {
         let parameters = &self.parameters;
         if parameters.friction.is_none() && parameters.emission.is_none() {
@@ -413,41 +392,39 @@ impl Simulation {
     /// The maps asked for, as they are now. Cells beyond the pin's outline are NaN, and have the status [`ABSENT`].
     ///
     /// # Errors
-    /// [`SimulationError::Worker`] when a worker failed, [`SimulationError::NotWatched`] for pressures after
-    /// [`Simulation::pass_to`], [`SimulationError::NotFinite`] when a value is no number.
+    /// [`SimulationError::NotWatched`] for pressures after [`Simulation::pass_to`], [`SimulationError::NotFinite`] when a value is no number.
     pub fn snapshot(&mut self, maps: &[Map]) -> Result<Snapshot, SimulationError> {
         let Course { steps, time, .. } = self.course();
         self.snapshot_at(&Moment { step: steps, time, ..Moment::default() }, maps)
     }
 
-    /// Returns the maps asked for at a moment that the last step belongs to: in a pause without load all pressures are 0.
-    ///
-    /// # Errors
-    /// As [`Simulation::snapshot`].
+    /// Returns the maps asked for at a moment that the last step belongs to: in a pause without load all pressures are 0. It fails as
+    /// [`Simulation::snapshot`] does.
     pub fn snapshot_at(&mut self, moment: &Moment, maps: &[Map]) -> Result<Snapshot, SimulationError> {
         let mut values = Vec::with_capacity(maps.len());
         for map in maps {
-            let found = match map {
+            let mut found = match map {
                 Map::Pressure => MapValues::Float(self.pressures_at(moment)?),
                 Map::Temperature => MapValues::Float(self.temperatures_at(moment)?),
                 map => self.field(*map)?,
             };
-            values.push((*map, self.outlined(*map, found)));
+            self.fill_absent(*map, &mut found, f64::NAN, ABSENT);
+            values.push((*map, found));
         }
         Ok(Snapshot { time: moment.time, maps: values })
     }
 
-    /// A map in which the cells beyond the pin's outline are told from the others.
-    fn outlined(&self, map: Map, mut values: MapValues) -> MapValues {
-        if !map.on_disc() {
-            for cell in self.parameters.mesh.absent_cells() {
-                match &mut values {
-                    MapValues::Float(values) => values[cell] = f64::NAN,
-                    MapValues::Status(statuses) => statuses[cell] = ABSENT,
-                }
+    /// Gives the cells of a map that are beyond the pin's outline this number, or this status.
+    fn fill_absent(&self, map: Map, values: &mut MapValues, number: f64, status: u8) {
+        if map.on_disc() {
+            return;
+        }
+        for cell in self.parameters.mesh.absent_cells() {
+            match values {
+                MapValues::Float(values) => values[cell] = number,
+                MapValues::Status(statuses) => statuses[cell] = status,
             }
         }
-        values
     }
 
     /// Pressure p of every pin cell at a moment, Pa; 0 beyond the pin's outline.
@@ -479,15 +456,8 @@ impl Simulation {
     fn field(&mut self, map: Map) -> Result<MapValues, SimulationError> {
         let found = self.workers.snapshot(&[map])?.maps.into_iter().next();
         let mut values = found.map_or(MapValues::Float(Vec::new()), |(_, values)| values);
-        if !map.on_disc() {
-            // What the workers keep there is their own affair.
-            for cell in self.parameters.mesh.absent_cells() {
-                match &mut values {
-                    MapValues::Float(values) => values[cell] = 0.0,
-                    MapValues::Status(statuses) => statuses[cell] = 0,
-                }
-            }
-        }
+        // What the workers keep there is their own affair.
+        self.fill_absent(map, &mut values, 0.0, 0);
         if let MapValues::Float(values) = &values {
             let name = |place| format!("cell {place} of {}", map.name());
             self.refuse_not_finite(values.iter().copied(), name)?;
@@ -496,27 +466,18 @@ impl Simulation {
     }
 
     /// The disc as it is now.
-    ///
-    /// # Errors
-    /// [`SimulationError::Worker`] when a worker failed.
     pub fn disc(&mut self) -> Result<Disc, SimulationError> {
         let [height, substrate] = self.fields([Map::DiscHeight, Map::DiscSubstrate])?;
         Ok(Disc { height, substrate })
     }
 
     /// Surface height z_d of every disc cell as it is now, m, column by column.
-    ///
-    /// # Errors
-    /// [`SimulationError::Worker`] when a worker failed.
     pub fn disc_height(&mut self) -> Result<Vec<f64>, SimulationError> {
         let [height] = self.fields([Map::DiscHeight])?;
         Ok(height)
     }
 
     /// The pin as it is now; heights beyond its outline are 0.
-    ///
-    /// # Errors
-    /// [`SimulationError::Worker`] when a worker failed.
     pub fn pin(&mut self) -> Result<Pin, SimulationError> {
         let [height, substrate] = self.fields([Map::PinHeight, Map::PinSubstrate])?;
         Ok(Pin { height, substrate, base: self.pin_base.clone() })
@@ -533,7 +494,7 @@ impl Simulation {
     /// The complete state, to go on from later.
     ///
     /// # Errors
-    /// [`SimulationError::Worker`] when a worker failed, [`SimulationError::NotFinite`] when a height is no number.
+    /// [`SimulationError::NotFinite`] when a height is no number.
     pub fn checkpoint(&mut self) -> Result<Checkpoint, SimulationError> {
         let [disc_height, disc_substrate] = self.fields([Map::DiscHeight, Map::DiscSubstrate])?;
         let [pin_height, pin_substrate] = self.fields([Map::PinHeight, Map::PinSubstrate])?;
@@ -554,10 +515,8 @@ impl Simulation {
         Ok(Checkpoint { heights, kept, memory, engine })
     }
 
-    /// Looks at all heights: one that is no number is followed by others, and shows in no series for a while.
-    ///
-    /// # Errors
-    /// [`SimulationError::NotFinite`], and [`SimulationError::Worker`] when a worker failed.
+    /// Refuses heights of which one is no number, with [`SimulationError::NotFinite`]: it is followed by others, and shows in no series for a
+    /// while.
     pub fn check_heights(&mut self) -> Result<(), SimulationError> {
         self.checkpoint().map(drop)
     }

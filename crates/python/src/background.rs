@@ -15,7 +15,7 @@ use plateau_run::Observer;
 use plateau_run::sweep::SweepObserver;
 use pyo3::prelude::*;
 
-use crate::failure::{Failure, Raise as _};
+use crate::failure::{Failure, raise};
 
 /// Time between two looks at signals.
 const LOOK: Duration = Duration::from_millis(50);
@@ -128,6 +128,6 @@ pub fn in_background<T: Send>(
     let delivered = messages.deliver(tell);
     match (raised, done) {
         (Some(raised), _) => Err(raised),
-        (None, done) => done.map_err(|failure| failure.raise(py, about)).and_then(|done| delivered.map(|()| done)),
+        (None, done) => done.map_err(|failure| raise(py, about, failure)).and_then(|done| delivered.map(|()| done)),
     }
 }

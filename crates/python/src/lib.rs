@@ -3,10 +3,9 @@
 //!
 //! | file | content |
 //! |---|---|
-//! | `scene.rs` | a scene, read, checked and resolved; its table of keys |
+//! | `scene.rs` | a scene, read, checked and resolved; its table of keys; units as people write them |
 //! | `simulation.rs` | a simulation between two steps |
 //! | `state.rs` | its state in a file |
-//! | `units.rs` | units as people write them |
 //! | `runs.rs` | runs and studies that write their files |
 //! | `background.rs` | work on a thread, while Python looks at signals and shows progress |
 //! | `failure.rs` | exceptions of the package |
@@ -17,7 +16,6 @@ mod runs;
 mod scene;
 mod simulation;
 mod state;
-mod units;
 
 use pyo3::prelude::*;
 
@@ -27,11 +25,9 @@ mod native {
     #[pymodule_export]
     use super::runs::{make_runs, run};
     #[pymodule_export]
-    use super::scene::{Scene, keys};
+    use super::scene::{Scene, keys, scale_of};
     #[pymodule_export]
     use super::simulation::Simulation;
-    #[pymodule_export]
-    use super::units::scale_of;
 
     use pyo3::prelude::*;
     use pyo3::types::IntoPyDict as _;

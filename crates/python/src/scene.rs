@@ -1,12 +1,13 @@
-//! Scenes as objects of Python.
+//! Scenes as objects of Python, and the units of their values.
 
 use std::path::PathBuf;
 
 use plateau_io::plausibility;
 use plateau_io::scene::{self, schema};
+use plateau_io::units::{self, Powers};
 use pyo3::prelude::*;
 
-use crate::failure::{Failure, Raise as _};
+use crate::failure::{Failure, raise};
 
 /// A scene, read, checked and resolved.
 #[pyclass(frozen, module = "plateau._native")]
@@ -23,7 +24,7 @@ impl Scene {
         // A text is in no file that could be missing.
         let about = if text.is_some() { Vec::new() } else { vec![path.to_string_lossy()] };
         let about: Vec<&str> = about.iter().map(AsRef::as_ref).collect();
-        let mut scene = read.map_err(|error| Failure::input(error).raise(py, &about))?;
+        let mut scene = read.map_err(|error| raise(py, &about, Failure::input(error)))?;
         scene.warnings.extend(plausibility::of_scene(&scene));
         Ok(Self(scene))
     }
@@ -51,4 +52,10 @@ impl Scene {
 #[pyfunction]
 pub fn keys() -> Vec<String> {
     schema::keys().iter().map(schema::Key::path).collect()
+}
+
+/// Powers of m, kg, s, rad and K of a unit, and a, b and c: it is 10^a · b / c of the SI unit of these powers.
+#[pyfunction]
+pub fn scale_of(py: Python<'_>, unit: &str) -> PyResult<(Powers, i32, f64, f64)> {
+    units::scale_of(unit).map_err(|error| raise(py, &[], Failure::input(error)))
 }

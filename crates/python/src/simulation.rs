@@ -16,7 +16,7 @@ use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
 
 use crate::background::{Messages, in_background};
-use crate::failure::{Failure, Raise as _};
+use crate::failure::{Failure, raise};
 use crate::scene::Scene;
 use crate::state::State;
 
@@ -88,7 +88,7 @@ impl Inner {
         if let Some(cycle) = &simulation.parameters().cycle {
             let (end, most) = (cycle.duration(), simulation.steps_until(cycle.duration()));
             if last > most {
-                return Err(Failure::input(format!("the cycle ends at {end} s, after step {most}")).raise(py, &[]));
+                return Err(raise(py, &[], Failure::input(format!("the cycle ends at {end} s, after step {most}"))));
             }
         }
         let mut count = 1;
@@ -98,7 +98,7 @@ impl Inner {
             let taken = py.detach(|| if watched { simulation.advance_to(next) } else { simulation.pass_to(next) });
             taken.map_err(|error| {
                 self.failed = Some(error.to_string());
-                Failure::from(error).raise(py, &[])
+                raise(py, &[], error.into())
             })?;
             py.check_signals()?;
             if let Some(tell) = tell {
@@ -117,12 +117,14 @@ impl Simulation {
 
     /// Gives the simulation to `work`, unless another thread or process has it.
     fn with<T>(&self, py: Python<'_>, work: impl FnOnce(&mut Inner) -> Result<T, Failure>) -> PyResult<T> {
-        let mut guard = self.lock().map_err(|failure| failure.raise(py, &[]))?;
-        let inner = guard.as_mut().ok_or_else(|| Failure::run("the simulation has ended").raise(py, &[]))?;
-        if let Some(error) = &inner.failed {
-            return Err(Failure::run(format_args!("the simulation failed: {error}")).raise(py, &[]));
-        }
-        work(inner).map_err(|failure| failure.raise(py, &[]))
+        let done = self.lock().and_then(|mut guard| {
+            let inner = guard.as_mut().ok_or_else(|| Failure::run("the simulation has ended"))?;
+            match &inner.failed {
+                Some(error) => Err(Failure::run(format_args!("the simulation failed: {error}"))),
+                None => work(inner),
+            }
+        });
+        done.map_err(|failure| raise(py, &[], failure))
     }
 
     fn is_forked(&self) -> bool {
@@ -158,7 +160,7 @@ impl Simulation {
     /// The state at t = 0.
     #[new]
     fn new(py: Python<'_>, scene: &Scene, engine: &str, tell: &Bound<'_, PyAny>) -> PyResult<Self> {
-        let engine = engine_of(engine).map_err(|failure| failure.raise(py, &[]))?;
+        let engine = engine_of(engine).map_err(|failure| raise(py, &[], failure))?;
         let scene = scene.0.clone();
         in_background(py, tell, &[], move |messages| Inner::new(scene, engine, messages)).map(Self::of)
     }

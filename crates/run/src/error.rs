@@ -17,6 +17,7 @@ use thiserror::Error;
 
 /// Reason why a run did not come to its end.
 #[derive(Debug, Error)]
+#[allow(missing_docs)] // Their own types say what they are.
 pub enum RunError {
     /// The scene, a file or what was asked for is wrong: nothing was simulated, and what was there is untouched.
     #[error(transparent)]
@@ -24,15 +25,14 @@ pub enum RunError {
     /// The run failed, or what it needs of the system.
     #[error(transparent)]
     Failed(#[from] RunFailure),
-    /// Run that was asked to stop.
     #[error(transparent)]
     Stopped(#[from] Stopped),
 }
 
 /// Problem with the input of a run.
 #[derive(Debug, Error)]
+#[allow(missing_docs)] // The messages say what they mean.
 pub enum InputError {
-    /// The surfaces cannot be read or made.
     #[error(transparent)]
     Surface(Box<SurfaceError>),
     /// Surfaces and parameters make no simulation.
@@ -44,13 +44,10 @@ pub enum InputError {
     /// Another process writes it.
     #[error(transparent)]
     Claim(Box<ClaimError>),
-    /// Something else has the name of a checkpoint.
     #[error(transparent)]
     Checkpoint(#[from] CheckpointError),
-    /// A run file cannot be read.
     #[error("{0}")]
     Read(#[from] ReadError),
-    /// The file that is there cannot be kept.
     #[error(transparent)]
     Keep(#[from] KeepError),
     /// Files of an earlier run that cannot be moved out of the way.
@@ -64,6 +61,7 @@ pub enum InputError {
 
 /// Failure of a run.
 #[derive(Debug, Error)]
+#[allow(missing_docs)] // The messages say what they mean.
 pub enum RunFailure {
     /// Step that failed, or what was to be reported of one.
     #[error("{0}")]
@@ -77,10 +75,8 @@ pub enum RunFailure {
     /// Claim for which there is no space: the lock of the run file cannot be written.
     #[error(transparent)]
     Claim(Box<ClaimError>),
-    /// The processes of a job could not talk to each other.
     #[error(transparent)]
     Comm(#[from] CommError),
-    /// The system gives no more threads.
     #[error("the system gives no more threads: allow more of them, as with ulimit -u 64, or in the container ({0})")]
     Threads(#[from] rayon::ThreadPoolBuildError),
 }
@@ -123,8 +119,8 @@ pub enum Progress {
     Elsewhere,
 }
 
-impl std::fmt::Display for Progress {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+impl fmt::Display for Progress {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::NotStarted => write!(f, " before the first step"),
             Self::Saved { times, steps, file, samples } => {
@@ -136,13 +132,6 @@ impl std::fmt::Display for Progress {
             }
             Self::Elsewhere => Ok(()),
         }
-    }
-}
-
-impl InputError {
-    /// Refuses a run file that is not one to go on with, for its problem.
-    pub(crate) fn not_resumable(path: &Path, what: &str) -> Self {
-        Self::Refused(format!("{} {what}; without --resume, --force begins again", path.display()))
     }
 }
 
@@ -194,29 +183,18 @@ const LACKS: [i32; 4] = [11, 12, 23, 24];
 
 /// Tells whether an error is, or comes from, a lack of the system: no thread, no memory, no file handle. Then the input is not wrong.
 fn lacks_resources(error: &(dyn StdError + 'static)) -> bool {
-    let number = |error: &(dyn StdError + 'static)| match error.downcast_ref::<ReadError>() {
-        Some(ReadError::System(_, _, number)) => *number,
-        _ => error.downcast_ref::<io::Error>().and_then(io::Error::raw_os_error),
-    };
-    let of_problems = |problems: &[Problem]| {
-        problems.iter().any(|problem| problem.system.is_some_and(|number| LACKS.contains(&number)))
-    };
+    let of_number = |number: Option<i32>| number.is_some_and(|number| LACKS.contains(&number));
+    let of_problems = |problems: &[Problem]| problems.iter().any(|problem| of_number(problem.system));
     let is_lack = |error: &(dyn StdError + 'static)| {
-        number(error).is_some_and(|number| LACKS.contains(&number))
-            || matches!(error.downcast_ref(), Some(ReadError::Handles { .. }))
-            || error.downcast_ref().is_some_and(|error: &SceneError| of_problems(error.problems()))
-            || error.downcast_ref().is_some_and(|error: &StudyError| of_problems(&error.0))
+        matches!(error.downcast_ref(), Some(ReadError::Handles { .. }))
+            || matches!(error.downcast_ref(), Some(ReadError::System(_, _, number)) if of_number(*number))
             || matches!(error.downcast_ref(), Some(RunFileError::NoHandle { .. }))
             || matches!(error.downcast_ref(), Some(SimulationError::Threads { .. }))
+            || error.downcast_ref().is_some_and(|error: &io::Error| of_number(error.raw_os_error()))
+            || error.downcast_ref().is_some_and(|error: &SceneError| of_problems(error.problems()))
+            || error.downcast_ref().is_some_and(|error: &StudyError| of_problems(&error.0))
     };
-    let mut next = Some(error);
-    while let Some(error) = next {
-        if is_lack(error) {
-            return true;
-        }
-        next = error.source();
-    }
-    false
+    std::iter::successors(Some(error), |error| (*error).source()).any(is_lack)
 }
 
 /// Reason why something cannot be done, with the exit status of the program, which tells whose fault it is.

@@ -77,11 +77,8 @@ impl<Error: Into<RunFailure>> From<Error> for Interruption {
 pub struct Recorder<'a> {
     /// Writer of the run file; none in a process that does not lead.
     pub writer: Option<RunWriter>,
-    /// Observer, which is told of every sample and asked whether to go on.
     pub observer: &'a dyn Observer,
-    /// The processes that take the steps together.
     pub job: &'a mut Job,
-    /// Checkpointer, which writes the state now and then.
     pub checkpointer: Checkpointer,
     /// Last agreement of all processes.
     pub agreement: Agreement,
@@ -111,7 +108,9 @@ impl Sink for Recorder<'_> {
         let stiffness_number = simulation.course().largest_stiffness_number;
         if !self.is_stiff && is_stiff(simulation.parameters(), stiffness_number) {
             self.is_stiff = true;
-            self.observer.warning(&grown_stiffness_warning(stiffness_number, simulation.time()));
+            let time = number::rounded(simulation.time(), 4);
+            let what = format!("with the wear rates of the temperature after {time} s the stiffness number is");
+            self.observer.warning(&in_words(&what, stiffness_number));
         }
         // Samples may be rare: the run is not to go on for hours beside a file that is lost.
         self.writer.as_mut().map_or(Ok(()), RunWriter::check)?;
@@ -145,15 +144,6 @@ pub fn is_stiff(parameters: &Parameters, stiffness_number: f64) -> bool {
 pub fn stiffness_warning(parameters: &Parameters) -> Option<String> {
     let stiffness_number = parameters.first_stiffness_number();
     is_stiff(parameters, stiffness_number).then(|| in_words("the stiffness number is", stiffness_number))
-}
-
-/// Warns that the wear rule has come out of its depth after so much physical time (s).
-pub fn grown_stiffness_warning(stiffness_number: f64, time: f64) -> String {
-    let time = number::rounded(time, 4);
-    in_words(
-        &format!("with the wear rates of the temperature after {time} s the stiffness number is"),
-        stiffness_number,
-    )
 }
 
 fn in_words(what: &str, stiffness_number: f64) -> String {

@@ -5,7 +5,6 @@ use std::fs;
 use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
 
-use plateau_core::model::mesh::Mesh;
 use plateau_io::claim::Claim;
 use plateau_io::number;
 use plateau_io::process::{Writer, writer_of};
@@ -23,13 +22,11 @@ use crate::job::Job;
 use crate::options::{Observer, RunOptions, StartMode};
 use crate::recorder::RunIdentity;
 
-/// Request, and its run.
+/// Request to begin a run, or to go on with it.
 pub struct Request<'a> {
     /// The run file.
     pub path: &'a Path,
-    /// Head of the run file.
     pub header: &'a Header,
-    /// Identity of the run.
     pub identity: &'a RunIdentity,
     /// Tells whether it begins or goes on, and what may be replaced.
     pub options: &'a RunOptions,
@@ -37,7 +34,7 @@ pub struct Request<'a> {
     pub end: f64,
 }
 
-/// Start of a run: simulation, run file and checkpoints.
+/// Start of a run.
 pub struct Start {
     /// To be held until nothing more is written. None in a process that does not lead.
     pub claim: Option<Claim>,
@@ -51,7 +48,7 @@ impl Request<'_> {
     /// Claims the run file, then makes it, or finds out what to go on from and goes on with it; nothing where all is done
     /// already, which is said. All processes of a job do this together.
     pub fn start(&self, job: &mut Job, observer: &dyn Observer) -> Result<Option<Start>, RunError> {
-        let Self { path, header, identity, options, .. } = *self;
+        let Self { path, options, .. } = *self;
         let claim = if job.leads() { Some(Claim::of(path)?) } else { None };
         // No process looks at what is there before that is done.
         job.sum(0, 0)?;
@@ -59,10 +56,7 @@ impl Request<'_> {
             self.clear_away()?;
         }
         let resumes = options.mode.resumes();
-        let mut states = match resumes {
-            true => states(path, &header.mesh, identity, self.extends(), observer)?,
-            false => Vec::new(),
-        };
+        let mut states = if resumes { self.states(observer)? } else { Vec::new() };
         let there = if resumes { self.look(&states, claim.as_ref(), observer)? } else { None };
         let finished = self.is_finished(states.first(), there.as_ref())?;
         let steps: Vec<u64> = states.iter().map(|state| state.simulation.run.steps()).collect();
@@ -154,7 +148,7 @@ impl Request<'_> {
     ) -> Result<(Option<RunWriter>, usize), RunError> {
         let Self { path, header, options, .. } = *self;
         if !states.is_empty() {
-            return writer(path, header, states, observer).map(|(writer, place)| (Some(writer), place));
+            return self.writer(states, observer).map(|(writer, place)| (Some(writer), place));
         }
         // What is there is of another run, and stays if the new one cannot begin.
         let shown = path.display();
@@ -187,7 +181,7 @@ impl Request<'_> {
         claim: Option<&Claim>,
         observer: &dyn Observer,
     ) -> Result<Option<There>, InputError> {
-        let Self { path, identity, options, .. } = *self;
+        let Self { path, options, .. } = *self;
         if !path.exists() {
             return Ok(None);
         }
@@ -216,7 +210,7 @@ impl Request<'_> {
             }
         };
         let scene = there.attribute("scene").unwrap_or_default();
-        match compare_scenes(path, &scene, identity, self.extends()) {
+        match self.compare_scenes(&scene) {
             Err(_) if options.replace => Ok(None),
             compared => compared
                 .map(|()| Some(There { state: there.state(), holds: [there.time().len(), there.map_time().len()] })),
@@ -230,8 +224,128 @@ impl Request<'_> {
         Err(self.refused(&format!("is finished, and damaged: {place}: {problem}")))
     }
 
+    /// Refuses a run file that is not one to go on with, for its problem.
     fn refused(&self, what: &str) -> InputError {
-        InputError::not_resumable(self.path, what)
+        InputError::Refused(format!("{} {what}; without --resume, --force begins again", self.path.display()))
+    }
+
+    /// The states to go on from, the newest first; none if there is no checkpoint.
+    fn states(&self, observer: &dyn Observer) -> Result<Vec<RunState>, InputError> {
+        let (mut states, mut trouble) = (Vec::new(), Vec::new());
+        for path in checkpoint::paths(self.path) {
+            match checkpoint::read::<RunState>(&path, Some(checkpoint::ample_size(&self.header.mesh))) {
+                Ok(state) => states.extend(state),
+                Err(error) => {
+                    observer.warning(&error);
+                    trouble.push(error.to_string());
+                }
+            }
+        }
+        if states.is_empty() && !trouble.is_empty() {
+            let trouble = trouble.join("; ");
+            let message = format!("{trouble}; without --resume, --force begins again from the beginning");
+            return Err(InputError::Refused(message));
+        }
+        let mut states = states.into_iter();
+        let Some(newest) = states.next() else { return Ok(Vec::new()) };
+        self.compare(&newest)?;
+        // The one before may be of the end that was extended since.
+        let before = states.filter(|state| self.compare(state).is_ok());
+        Ok([newest].into_iter().chain(before).collect())
+    }
+
+    /// Refuses a state of another run.
+    fn compare(&self, state: &RunState) -> Result<(), InputError> {
+        let identity = self.identity;
+        if state.program != identity.program {
+            let what = format_args!("it was begun by {}, this is {}", state.program, identity.program);
+            return Err(self.refused_to_resume(what));
+        }
+        let engine = state.simulation.run.engine();
+        if engine != identity.engine {
+            let what = format_args!("it was begun with --engine {engine}, this is {}", identity.engine);
+            return Err(self.refused_to_resume(what));
+        }
+        self.compare_scenes(&state.scene)?;
+        let changed: Vec<String> = identity
+            .inputs
+            .iter()
+            .zip(&state.inputs)
+            .filter(|((_, now), (_, then))| now != then)
+            .map(|((path, _), _)| path.display().to_string())
+            .collect();
+        if changed.is_empty() && identity.inputs.len() == state.inputs.len() {
+            return Ok(());
+        }
+        Err(self.refused_to_resume(format_args!("files that it reads have changed: {}", text::list(changed, ", "))))
+    }
+
+    /// Refuses a run file of another scene.
+    fn compare_scenes(&self, scene: &str) -> Result<(), InputError> {
+        let now = self.identity.scene.parse().unwrap_or_default();
+        let free = |key: &str| match schema::role(key) {
+            Role::Nothing => true,
+            Role::Length | Role::MapTimes => self.extends(),
+            _ => false,
+        };
+        let keys: Vec<String> = differences(scene, &now)
+            .into_iter()
+            .filter(|difference| !free(&difference.key))
+            .map(|difference| {
+                let value =
+                    |value: Option<String>| value.map_or_else(|| "nothing".into(), |it| shown_title(&it).into_owned());
+                format!("{} was {}, is {}", difference.key, value(difference.first), value(difference.second))
+            })
+            .collect();
+        if keys.is_empty() {
+            return Ok(());
+        }
+        Err(self.refused_to_resume(format_args!("the scene differs: {}", text::list(keys, ", "))))
+    }
+
+    fn refused_to_resume(&self, difference: impl std::fmt::Display) -> InputError {
+        let path = self.path.display();
+        InputError::Refused(format!(
+            "{path} cannot be resumed: {difference}; undo that, or begin again without --resume"
+        ))
+    }
+
+    /// Goes on with the run file of the first of the states that it has what they say of; its writer and which state it is.
+    ///
+    /// The file is made anew, so the state gets the image of that one and is written once more before it takes the place of the old
+    /// one; with the image of the old one, too, for nobody knows which of both a loss of power leaves.
+    fn writer(&self, states: &mut [RunState], observer: &dyn Observer) -> Result<(RunWriter, usize), RunError> {
+        let Self { path, header, .. } = *self;
+        if !path.exists() {
+            // Else every checkpoint would say so.
+            return Err(self.refused("is gone, though its checkpoint is there").into());
+        }
+        let mut refusals = Vec::new();
+        for (place, state) in states.iter_mut().enumerate() {
+            let earlier = Earlier {
+                samples: state.samples,
+                snapshots: state.snapshots,
+                wall_time: std::time::Duration::try_from_secs_f64(state.wall_time).unwrap_or_default(),
+            };
+            state.images.retain(|image| image.is_of(path));
+            let images = state.images.clone();
+            let keep = |image| {
+                state.images.push(image);
+                if let Err(error) = checkpoint::write(path, state) {
+                    observer.warning(&format_args!("cannot write a checkpoint: {error}; the one before still holds"));
+                }
+            };
+            match RunWriter::resume(path, header, earlier, &images, keep) {
+                Ok(writer) => return Ok((writer, place)),
+                Err(error @ RunFileError::Earlier { .. }) => {
+                    let step = state.simulation.run.steps();
+                    observer.warning(&format_args!("{error}; the checkpoint of step {step} is passed over"));
+                    refusals.push(error.to_string());
+                }
+                Err(error) => return Err(error.into()),
+            }
+        }
+        Err(InputError::Refused(format!("{}; begin again without --resume", refusals.join("; "))).into())
     }
 }
 
@@ -246,7 +360,7 @@ struct There {
 const MOST: usize = 1000;
 
 /// A run file that has a second name, which goes again unless it is to stay.
-pub struct Kept {
+struct Kept {
     place: PathBuf,
     /// Path that it was moved from, on file systems where a file has one name only.
     moved_from: Option<PathBuf>,
@@ -256,7 +370,7 @@ pub struct Kept {
 impl Kept {
     /// Keeps a run file of so many samples as `RUN.before-resume`. Where a file of an earlier beginning of the same run has that name,
     /// the one with more samples is kept; what else has it stays, and another name is taken.
-    pub fn of(path: &Path, samples: usize) -> io::Result<Self> {
+    fn of(path: &Path, samples: usize) -> io::Result<Self> {
         for place in names_beside(path, "before-resume").take(MOST) {
             match samples_of_same(&place, path) {
                 // The name is not new: a file of before holds as much.
@@ -279,7 +393,7 @@ impl Kept {
     }
 
     /// Lets it stay; where it is.
-    pub fn stay(mut self) -> PathBuf {
+    fn stay(mut self) -> PathBuf {
         self.stays = true;
         self.place.clone()
     }
@@ -306,131 +420,4 @@ fn samples_of_same(place: &Path, run: &Path) -> Option<usize> {
     let [there, run] = [RunFile::open(place).ok()?, RunFile::open(run).ok()?];
     let alike = |name: &str| there.attribute(name) == run.attribute(name);
     ["scene", "program", "source_revision", "inputs"].into_iter().all(alike).then(|| there.time().len())
-}
-
-/// The states to go on from, the newest first; none if there is no checkpoint.
-pub fn states(
-    run_file: &Path,
-    mesh: &Mesh,
-    identity: &RunIdentity,
-    extends: bool,
-    observer: &dyn Observer,
-) -> Result<Vec<RunState>, InputError> {
-    let (mut states, mut trouble) = (Vec::new(), Vec::new());
-    for path in checkpoint::paths(run_file) {
-        match checkpoint::read::<RunState>(&path, Some(checkpoint::ample_size(mesh))) {
-            Ok(state) => states.extend(state),
-            Err(error) => {
-                observer.warning(&error);
-                trouble.push(error.to_string());
-            }
-        }
-    }
-    if states.is_empty() && !trouble.is_empty() {
-        let trouble = trouble.join("; ");
-        let message = format!("{trouble}; without --resume, --force begins again from the beginning");
-        return Err(InputError::Refused(message));
-    }
-    let mut states = states.into_iter();
-    let Some(newest) = states.next() else { return Ok(Vec::new()) };
-    compare(run_file, &newest, identity, extends)?;
-    // The one before may be of the end that was extended since.
-    let before = states.filter(|state| compare(run_file, state, identity, extends).is_ok());
-    Ok([newest].into_iter().chain(before).collect())
-}
-
-/// Refuses a state of another run.
-fn compare(run_file: &Path, state: &RunState, identity: &RunIdentity, extends: bool) -> Result<(), InputError> {
-    if state.program != identity.program {
-        let what = format_args!("it was begun by {}, this is {}", state.program, identity.program);
-        return Err(refusal(run_file, what));
-    }
-    let engine = state.simulation.run.engine();
-    if engine != identity.engine {
-        let what = format_args!("it was begun with --engine {engine}, this is {}", identity.engine);
-        return Err(refusal(run_file, what));
-    }
-    compare_scenes(run_file, &state.scene, identity, extends)?;
-    let changed: Vec<String> = identity
-        .inputs
-        .iter()
-        .zip(&state.inputs)
-        .filter(|((_, now), (_, then))| now != then)
-        .map(|((path, _), _)| path.display().to_string())
-        .collect();
-    if changed.is_empty() && identity.inputs.len() == state.inputs.len() {
-        return Ok(());
-    }
-    Err(refusal(run_file, format_args!("files that it reads have changed: {}", text::list(changed, ", "))))
-}
-
-/// Refuses a run file of another scene.
-pub fn compare_scenes(run_file: &Path, scene: &str, identity: &RunIdentity, extends: bool) -> Result<(), InputError> {
-    let now = identity.scene.parse().unwrap_or_default();
-    let free = |key: &str| match schema::role(key) {
-        Role::Nothing => true,
-        Role::Length | Role::MapTimes => extends,
-        _ => false,
-    };
-    let keys: Vec<String> = differences(scene, &now)
-        .into_iter()
-        .filter(|difference| !free(&difference.key))
-        .map(|difference| {
-            let value =
-                |value: Option<String>| value.map_or_else(|| "nothing".into(), |it| shown_title(&it).into_owned());
-            format!("{} was {}, is {}", difference.key, value(difference.first), value(difference.second))
-        })
-        .collect();
-    if keys.is_empty() {
-        Ok(())
-    } else {
-        Err(refusal(run_file, format_args!("the scene differs: {}", text::list(keys, ", "))))
-    }
-}
-
-fn refusal(run_file: &Path, difference: impl std::fmt::Display) -> InputError {
-    let path = run_file.display();
-    InputError::Refused(format!("{path} cannot be resumed: {difference}; undo that, or begin again without --resume"))
-}
-
-/// Goes on with the run file of the first of the states that it has what they say of; its writer and which state it is.
-///
-/// The file is made anew, so the state gets the image of that one and is written once more before it takes the place of the old
-/// one; with the image of the old one, too, for nobody knows which of both a loss of power leaves.
-pub fn writer(
-    path: &Path,
-    header: &Header,
-    states: &mut [RunState],
-    observer: &dyn Observer,
-) -> Result<(RunWriter, usize), RunError> {
-    if !path.exists() {
-        // Else every checkpoint would say so.
-        return Err(InputError::not_resumable(path, "is gone, though its checkpoint is there").into());
-    }
-    let mut refusals = Vec::new();
-    for (place, state) in states.iter_mut().enumerate() {
-        let earlier = Earlier {
-            samples: state.samples,
-            snapshots: state.snapshots,
-            wall_time: std::time::Duration::try_from_secs_f64(state.wall_time).unwrap_or_default(),
-        };
-        state.images.retain(|image| image.is_of(path));
-        let images = state.images.clone();
-        let keep = |image| {
-            state.images.push(image);
-            if let Err(error) = checkpoint::write(path, state) {
-                observer.warning(&format_args!("cannot write a checkpoint: {error}; the one before still holds"));
-            }
-        };
-        match RunWriter::resume(path, header, earlier, &images, keep) {
-            Ok(writer) => return Ok((writer, place)),
-            Err(error @ RunFileError::Earlier { .. }) => {
-                let step = state.simulation.run.steps();
-                observer.warning(&format_args!("{error}; the checkpoint of step {step} is passed over"));
-                refusals.push(error.to_string());
-            }
-            Err(error) => return Err(error.into()),
-        }
-    }
-    Err(InputError::Refused(format!("{}; begin again without --resume", refusals.join("; "))).into())
 }

@@ -13,7 +13,7 @@ use plateau_core::observe::window_mean::WindowMean;
 use plateau_io::memory;
 use plateau_io::run_file::{NoDrift, ReadError, RunFile, WriterReport};
 use plateau_io::scene::{Scene, Warning};
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 
 use crate::assembly::Assembly;
 
@@ -84,9 +84,9 @@ pub struct RunSummary {
     pub specific_wear_rate_whole_pin: Option<f64>,
     /// Debris that left the contact, m³.
     pub emitted: f64,
-    /// Friction, heat and emission, where the scene asks for them.
-    #[serde(flatten)]
-    pub parts: PartsSummary,
+    /// Friction, heat and emission, where the scene asks for them, and the largest mean temperature of the disc at a sample, K.
+    #[serde(flatten, serialize_with = "by_name")]
+    pub parts: (AccountsReport, Option<f64>),
     /// Quantities of the whole brake at the end, by their series; of a scene with a brake.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub brake: BTreeMap<&'static str, f64>,
@@ -100,57 +100,22 @@ pub struct RunSummary {
     pub warnings: Vec<Warning>,
 }
 
-/// Results of the parts of the model that a scene may do without; each is there where the scene asks for it.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct PartsSummary {
-    /// Coefficient of friction, mean over the last simulated revolution, weighted by load.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub friction_coefficient_mean: Option<f64>,
-    /// Work of friction, J.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub friction_work: Option<f64>,
-    /// Temperature of the contact, K; no number where the pin is lifted.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub contact_temperature: Option<f64>,
-    /// Mean temperature of the disc, K.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub disc_temperature: Option<f64>,
-    /// The largest of them in the run, at its samples, K.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub largest_disc_temperature: Option<f64>,
-    /// Mean temperature of the pin, K.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub pin_temperature: Option<f64>,
-    /// Residual of the energy balance, relative.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub heat_residual: Option<f64>,
-    /// PM10, kg.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub pm10_mass: Option<f64>,
-    /// PM2.5, kg.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub pm25_mass: Option<f64>,
-    /// Number of airborne particles.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub particle_number: Option<f64>,
-}
-
-impl PartsSummary {
-    fn of(last: &Sample, disc_temperatures: Option<Vec<f64>>) -> Self {
-        let AccountsReport { friction, heat, emission } = last.accounts;
-        Self {
-            friction_coefficient_mean: friction.map(|friction| friction.coefficient_mean),
-            friction_work: friction.map(|friction| friction.work),
-            contact_temperature: heat.map(|heat| heat.contact),
-            disc_temperature: heat.map(|heat| heat.disc),
-            largest_disc_temperature: disc_temperatures.and_then(|values| values.into_iter().reduce(f64::max)),
-            pin_temperature: heat.map(|heat| heat.pin),
-            heat_residual: heat.map(|heat| heat.residual),
-            pm10_mass: emission.map(|emission| emission.pm10),
-            pm25_mass: emission.map(|emission| emission.pm25),
-            particle_number: emission.map(|emission| emission.number),
-        }
-    }
+/// Serializes friction, heat and emission by names of their own; what the scene does not ask for is left out.
+fn by_name<S: Serializer>(parts: &(AccountsReport, Option<f64>), serializer: S) -> Result<S::Ok, S::Error> {
+    let (AccountsReport { friction, heat, emission }, largest_disc_temperature) = parts;
+    let values = [
+        ("friction_coefficient_mean", friction.map(|friction| friction.coefficient_mean)),
+        ("friction_work", friction.map(|friction| friction.work)),
+        ("contact_temperature", heat.map(|heat| heat.contact)),
+        ("disc_temperature", heat.map(|heat| heat.disc)),
+        ("largest_disc_temperature", *largest_disc_temperature),
+        ("pin_temperature", heat.map(|heat| heat.pin)),
+        ("heat_residual", heat.map(|heat| heat.residual)),
+        ("pm10_mass", emission.map(|emission| emission.pm10)),
+        ("pm25_mass", emission.map(|emission| emission.pm25)),
+        ("particle_number", emission.map(|emission| emission.number)),
+    ];
+    serializer.collect_map(values.into_iter().filter_map(|(name, value)| Some((name, value?))))
 }
 
 /// Collects the values of a sample for those series of a brake that a run has.
@@ -172,7 +137,9 @@ impl RunSummary {
         began: (Instant, u64),
     ) -> Result<Self, ReadError> {
         let made = RunFile::open(&file)?;
-        let (ended, disc_temperatures) = (made.contact_area()?, made.values("disc_temperature")?);
+        let ended = made.contact_area()?;
+        let largest_disc_temperature =
+            made.values("disc_temperature")?.and_then(|all| all.into_iter().reduce(f64::max));
         let (course, wall_time) = (assembly.simulation.course(), began.0.elapsed().as_secs_f64());
         // With a cycle, the distance at the end counts also what of the last pause's angle no step has turned.
         let distance = scene.parameters.angle_turned(last.step, last.time) * scene.parameters.mesh.mean_radius();
@@ -213,7 +180,7 @@ impl RunSummary {
             lost_pin: last.lost_pin(),
             specific_wear_rate_whole_pin: (work > 0.0).then(|| last.lost_pin() / work),
             emitted: last.emitted,
-            parts: PartsSummary::of(last, disc_temperatures),
+            parts: (last.accounts, largest_disc_temperature),
             brake: of_brake(&scene.extras(false), last),
             load_residual: course.largest_load_residual,
             load_tolerance: scene.load_tolerance,

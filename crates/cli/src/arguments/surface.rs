@@ -19,7 +19,6 @@ pub enum SurfaceWord {
     Convert(HandedArguments),
 }
 
-/// Arguments of `plateau surface`.
 #[derive(Debug, Args)]
 #[command(args_conflicts_with_subcommands = true, subcommand_negates_reqs = true, disable_help_subcommand = true)]
 pub struct SurfaceArguments {

@@ -69,7 +69,6 @@ impl StudyArguments {
     }
 }
 
-/// Arguments of `plateau sweep plan`.
 #[derive(Debug, Args)]
 pub struct PlanArguments {
     #[command(flatten)]
@@ -88,7 +87,6 @@ pub struct PlanArguments {
     pub json: bool,
 }
 
-/// Arguments of `plateau sweep run`.
 #[derive(Debug, Args)]
 pub struct SweepRunArguments {
     #[command(flatten)]
@@ -122,7 +120,6 @@ pub struct SweepRunArguments {
     pub json: bool,
 }
 
-/// Arguments of `plateau sweep scene`.
 #[derive(Debug, Args)]
 pub struct SweepSceneArguments {
     /// Study file (TOML)
@@ -141,7 +138,6 @@ fn task(text: &str) -> Result<Part, &'static str> {
     if (1..=task.count).contains(&task.number) { Ok(task) } else { Err(expected) }
 }
 
-/// Arguments of `plateau sweep slurm`.
 #[derive(Debug, Args)]
 pub struct SlurmArguments {
     #[command(flatten)]
@@ -163,7 +159,6 @@ pub struct SlurmArguments {
     pub force: bool,
 }
 
-/// Arguments of `plateau sweep collect`.
 #[derive(Debug, Args)]
 pub struct CollectArguments {
     #[command(flatten)]

@@ -9,7 +9,7 @@ use plateau_io::number::{self, percent};
 use plateau_io::scene::Scene;
 use plateau_io::surface::{self, Loaded};
 use plateau_run::accuracy::{
-    AccuracyError, Advice, Base, COMPARED, Found, Ladder, Measured, OwnError, PlanError, ReadReference, Report, Row,
+    AccuracyError, Advice, Base, COMPARED, Compared, Ladder, Measured, OwnError, PlanError, Reference, Report, Row,
     Wish, measure, read_reference,
 };
 use plateau_run::execution::{self, decide};
@@ -52,7 +52,7 @@ fn measure_into(
     arguments: &AccuracyArguments,
     scene: Scene,
     loaded: Loaded,
-    reference: Option<ReadReference>,
+    reference: Option<Reference>,
 ) -> Result<(), Failure> {
     let places = places(arguments, &scene, &loaded.inputs)?;
     let start_time = now();
@@ -84,10 +84,9 @@ fn measure_into(
         program: program::this(),
     };
     let terminal = Terminal::listen(true).map_err(Failure::run)?;
-    let Found { report, stopped } = measure(wish, &loaded.surfaces, execution, &terminal).map_err(failure)?;
+    let report = measure(wish, &loaded.surfaces, execution, &terminal).map_err(failure)?;
 
-    let state = if stopped.is_none() { "finished" } else { "interrupted" };
-    let document = json(&report, making, state);
+    let document = json(&report, making);
     let [csv_file, json_file, drawings @ ..] = &places;
     let mut written = vec![csv_file, json_file];
     let force = arguments.force;
@@ -109,15 +108,10 @@ fn measure_into(
         let files: String = written.iter().map(|path| format!("wrote {}\n", path.display())).collect();
         print(&format!("{}\n{files}", text(&report)))?;
     }
-    match stopped {
-        None => Ok(()),
-        Some(signal) => {
-            let (runs, folder) = (report.rows.len(), arguments.output.display());
-            let message =
-                format!("stopped by {}; {folder} has the {runs} runs that were done", signal_in_words(signal));
-            Err(Failure::stopped(signal, Some(message)))
-        }
-    }
+    let Some(signal) = report.stopped else { return Ok(()) };
+    let (runs, folder) = (report.rows.len(), arguments.output.display());
+    let message = format!("stopped by {}; {folder} has the {runs} runs that were done", signal_in_words(signal));
+    Err(Failure::stopped(signal, Some(message)))
 }
 
 /// The files to write, each of which may be written.
@@ -148,22 +142,21 @@ fn failure(error: AccuracyError) -> Failure {
 
 /// Reference, errors, advice and notes.
 fn text(report: &Report) -> String {
+    let mut parts = vec![reference(report), errors(report), list("Advice", &[advice(report)])];
     let notes = notes(report);
-    let parts = [
-        reference(report),
-        errors(report),
-        list("Advice", &[advice(report)]),
-        if notes.is_empty() { String::new() } else { list("Notes", &notes) },
-    ];
-    parts.into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join("\n")
+    if !notes.is_empty() {
+        parts.push(list("Notes", &notes));
+    }
+    parts.join("\n")
 }
 
 fn reference(report: &Report) -> String {
-    let (reference, made) = (&report.reference, &report.reference.provenance);
-    let source = made.file.as_ref().map_or("run here".to_owned(), |file| file.path.clone());
+    let reference = &report.reference;
+    let source = reference.file.as_ref().map_or("run here", |(file, _)| &file.path);
     // A run that had not ended when it became a reference tells no time.
     let wall_time = reference.outcome.wall_time.map_or("not recorded,".to_owned(), number::duration);
-    let (steps, workers) = (number::grouped(reference.outcome.steps), number::count(made.workers as usize, "worker"));
+    let (steps, workers) =
+        (number::grouped(reference.outcome.steps), number::count(reference.workers as usize, "worker"));
     let (count, width) = (report.windows.count, number::short(report.windows.width));
     let rows = [
         ("reference", format!("{}, {source}", reference.setting)),
@@ -257,45 +250,40 @@ fn advice(report: &Report) -> String {
     }
 }
 
-/// Texts of a row, by their names.
-fn texts(row: &Row) -> [(&'static str, String); 4] {
-    [
-        ("ladder", row.rung.ladder.name().to_owned()),
-        ("setting", row.rung.setting()),
-        ("state", if row.result.is_ok() { "finished" } else { "failed" }.to_owned()),
-        ("failure", row.result.as_ref().err().cloned().unwrap_or_default()),
-    ]
-}
-
-/// Numbers of a row, by their names; NaN where one is not known.
-fn numbers(row: &Row, report: &Report) -> Vec<(String, f64)> {
-    let parameters = &row.rung.scene.parameters;
+/// What a row has: names, texts for a table, in which what is not known is empty, and values for JSON, in which it is null.
+fn cells(row: &Row, report: &Report) -> Vec<(String, String, Value)> {
+    let words = |name: &str, text: String| (name.to_owned(), text.clone(), text.into());
+    // JSON has no NaN: such a number becomes null.
+    let numeric = |name: &str, value: f64| (name.to_owned(), number(value), value.into());
     let measured = |value: &dyn Fn(&Measured) -> f64| row.result.as_ref().map_or(f64::NAN, value);
-    let mut numbers = vec![
-        ("value".to_owned(), row.rung.value),
-        ("time_acceleration".to_owned(), parameters.time_acceleration),
-        ("stiffness_number".to_owned(), parameters.first_stiffness_number()),
-        ("wall_time".to_owned(), measured(&|run| run.wall_time)),
-        ("steps".to_owned(), measured(&|run| run.steps as f64)),
-        ("error".to_owned(), report.worst(row).map_or(f64::NAN, |(error, _)| error)),
+    let parameters = &row.rung.scene.parameters;
+    let mut cells = vec![
+        words("ladder", row.rung.ladder.name().to_owned()),
+        words("setting", row.rung.setting()),
+        words("state", if row.result.is_ok() { "finished" } else { "failed" }.to_owned()),
+        words("failure", row.result.as_ref().err().cloned().unwrap_or_default()),
+        numeric("value", row.rung.value),
+        numeric("time_acceleration", parameters.time_acceleration),
+        numeric("stiffness_number", parameters.first_stiffness_number()),
+        numeric("wall_time", measured(&|run| run.wall_time)),
+        numeric("steps", measured(&|run| run.steps as f64)),
+        numeric("error", report.worst(row).map_or(f64::NAN, |(error, _)| error)),
     ];
-    for (one, compared) in COMPARED.iter().enumerate() {
-        numbers.extend([
-            (format!("{}_error", compared.name), measured(&|run| run.errors[one].mean_square)),
-            (format!("{}_largest_error", compared.name), measured(&|run| run.errors[one].largest)),
-            (format!("{}_end_error", compared.name), measured(&|run| run.errors[one].end)),
+    for (one, Compared { name, .. }) in COMPARED.iter().enumerate() {
+        cells.extend([
+            numeric(&format!("{name}_error"), measured(&|run| run.errors[one].mean_square)),
+            numeric(&format!("{name}_largest_error"), measured(&|run| run.errors[one].largest)),
+            numeric(&format!("{name}_end_error"), measured(&|run| run.errors[one].end)),
         ]);
     }
-    numbers.push(("on_front".to_owned(), f64::from(u8::from(row.on_front))));
-    numbers
+    cells.push(numeric("on_front", f64::from(u8::from(row.on_front))));
+    cells
 }
 
-/// A line of names and one line for each row; what is not known is empty.
+/// A line of names and one line for each row.
 fn csv(report: &Report) -> String {
-    let lines = report.rows.iter().map(|row| {
-        let texts = texts(row).map(|(name, text)| (name.to_owned(), text)).into_iter();
-        texts.chain(numbers(row, report).into_iter().map(|(name, value)| (name, number(value)))).unzip()
-    });
+    let lines =
+        report.rows.iter().map(|row| cells(row, report).into_iter().map(|(name, text, _)| (name, text)).unzip());
     let (names, lines): (Vec<Vec<String>>, Vec<Vec<String>>) = lines.unzip();
     csv_table(names.into_iter().take(1).chain(lines))
 }
@@ -305,37 +293,38 @@ fn number(value: f64) -> String {
     if value.is_nan() { String::new() } else { format!("{value:?}") }
 }
 
-/// One JSON document, with how the runs were made; what is not known is null. `state` is `finished`, or `interrupted` where not all were
-/// made.
-fn json(report: &Report, making: Value, state: &str) -> String {
-    let (reference, made) = (&report.reference, &report.reference.provenance);
+/// One JSON document, with how the runs were made; what is not known is null.
+fn json(report: &Report, making: Value) -> String {
+    let reference = &report.reference;
+    let file = reference.file.as_ref().map(|(file, _)| file);
     let own = |name: &str, errors: [f64; COMPARED.len()]| {
         let named =
             COMPARED.iter().zip(errors).map(|(compared, error)| (format!("{}_{name}", compared.name), error.into()));
         named.collect::<Map<String, Value>>()
     };
+    let of_row = |row| cells(row, report).into_iter().map(|(name, _, value)| (name, value)).collect::<Map<_, _>>();
     let mut document = json!({
         "title": report.title,
-        "state": state,
+        "state": if report.stopped.is_none() { "finished" } else { "interrupted" },
         "reference": {
-            "file": made.file.as_ref().map(|file| &file.path),
-            "sha256": made.file.as_ref().map(|file| &file.sha256),
+            "file": file.map(|file| &file.path),
+            "sha256": file.map(|file| &file.sha256),
             "setting": reference.setting,
             "time_acceleration": reference.time_acceleration,
             "steps": reference.outcome.steps,
             "wall_time": reference.outcome.wall_time,
-            "workers": made.workers,
-            "program": made.program,
-            "source_revision": made.source_revision,
-            "host": made.host,
-            "start_time": made.start_time,
+            "workers": reference.workers,
+            "program": reference.program.name,
+            "source_revision": reference.program.revision,
+            "host": reference.host,
+            "start_time": reference.start_time,
             "error": report.own_error(),
             "opening_end": report.own.end,
         },
         "window_width": report.windows.width,
         "windows": report.windows.count,
         "quantities": report.asked,
-        "runs": report.rows.iter().map(|one| row(one, report)).collect::<Vec<_>>(),
+        "runs": report.rows.iter().map(of_row).collect::<Vec<_>>(),
         "tolerance": report.tolerance,
         "advice": advice(report),
         "notes": report.notes,
@@ -349,13 +338,6 @@ fn json(report: &Report, making: Value, state: &str) -> String {
         reference.extend(own("opening_error", report.own.opening));
     }
     format!("{document:#}\n")
-}
-
-fn row(row: &Row, report: &Report) -> Value {
-    let texts = texts(row).map(|(name, text)| (name.to_owned(), Value::from(text))).into_iter();
-    // JSON has no NaN: such a number becomes null.
-    let numbers = numbers(row, report).into_iter().map(|(name, value)| (name, Value::from(value)));
-    Value::Object(texts.chain(numbers).collect())
 }
 
 #[cfg(test)]

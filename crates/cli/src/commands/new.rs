@@ -80,8 +80,7 @@ fn scene_text(arguments: &NewArguments) -> Result<(String, Vec<String>), Failure
         ],
     };
     let mean_radius = [("mean_radius", radius.as_str(), "<- where the middle of the pin slides")];
-    let mesh: Vec<String> =
-        mesh.iter().chain(&mean_radius).map(|(key, value, remark)| line(key, *value, remark)).collect();
+    let mesh: Vec<_> = mesh.iter().chain(&mean_radius).map(|(key, value, remark)| line(key, *value, remark)).collect();
     let mut notes = Vec::new();
     let disc = match disc {
         Some(disc) => disc_lines(scene, disc, reading, arguments.force, &mut notes)?,
@@ -160,9 +159,9 @@ fn disc_lines(
     if measured.profile_lay.is_none() {
         let form = condition.map_or(Level::Plane, |condition| condition.form);
         let lay = lay(&measured, form);
-        notes.extend(lay.as_ref().map(|lay| format!("{}: {}", disc.display(), lay.told())));
+        notes.extend(lay.as_ref().map(|lay| format!("{}: {}", disc.display(), lay.told)));
         let any = "x of the file is along sliding: turn it where the lay would be across";
-        let (rotate, remark) = lay.map_or(("90 deg".into(), any.into()), |lay| (lay.rotate(), lay.remark()));
+        let (rotate, remark) = lay.map_or(("90 deg".into(), any.into()), |lay| (lay.rotate, lay.remark));
         lines.push(format!("{:40}# {remark}", format!("# rotate = \"{rotate}\"")));
     }
     match &condition {
@@ -296,14 +295,37 @@ const CLEAR_LAY: f64 = 0.3;
 /// A lay that runs along or across sliding but for this angle is said to, deg.
 const ALONG: f64 = 5.0;
 
-/// The lay of a patch.
+/// A lay that can be told, and how it is turned.
 struct ClearLay {
-    /// Str, or what it is less than.
-    aspect_ratio: String,
-    /// The form without which the heights are looked at.
-    form: Level,
-    /// Std, deg, from along sliding towards outward.
-    direction: f64,
+    /// Angle that turns it along sliding; of one that runs along, across.
+    rotate: String,
+    /// Remark beside the key in the scene.
+    remark: String,
+    /// Statement about it.
+    told: String,
+}
+
+impl ClearLay {
+    /// Describes a lay with this Str, or what it is less than, and this Std (deg, from along sliding towards outward), of heights without
+    /// that form.
+    fn new(aspect_ratio: &str, direction: f64, form: Level) -> Self {
+        let (way, to, degrees) = match direction.abs() {
+            ..=ALONG => ("along sliding, x of the file", "across sliding", 90.0),
+            angle if angle >= 90.0 - ALONG => ("across sliding, along y of the file", "along sliding", 90.0),
+            _ => ("oblique to sliding, x of the file", "along sliding", -direction.round()),
+        };
+        // `plateau surface` takes a plane out unless told otherwise.
+        let beside = if form == Level::Quadratic { ", with --level quadratic" } else { "" };
+        // Added to 0, what is rounded to it has no sign.
+        let tenths = (10.0 * direction).round() / 10.0 + 0.0;
+        let runs = format!("{way} (Str {aspect_ratio}, Std {} deg{beside})", number::rounded(tenths, 3));
+        let rotate = format!("{} deg", number::plain(degrees));
+        Self {
+            remark: format!("<- the lay runs {runs}: this turns it {to}"),
+            told: format!("its lay runs {runs}: rotate = \"{rotate}\" turns it {to}, where the disc has it so"),
+            rotate,
+        }
+    }
 }
 
 /// The lay of a patch, if the Python package is here and tells a clear one.
@@ -321,47 +343,7 @@ fn lay(measured: &Measured, form: Level) -> Option<ClearLay> {
         (None, bound) => (bound?, number::less_than(bound?, 3)),
     };
     let direction = told["Std"].as_f64()?;
-    (ratio < CLEAR_LAY).then_some(ClearLay { aspect_ratio, form, direction })
-}
-
-impl ClearLay {
-    /// Describes the direction of the lay.
-    fn runs(&self) -> String {
-        let Self { aspect_ratio, form, direction } = self;
-        let way = match direction.abs() {
-            ..=ALONG => "along sliding, x of the file",
-            angle if angle >= 90.0 - ALONG => "across sliding, along y of the file",
-            _ => "oblique to sliding, x of the file",
-        };
-        // `plateau surface` takes a plane out unless told otherwise.
-        let beside = if *form == Level::Quadratic { ", with --level quadratic" } else { "" };
-        // Added to 0, what is rounded to it has no sign.
-        let tenths = (10.0 * direction).round() / 10.0 + 0.0;
-        format!("{way} (Str {aspect_ratio}, Std {} deg{beside})", number::rounded(tenths, 3))
-    }
-
-    /// The angle that turns it along sliding; of one that runs along, across.
-    fn rotate(&self) -> String {
-        let is_oblique = (ALONG..90.0 - ALONG).contains(&self.direction.abs());
-        let degrees = if is_oblique { -self.direction.round() } else { 90.0 };
-        format!("{} deg", number::plain(degrees))
-    }
-
-    /// Names the direction to which [`rotate`](Self::rotate) turns the lay.
-    fn to(&self) -> &'static str {
-        if self.direction.abs() <= ALONG { "across sliding" } else { "along sliding" }
-    }
-
-    /// Formats the remark beside the key in the scene.
-    fn remark(&self) -> String {
-        format!("<- the lay runs {}: this turns it {}", self.runs(), self.to())
-    }
-
-    /// Statement about it.
-    fn told(&self) -> String {
-        let (runs, rotate, to) = (self.runs(), self.rotate(), self.to());
-        format!("its lay runs {runs}: rotate = \"{rotate}\" turns it {to}, where the disc has it so")
-    }
+    (ratio < CLEAR_LAY).then(|| ClearLay::new(&aspect_ratio, direction, form))
 }
 
 /// Lines of the scene about a patch that is smaller than the fewest cells that are needed of it, and what that means.

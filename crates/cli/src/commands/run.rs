@@ -20,9 +20,13 @@ pub fn run(arguments: &RunArguments) -> Result<(), Failure> {
 
 /// All processes of the job do the same, but only the leading one writes and prints.
 fn run_scene(arguments: &RunArguments, job: &mut Job) -> Result<(), Failure> {
-    let terminal = preparing(job)?;
-    arguments.output.as_deref().map_or(Ok(()), |output| refuse_other_format("-o", output))?;
-    let scene = load_scene(&lengthened(arguments))?;
+    let terminal = Terminal::listen_for_run(job.leads()).map_err(Failure::run)?;
+    if let Some(output) = &arguments.output {
+        refuse_other_format("-o", output)?;
+    }
+    let mut changed = arguments.scene.clone();
+    changed.sets.extend(arguments.extend_to.iter().map(|time| format!("operation.duration={time}")));
+    let scene = load_scene(&changed)?;
     if arguments.output.is_none() {
         refuse_other_format("output.file", &scene.output.file)?;
     }
@@ -41,14 +45,6 @@ fn run_scene(arguments: &RunArguments, job: &mut Job) -> Result<(), Failure> {
     make(scene, &options, arguments.scene.json, job, terminal)
 }
 
-/// A terminal that listens from now on: preparing a large scene takes long enough to be told to stop meanwhile.
-pub fn preparing(job: &Job) -> Result<Terminal, Failure> {
-    let terminal = Terminal::listen_for_save(job.leads()).map_err(Failure::run)?;
-    // Of several processes, too, each ends by itself: nothing is written yet.
-    terminal.end_while_preparing();
-    Ok(terminal)
-}
-
 /// Makes a run and prints what came of it.
 pub fn make(
     scene: Scene,
@@ -65,13 +61,6 @@ pub fn make(
     }
     let file = summary.file.display();
     print(&text).map_err(|failure| failure.but(format_args!("the run is finished, {file} is complete")))
-}
-
-/// The command line with the duration that `--extend-to` gives.
-fn lengthened(arguments: &RunArguments) -> SceneArguments {
-    let mut scene = arguments.scene.clone();
-    scene.sets.extend(arguments.extend_to.iter().map(|time| format!("operation.duration={time}")));
-    scene
 }
 
 /// Endings of what `export`, `plot` and `report` make of a run file, with the call that does so.

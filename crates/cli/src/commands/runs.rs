@@ -2,6 +2,7 @@
 //! `plateau summary`, what the Python package asks of a run file that this program computes.
 
 use plateau_core::acceleration::Chosen;
+use plateau_core::model::accounts::AccountsReport;
 use plateau_core::observe::running_in::{Drift, NotDefined, RUN_IN, Trend};
 use plateau_core::observe::window_mean::{LEAST_PULSES, WindowMean};
 use plateau_io::number;
@@ -33,10 +34,12 @@ pub fn warn_of_times(run: &RunFile, at: &[f64]) {
     let times = run.map_time();
     let [Some(first), Some(last)] = [times.first(), times.last()] else { return };
     for time in at {
-        let (place, index) = match () {
-            () if *time < first - BEYOND * last => ("before the first", 0),
-            () if *time > last + BEYOND * last => ("after the last", times.len() - 1),
-            () => continue,
+        let (place, index) = if *time < first - BEYOND * last {
+            ("before the first", 0)
+        } else if *time > last + BEYOND * last {
+            ("after the last", times.len() - 1)
+        } else {
+            continue;
         };
         let (path, time, shown) = (run.path().display(), number::rounded(*time, 4), moment(run, index));
         message::warning(format_args!("{path}: {time} s is {place} recorded map, that of {shown} is shown"));
@@ -135,7 +138,7 @@ pub fn text(summary: &RunSummary) -> String {
         rows.push(("lost by the pin", format!("{lost} as a balance shows it, {rate}")));
     }
     rows.extend(parts(summary));
-    let heat = summary.parts.heat_residual.map_or(String::new(), |residual| format!(", heat {residual:.1e}"));
+    let heat = summary.parts.0.heat.map_or(String::new(), |heat| format!(", heat {:.1e}", heat.residual));
     let RunSummary { load_residual, balance_residual, .. } = summary;
     rows.push(("residuals", format!("load {load_residual:.1e} at most, debris balance {balance_residual:.1e}{heat}")));
     rows.extend(summary.peak_memory.map(|bytes| ("peak memory", number::bytes(bytes))));
@@ -145,23 +148,23 @@ pub fn text(summary: &RunSummary) -> String {
 
 /// Rows of the parts of the model that the scene asks for.
 fn parts(summary: &RunSummary) -> Vec<(&'static str, String)> {
-    let (parts, mut rows) = (&summary.parts, Vec::new());
-    if let (Some(coefficient), Some(work)) = (parts.friction_coefficient_mean, parts.friction_work) {
-        let (over, work) = ("mean of the last simulated revolution", number::short(work));
+    let (AccountsReport { friction, heat, emission }, largest_disc_temperature) = summary.parts;
+    let mut rows = Vec::new();
+    if let Some(friction) = friction {
+        let (coefficient, work) = (friction.coefficient_mean, number::short(friction.work));
+        let over = "mean of the last simulated revolution";
         rows.push(("friction", format!("coefficient {coefficient:.3} ({over}), work {work} J of the simulated pin")));
     }
-    if let (Some(contact), Some(disc), Some(pin)) =
-        (parts.contact_temperature, parts.disc_temperature, parts.pin_temperature)
-    {
+    if let Some(heat) = heat {
         let celsius = |kelvin: f64| format!("{:.1} °C", kelvin - 273.15);
-        let contact = if contact.is_nan() { "lifted".to_owned() } else { celsius(contact) };
-        let largest =
-            parts.largest_disc_temperature.map_or(String::new(), |most| format!(" (at most {})", celsius(most)));
-        let text = format!("contact {contact}, disc {}{largest}, pin {}", celsius(disc), celsius(pin));
-        rows.push(("temperature", text));
+        let contact = if heat.contact.is_nan() { "lifted".to_owned() } else { celsius(heat.contact) };
+        let [disc, pin] = [heat.disc, heat.pin].map(celsius);
+        let largest = largest_disc_temperature.map_or(String::new(), |most| format!(" (at most {})", celsius(most)));
+        rows.push(("temperature", format!("contact {contact}, disc {disc}{largest}, pin {pin}")));
     }
-    if let (Some(pm10), Some(pm25), Some(number)) = (parts.pm10_mass, parts.pm25_mass, parts.particle_number) {
-        let [pm10, pm25, particles] = [pm10 * 1e9, pm25 * 1e9, number].map(number::short);
+    if let Some(emission) = emission {
+        let [pm10, pm25] = [emission.pm10, emission.pm25].map(|mass| number::short(mass * 1e9));
+        let particles = number::short(emission.number);
         let area = number::rounded(summary.pin_area * 1e6, 3);
         let particles = format!("{particles} particles of the simulated pin, {area} mm²");
         rows.push(("airborne", format!("PM10 {pm10} µg, PM2.5 {pm25} µg, {particles}")));

@@ -15,7 +15,7 @@ use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
-use crate::acceleration::choice::{Adaptive, Choice, RATIO};
+use crate::acceleration::{Adaptive, Choice, RATIO};
 use crate::engine::parts::Needs;
 use crate::model::parameters::Parameters;
 use crate::model::state::{Base, InitialSurfaces};
@@ -27,7 +27,7 @@ use crate::simulation::{Simulation, SimulationError};
 /// acceleration.
 ///
 /// The two are compared whenever the scout has taken one revolution and the run [`RATIO`] of them, in which the same
-/// physical time passes. While the run goes with m = 1, the scout rests.
+/// physical time passes. While the run goes with m = 1, the scout rests. It fails as its [`Simulation`] and that of the run do.
 #[derive(Debug)]
 pub struct Scout {
     /// Simulation of the scout; none where the run will not be accelerated any more.
@@ -95,9 +95,6 @@ impl Mark {
 
 impl Scout {
     /// A scout for a run of `duration` (s) that has not begun; `simulation` is another one like it.
-    ///
-    /// # Errors
-    /// [`SimulationError`] when a worker failed.
     pub fn new(mut simulation: Simulation, adaptive: &Adaptive, duration: f64) -> Result<Self, SimulationError> {
         let parameters = simulation.parameters();
         let choice = Choice::new(adaptive, parameters, duration);
@@ -130,9 +127,6 @@ impl Scout {
     }
 
     /// Takes at most `steps` steps. Returns whether the scout has come to where the two are compared, or rests.
-    ///
-    /// # Errors
-    /// As [`Simulation::advance`].
     pub fn advance(&mut self, steps: u64) -> Result<bool, SimulationError> {
         let is_at_work = self.is_at_work();
         let Some(simulation) = self.simulation.as_mut().filter(|_| is_at_work) else { return Ok(true) };
@@ -142,9 +136,6 @@ impl Scout {
     }
 
     /// The complete state, to go on from later.
-    ///
-    /// # Errors
-    /// [`SimulationError`] when a worker failed.
     pub fn checkpoint(&mut self) -> Result<ScoutCheckpoint, SimulationError> {
         let simulation = self.simulation.as_mut().map(Simulation::checkpoint).transpose()?;
         let Self { choice, idle, run, scout, .. } = self;
@@ -152,9 +143,6 @@ impl Scout {
     }
 
     /// Goes on from a checkpoint of a scout for the same run.
-    ///
-    /// # Errors
-    /// As [`Simulation::restore`].
     pub fn restore(&mut self, checkpoint: &ScoutCheckpoint) -> Result<(), SimulationError> {
         match (&mut self.simulation, &checkpoint.simulation) {
             (Some(simulation), Some(state)) => simulation.restore(state)?,
@@ -167,9 +155,6 @@ impl Scout {
 
     /// Compares the run with the scout, if that goes beside it, chooses the acceleration anew and changes that of both. Returns whether it
     /// changed.
-    ///
-    /// # Errors
-    /// [`SimulationError`] when a worker failed.
     pub fn compare(&mut self, run: &mut Simulation) -> Result<bool, SimulationError> {
         let (was_at_work, acceleration) = (self.is_at_work(), self.choice.acceleration());
         let Some(scout) = &mut self.simulation else { return Ok(false) };

@@ -93,9 +93,6 @@ impl Checkpoint {
     }
 
     /// Checks that the state is of as many cells as a mesh has.
-    ///
-    /// # Errors
-    /// [`WrongMesh`].
     pub fn check(&self, mesh: &Mesh) -> Result<(), WrongMesh> {
         let Heights { disc_height, disc_substrate, pin_height, pin_substrate } = &self.heights;
         let fields = [

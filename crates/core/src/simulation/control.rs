@@ -30,8 +30,7 @@ impl Simulation {
     ///
     /// # Errors
     /// [`SimulationError::Operation`] unless both are finite and above 0, [`SimulationError::TimeLost`] where the time of a step is
-    /// lost in rounding, [`SimulationError::OfCycle`] where a cycle gives them,
-    /// [`SimulationError::Worker`] when a worker failed.
+    /// lost in rounding, [`SimulationError::OfCycle`] where a cycle gives them.
     pub fn operate(&mut self, load: f64, angular_velocity: f64) -> Result<(), SimulationError> {
         if self.parameters.cycle.is_some() {
             return Err(SimulationError::OfCycle);
@@ -79,8 +78,7 @@ impl Simulation {
     ///
     /// # Errors
     /// [`SimulationError::Checkpoint`] where the sizes are not those of the mesh, [`SimulationError::Cell`] for a height that is no
-    /// finite number, on the wrong side of its substrate, or above the disc's highest initial height where debris fills the disc,
-    /// [`SimulationError::Worker`] when a worker failed.
+    /// finite number, on the wrong side of its substrate, or above the disc's highest initial height where debris fills the disc.
     pub fn set_heights(&mut self, mut heights: Heights) -> Result<(), SimulationError> {
         for cell in self.parameters.mesh.absent_cells() {
             for field in [&mut heights.pin_height, &mut heights.pin_substrate] {

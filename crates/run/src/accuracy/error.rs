@@ -12,8 +12,8 @@ use crate::error::{RunError, signal_in_words};
 
 /// Reason why errors cannot be measured.
 #[derive(Debug, Error)]
+#[allow(missing_docs)] // The messages say what they mean.
 pub enum AccuracyError {
-    /// Input with which nothing can be measured.
     #[error(transparent)]
     Input(#[from] PlanError),
     /// The scene makes no run, or its first steps fail.
@@ -21,35 +21,21 @@ pub enum AccuracyError {
     Run(#[from] RunError),
     /// A run without which nothing can be compared failed.
     #[error("{run}: {error}")]
-    Failed {
-        /// The run, in words.
-        run: String,
-        /// Reason of the failure.
-        error: Unfinished,
-    },
+    Failed { run: String, error: Unfinished },
     /// A signal came before anything could be compared.
     #[error("stopped by {} {moment}; nothing is written", signal_in_words(*signal))]
-    Stopped {
-        /// The signal.
-        signal: u8,
-        /// Moment, in words.
-        moment: String,
-    },
+    Stopped { signal: u8, moment: String },
 }
 
 /// Reason why a run did not come to its end.
 #[derive(Debug, Error)]
+#[allow(missing_docs)] // The messages say what they mean.
 pub enum Unfinished {
     /// Run that could not be put together, or a step of it that failed.
     #[error(transparent)]
     Failed(#[from] RunError),
-    /// A quantity became infinite or no number.
     #[error("contact area or heights were no finite numbers after step {step}")]
-    NotFinite {
-        /// The step after which that was seen.
-        step: u64,
-    },
-    /// Signal that asked to stop.
+    NotFinite { step: u64 },
     #[error("stopped by {}", signal_in_words(*.0))]
     Stopped(u8),
 }
@@ -79,11 +65,7 @@ pub enum PlanError {
          duration{}",
         also(notes)
     )]
-    NothingToRun {
-        reference: f64,
-        /// Notes until then, such as why the mesh is not varied.
-        notes: Vec<String>,
-    },
+    NothingToRun { reference: f64, notes: Vec<String> },
     #[error(
         "the budget of {} is too small: at {} steps/s, as measured, a reference with time_acceleration = {reference} needs a \
          budget of {}; give --budget {} or more{}",
@@ -121,8 +103,8 @@ fn or_model(reference: f64, needed: f64) -> String {
 
 /// Reason why a run file is no reference of a scene.
 #[derive(Debug, Error)]
+#[allow(missing_docs)] // The messages say what they mean.
 pub enum ReferenceError {
-    /// Run file that cannot be read.
     #[error("{0}")]
     Read(#[from] ReadError),
     /// File that cannot be digested.

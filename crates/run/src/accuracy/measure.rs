@@ -13,14 +13,13 @@ use plateau_io::{number, surface};
 use super::error::{AccuracyError, PlanError, Unfinished, enough};
 use super::ladder::{Base, Ladder, LadderPoint, Rung, steps, time_accelerations};
 use super::quantity::Course;
-use super::reference::{Provenance, ReadReference, Reference};
+use super::reference::Reference;
 use super::report::{Measured, OwnError, Report, Row};
 use crate::accuracy::ladder::Cells;
 use crate::accuracy::quantity::{LEAST_WINDOW, Windows, common_multiple};
 use crate::accuracy::reference::{Outcome, make, try_steps};
 use crate::error::{InputError, RunError};
-use crate::execution;
-use crate::execution::cores;
+use crate::execution::{self, cores};
 use crate::options::{Observer, Program};
 
 /// Part of the budget that the reference and its check may take.
@@ -46,18 +45,9 @@ pub struct Wish {
     /// Wall time that all runs may take, s.
     pub budget: f64,
     /// A reference that was read.
-    pub reference: Option<ReadReference>,
+    pub reference: Option<Reference>,
     /// Program that makes the runs.
     pub program: Program,
-}
-
-/// Result of a measurement, and the signal that stopped it, if one did.
-#[derive(Debug)]
-pub struct Found {
-    /// Report of what was found until then.
-    pub report: Report,
-    /// The signal.
-    pub stopped: Option<u8>,
 }
 
 /// Makes the reference, unless there is one, and the runs that fit into the budget.
@@ -66,7 +56,7 @@ pub fn measure(
     surfaces: &InitialSurfaces,
     execution: Execution,
     observer: &dyn Observer,
-) -> Result<Found, AccuracyError> {
+) -> Result<Report, AccuracyError> {
     let Scene { parameters, duration, .. } = &wish.base.scene;
     let revolution = std::f64::consts::TAU / parameters.angular_velocity;
     let accelerations = time_accelerations(parameters.time_acceleration, duration / revolution);
@@ -88,10 +78,10 @@ pub fn measure(
     let windows = run.windows(&rungs, time_acceleration, revolution, read.as_ref());
     let check = run.check(model, time_acceleration, &windows)?;
     let reference = match read {
-        Some(read) => read.reference,
+        Some(read) => read,
         None => run.make_reference(time_acceleration, &windows)?,
     };
-    let expected = reference.course(&windows);
+    let expected = reference.outcome.course.at(&windows);
     let opening = expected.first(check.as_ref().map_or(0, |check| check.course.moments()));
     let mut own = OwnError::NONE;
     if let Some(check) = &check {
@@ -103,9 +93,9 @@ pub fn measure(
     run.note_load();
     let Measurement { wish, notes, .. } = run;
     let (title, asked, tolerance) = (wish.base.scene.title, wish.quantities, wish.tolerance);
-    let mut report = Report { title, reference, own, windows, asked, tolerance, rows, notes };
+    let mut report = Report { title, reference, own, windows, asked, tolerance, rows, notes, stopped };
     report.complete();
-    Ok(Found { report, stopped })
+    Ok(report)
 }
 
 /// The finest of these references, increasing, that costs no more than its part of the budget (s); else the budget that the
@@ -192,7 +182,7 @@ impl Measurement<'_> {
         &mut self,
         accelerations: &[f64],
         revolution: f64,
-        read: Option<&ReadReference>,
+        read: Option<&Reference>,
     ) -> Result<f64, AccuracyError> {
         let scene = self.base();
         let own = scene.parameters.time_acceleration;
@@ -203,7 +193,7 @@ impl Measurement<'_> {
         let finer = self.finest.is_some();
         let judges = |reference: f64| !steps(&self.wish.ladders, accelerations, None, reference, finer).is_empty();
         if let Some(read) = read {
-            let reference = read.reference.time_acceleration;
+            let reference = read.time_acceleration;
             return match (is_fine(reference), judges(reference)) {
                 (true, true) => Ok(reference),
                 (false, _) => Err(PlanError::NotFiner { reference, own, needs_model }.into()),
@@ -285,15 +275,15 @@ impl Measurement<'_> {
     }
 
     /// The same windows for all runs: whole revolutions of each of them, if that can be.
-    fn windows(&mut self, rungs: &[Rung], reference: f64, revolution: f64, read: Option<&ReadReference>) -> Windows {
+    fn windows(&mut self, rungs: &[Rung], reference: f64, revolution: f64, read: Option<&Reference>) -> Windows {
         let accelerations = rungs.iter().map(|rung| rung.scene.parameters.time_acceleration);
         let unit = common_multiple(&accelerations.chain([reference]).collect::<Vec<_>>()) * revolution;
         let Scene { duration, parameters, .. } = self.base();
         let windows = |least: f64| Windows::new(*duration, unit, LEAST_WINDOW.max(least));
-        let Some(ReadReference { reference: read, sample_every }) = read else { return windows(0.0) };
+        let Some(Reference { outcome, file: Some((_, sample_every)), .. }) = read else { return windows(0.0) };
         let narrow = windows(2.0 * sample_every);
         let step = parameters.step_time() * reference / parameters.time_acceleration;
-        if read.outcome.course.knows(&narrow, step) {
+        if outcome.course.knows(&narrow, step) {
             return narrow;
         }
         let wide = windows(SAMPLES_PER_WINDOW * sample_every);
@@ -323,15 +313,16 @@ impl Measurement<'_> {
         let start_time = now();
         let name = format!("the reference run with {}", rung.setting());
         let outcome = self.make(&rung, windows, &name).map_err(|unfinished| before_any(unfinished, &name))?;
-        let provenance = Provenance {
+        Ok(Reference {
+            time_acceleration,
+            setting: rung.setting(),
+            outcome,
             file: None,
-            program: self.wish.program.name.clone(),
-            source_revision: self.wish.program.revision.clone(),
+            program: self.wish.program.clone(),
             host: execution::host(),
             workers: self.execution.workers as u64,
             start_time,
-        };
-        Ok(Reference { time_acceleration, setting: rung.setting(), outcome, provenance })
+        })
     }
 
     /// Takes the steps of a run; `name` is shown meanwhile.

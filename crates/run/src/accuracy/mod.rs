@@ -18,7 +18,7 @@ mod report;
 
 pub use error::{AccuracyError, PlanError, ReferenceError, Unfinished};
 pub use ladder::{Base, Ladder, Rung};
-pub use measure::{Found, Wish, measure};
+pub use measure::{Wish, measure};
 pub use quantity::{COMPARED, Compared, QuantityError};
-pub use reference::{ReadReference, read as read_reference};
+pub use reference::{Reference, read as read_reference};
 pub use report::{Advice, Measured, OwnError, Report, Row};

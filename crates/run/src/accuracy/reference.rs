@@ -18,38 +18,22 @@ use crate::accuracy::quantity::{COMPARED, Course, Windows, values_of};
 use crate::assembly::{Assembly, Sink};
 use crate::error::{InputError, RunError};
 use crate::execution::time_per_step;
-use crate::options::Observer;
+use crate::options::{Observer, Program};
 
-/// Run that every other one is compared with.
+/// Run that every other one is compared with, and where it comes from.
 #[derive(Debug, Clone)]
 pub struct Reference {
-    /// Time acceleration of the reference.
+    /// Time acceleration m of the run.
     pub time_acceleration: f64,
     /// Keys and values in which it differs from the scene.
     pub setting: String,
     /// Outcome of the run, as far as it is kept.
     pub outcome: Outcome,
-    /// Origin of the run.
-    pub provenance: Provenance,
-}
-
-impl Reference {
-    /// Quantities at the ends of windows.
-    pub fn course(&self, windows: &Windows) -> Course {
-        self.outcome.course.at(windows)
-    }
-}
-
-/// Origin of a reference.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Provenance {
-    /// The run file; none for a run made here.
-    pub file: Option<InputFile>,
-    /// Program and version that made it.
-    pub program: String,
-    /// Revision of the program's source.
-    pub source_revision: String,
-    /// Machine.
+    /// The run file, and the longest time between two samples of it, s; none for a run made here.
+    pub file: Option<(InputFile, f64)>,
+    /// Program that made it, and the revision of its source.
+    pub program: Program,
+    /// Machine on which it was made.
     pub host: String,
     /// Number of workers.
     pub workers: u64,
@@ -57,20 +41,11 @@ pub struct Provenance {
     pub start_time: String,
 }
 
-/// A reference of a run file, and how far its samples are apart.
-#[derive(Debug)]
-pub struct ReadReference {
-    /// The reference.
-    pub reference: Reference,
-    /// Longest time between two samples, s.
-    pub sample_every: f64,
-}
-
 /// Number of different keys that a message names.
 const MOST_KEYS: usize = 5;
 
 /// Reads the reference of a scene; `inputs` are the surface files that the scene reads, with their digests.
-pub fn read(path: &Path, scene: &Scene, inputs: &[(PathBuf, String)]) -> Result<ReadReference, ReferenceError> {
+pub fn read(path: &Path, scene: &Scene, inputs: &[(PathBuf, String)]) -> Result<Reference, ReferenceError> {
     let run = RunFile::open(path)?;
     let shown = path.display();
     let refused = |message| Err(ReferenceError::Refused(message));
@@ -93,17 +68,16 @@ pub fn read(path: &Path, scene: &Scene, inputs: &[(PathBuf, String)]) -> Result<
     let sample_every = [0.0].iter().chain(run.time()).zip(run.time()).map(|(one, next)| next - one).fold(0.0, f64::max);
     let file = InputFile::read(path).map_err(|error| ReferenceError::File(shown.to_string(), error))?;
     let text = |name: &str| run.attribute(name).unwrap_or_default();
-    let provenance = Provenance {
-        file: Some(file),
-        program: text("program"),
-        source_revision: text("source_revision"),
+    Ok(Reference {
+        time_acceleration,
+        setting: format!("time_acceleration = {time_acceleration}"),
+        outcome,
+        file: Some((file, sample_every)),
+        program: Program { name: text("program"), revision: text("source_revision") },
         host: text("host"),
         workers: run.number("workers").unwrap_or(0.0) as u64,
         start_time: text("start_time"),
-    };
-    let setting = format!("time_acceleration = {time_acceleration}");
-    let reference = Reference { time_acceleration, setting, outcome, provenance };
-    Ok(ReadReference { reference, sample_every })
+    })
 }
 
 fn outcome(run: &RunFile, steps: u64) -> Result<Outcome, ReferenceError> {

@@ -24,6 +24,8 @@ pub struct Report {
     pub rows: Vec<Row>,
     /// Notes on what is worth knowing besides.
     pub notes: Vec<String>,
+    /// The signal that ended the measurement before all runs were made.
+    pub stopped: Option<u8>,
 }
 
 /// Error of the reference itself: of its time acceleration, from the first windows, the opening, in which the model itself was run,

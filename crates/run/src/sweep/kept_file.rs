@@ -84,11 +84,10 @@ impl KeptFile {
         state: &mut Option<SavedState>,
         under_way: &mut UnderWay<'_>,
     ) -> Result<Self, Ended> {
-        let unkept = |error: &dyn std::fmt::Display| Ended::Unkept(error.to_string());
-        path.parent().map_or(Ok(()), fs::create_dir_all).map_err(|error| {
-            unkept(&format_args!("cannot write to {}: {error}", path.parent().unwrap_or(path).display()))
-        })?;
-        let claim = claim(path).map_err(|error| unkept(&error))?;
+        let folder = path.parent().unwrap_or(path);
+        fs::create_dir_all(folder)
+            .map_err(|error| Ended::Unkept(format!("cannot write to {}: {error}", folder.display())))?;
+        let claim = claim(path).map_err(|error| Ended::Unkept(error.to_string()))?;
         Temporary::remove_abandoned(path);
         let start = Instant::now();
         if let Some((writer, file)) = state.as_mut().and_then(|state| resumed(path, header, state, under_way)) {

@@ -46,11 +46,8 @@ pub fn make(request: &Request<'_>, under_way: &mut UnderWay<'_>) -> Result<(Outc
 
 /// A run that is to be made.
 pub struct Request<'a> {
-    /// Study of the run.
     pub study: &'a Study,
-    /// Options of the sweep.
     pub options: &'a SweepOptions,
-    /// Observer that follows it.
     pub observer: &'a dyn SweepObserver,
     /// Surfaces of other runs.
     pub shared: &'a SharedSurfaces,
@@ -58,7 +55,6 @@ pub struct Request<'a> {
     pub warnings: &'a Mutex<SceneWarnings>,
     /// Number of the run in the study.
     pub number: usize,
-    /// Scene of the run.
     pub scene: &'a Scene,
     /// Identity that the run is expected to have.
     pub expected: &'a Identity,
@@ -131,24 +127,21 @@ impl Request<'_> {
         let (give, take) = channel();
         let its_own = self.scene.clone();
         let load = move || drop(give.send(surface::load(&its_own)));
-        let loaded = if thread::Builder::new().name("surfaces".into()).spawn(load).is_ok() {
-            loop {
-                match take.recv_timeout(SIGNAL_LOOK) {
-                    Ok(loaded) => break loaded,
-                    Err(RecvTimeoutError::Timeout) => {
-                        under_way.touch();
-                        if self.steps(0) {
-                            return Err(Ended::Stopped);
-                        }
-                    }
-                    Err(RecvTimeoutError::Disconnected) => panic!("the thread that makes surfaces panicked"),
-                }
-            }
-        } else {
+        let failed = |error: SurfaceError| Ended::Failed(error.to_string());
+        if thread::Builder::new().name("surfaces".into()).spawn(load).is_err() {
             // No thread is to be had: a signal is heard with the first step.
-            surface::load(self.scene)
-        };
-        loaded.map_err(|error: SurfaceError| Ended::Failed(error.to_string()))
+            return surface::load(self.scene).map_err(failed);
+        }
+        loop {
+            match take.recv_timeout(SIGNAL_LOOK) {
+                Ok(loaded) => return loaded.map_err(failed),
+                Err(RecvTimeoutError::Disconnected) => panic!("the thread that makes surfaces panicked"),
+                Err(RecvTimeoutError::Timeout) => under_way.touch(),
+            }
+            if self.steps(0) {
+                return Err(Ended::Stopped);
+            }
+        }
     }
 }
 

@@ -34,7 +34,7 @@ mod under_way;
 mod warnings;
 
 pub use crate::options::{Part, SweepOptions};
-pub use earlier::{journal, journal_folder, say_left_out, say_unkept};
+pub use earlier::{journal, say_left_out, say_unkept};
 pub use resolved::{Estimate, Resolved, ResolvedRun, RunLength, note_short_tenths, run_in_words, scene_of_run};
 pub use runner::{Sweep, SweepSummary, load};
 pub use warnings::{SceneWarnings, SweepObserver, of_questions};

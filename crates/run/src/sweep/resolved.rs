@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 use plateau_core::observe::window_mean::LEAST_REVOLUTIONS;
-use plateau_core::simulation::{Execution, Simulation};
+use plateau_core::simulation::Simulation;
 use plateau_io::run_file::size_estimate;
 use plateau_io::scene::{Scene, memory_estimate};
 use plateau_io::study::Study;
@@ -14,6 +14,7 @@ use plateau_io::study::plan::Plan;
 use plateau_io::study::record::{Digests, Identity, dataset_of};
 use plateau_io::study::response::{Question, Response, lacking};
 use plateau_io::{input, number, surface, text};
+use rayon::iter::Either;
 use rayon::prelude::*;
 
 use crate::error::Failure;
@@ -172,46 +173,50 @@ impl Resolved {
                 files: scene.files,
             })
         };
-        let all: Vec<(usize, Result<Known, Failure>)> =
-            numbers.into_par_iter().map(|number| (number, resolve(number))).collect();
-        let of_all = all.len();
-        let problems: Vec<(usize, &Failure)> =
-            all.iter().filter_map(|(number, result)| Some((*number, result.as_ref().err()?))).collect();
-        if problems.is_empty() {
-            let (mut runs, mut files) = (BTreeMap::new(), BTreeSet::from_iter(digests.files()));
-            let (mut warnings, mut unrecorded) = (SceneWarnings::default(), BTreeMap::new());
-            for (number, known) in all.into_iter().filter_map(|(number, known)| Some((number, known.ok()?))) {
-                runs.insert(number, known.run);
-                warnings.add(known.warnings);
-                files.extend(known.files.into_iter().map(|(file, _)| file));
-                for (place, lacking) in known.lacking.into_iter().enumerate() {
-                    if let Some(lacking) = lacking {
-                        unrecorded.entry(place).or_insert((0, lacking)).0 += 1;
-                    }
+        let of_all = numbers.len();
+        let (known, problems): (Vec<_>, Vec<_>) =
+            numbers.into_par_iter().partition_map(|number| match resolve(number) {
+                Ok(known) => Either::Left((number, known)),
+                Err(problem) => Either::Right((number, problem)),
+            });
+        if !problems.is_empty() {
+            return Err(cannot_be_made(plan, of_all, &problems));
+        }
+        let (mut runs, mut files) = (BTreeMap::new(), BTreeSet::from_iter(digests.files()));
+        let (mut warnings, mut unrecorded) = (SceneWarnings::default(), BTreeMap::new());
+        for (number, known) in known {
+            runs.insert(number, known.run);
+            warnings.add(known.warnings);
+            files.extend(known.files.into_iter().map(|(file, _)| file));
+            for (place, lacking) in known.lacking.into_iter().enumerate() {
+                if let Some(lacking) = lacking {
+                    unrecorded.entry(place).or_insert((0, lacking)).0 += 1;
                 }
             }
-            let mut seen = HashSet::new();
-            let is_repeat =
-                |(number, run): (&usize, &ResolvedRun)| (!seen.insert(run.identity.clone())).then_some(*number);
-            let repeats = runs.iter().filter_map(is_repeat).collect();
-            return Ok(Self { runs, warnings, files, repeats, unrecorded });
         }
-        // The same mistake shows in many runs.
-        let mut said = Vec::new();
-        let heading = format!("{}: {} of {of_all} runs cannot be made", study.path.display(), problems.len());
-        let mut lines = Vec::new();
-        for (number, problem) in &problems {
-            let problem = problem.to_string();
-            if !said.contains(&problem) && said.len() < SHOWN {
-                said.push(problem.clone());
-                lines.push(format!("{}:\n{problem}", run_in_words(plan, *number)));
-            }
-        }
-        let message = format!("{heading}\n{}", text::list(lines, "\n"));
-        // What the system lacks at the moment is no mistake of the study.
-        let is_lack = problems.iter().any(|(_, problem)| problem.status == Failure::RUN);
-        Err(if is_lack { Failure::run(message) } else { Failure::input(message) })
+        let mut seen = HashSet::new();
+        let repeats = runs.iter().filter(|(_, run)| !seen.insert(&run.identity)).map(|(number, _)| *number).collect();
+        Ok(Self { runs, warnings, files, repeats, unrecorded })
     }
+}
+
+/// Failure of a study of so many runs, some of which have problems.
+fn cannot_be_made(plan: &Plan, runs: usize, problems: &[(usize, Failure)]) -> Failure {
+    // The same mistake shows in many runs.
+    let mut said = Vec::new();
+    let mut lines = Vec::new();
+    for (number, problem) in problems {
+        let problem = problem.to_string();
+        if !said.contains(&problem) && said.len() < SHOWN {
+            lines.push(format!("{}:\n{problem}", run_in_words(plan, *number)));
+            said.push(problem);
+        }
+    }
+    let heading = format!("{}: {} of {runs} runs cannot be made", plan.study().path.display(), problems.len());
+    let message = format!("{heading}\n{}", text::list(lines, "\n"));
+    // What the system lacks at the moment is no mistake of the study.
+    let is_lack = problems.iter().any(|(_, problem)| problem.status == Failure::RUN);
+    if is_lack { Failure::run(message) } else { Failure::input(message) }
 }
 
 /// Series that the responses of a study need of a run of this scene; what the scene does not record is lacking in every run of it, which is
@@ -329,9 +334,7 @@ impl Estimate {
             let making = start.elapsed().as_secs_f64();
             warnings.add(of_surfaces(&scene, &loaded));
             let surfaces = loaded.surfaces;
-            let execution = Execution { workers: 1, ..Execution::default() };
-            let mut simulation =
-                Simulation::with_execution(scene.parameters.clone(), surfaces, execution).map_err(Failure::input)?;
+            let mut simulation = Simulation::new(scene.parameters.clone(), surfaces).map_err(Failure::input)?;
             let step = time_per_step(&mut simulation, scene.steps, TRIAL).map_err(Failure::run)?;
             // Surfaces are a part of the run that does not grow with its steps.
             let steps = scene.steps.max(1) as f64;

@@ -22,7 +22,7 @@ const LISTED: usize = 10;
 
 pub fn collect(arguments: &CollectArguments) -> Result<(), Failure> {
     let plan = arguments.study.load()?;
-    let Found { collected, inputs, left_out, .. } = collected(&plan)?;
+    let (collected, inputs, left_out) = collected(&plan)?;
     let folder = arguments.output.clone().unwrap_or_else(|| plan.study().directory.clone());
     output::make_directory(&folder)?;
     let [hdf5, csv] = ["results.h5", "results.csv"].map(|name| folder.join(name));
@@ -59,24 +59,15 @@ pub fn collect(arguments: &CollectArguments) -> Result<(), Failure> {
     print(&summary.to_text(&collected, plan.study().is_imported()))
 }
 
-/// The results of a study, and what they were made of.
-#[derive(Debug)]
-struct Found {
-    collected: Collected,
-    /// The study, its tables, its scenes and what they read.
-    inputs: Vec<PathBuf>,
-    /// Reason why results in the journal are left out.
-    left_out: Vec<String>,
-}
-
-/// The results of a study, as far as there are any.
-fn collected(plan: &Plan) -> Result<Found, Failure> {
+/// The results of a study, as far as there are any; the study, its tables, its scenes and what they read; and why results in the journal
+/// are left out.
+fn collected(plan: &Plan) -> Result<(Collected, Vec<PathBuf>, Vec<String>), Failure> {
     let mut inputs = plan.study().inputs();
     if plan.study().base.is_none() {
         // Each run is one of its own, for it was measured by itself.
         let numbers: Vec<String> = (1..=plan.runs()).map(|number| number.to_string()).collect();
         let collected = Collected::new(plan, &numbers, &Journal::default()).map_err(Failure::run)?;
-        return Ok(Found { collected, inputs, left_out: Vec::new() });
+        return Ok((collected, inputs, Vec::new()));
     }
     let resolved = Resolved::of(plan)?;
     note_short_tenths(plan.study(), &resolved.lengths(), &Messages);
@@ -90,7 +81,7 @@ fn collected(plan: &Plan) -> Result<Found, Failure> {
     }
     unanswered.say("finished runs", &Messages);
     inputs.extend(resolved.files);
-    Ok(Found { collected, inputs, left_out })
+    Ok((collected, inputs, left_out))
 }
 
 fn attributes(plan: &Plan, collected: &Collected) -> Result<Vec<(&'static str, Attribute)>, Failure> {

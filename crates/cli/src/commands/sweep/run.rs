@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Duration;
 
-use indicatif::{ProgressBar, ProgressStyle};
+use indicatif::ProgressBar;
 use plateau_io::number;
 use plateau_io::scene::Workers;
 use plateau_io::study::Study;
@@ -19,8 +19,8 @@ use plateau_run::{Job, Observer, RunOptions, signal_in_words};
 use crate::arguments::{SlurmArguments, SweepRunArguments, SweepSceneArguments};
 use crate::failure::{Failure, in_job, of_study};
 use crate::output::{print, print_json, table};
-use crate::terminal::{Interrupt, Messages};
-use crate::{commands, invocation, message, output, program};
+use crate::terminal::{Interrupt, Messages, Terminal};
+use crate::{commands, invocation, message, output, program, terminal};
 
 /// Makes the runs, together with the other processes of the job if there are any.
 pub fn run(arguments: &SweepRunArguments) -> Result<(), Failure> {
@@ -43,7 +43,7 @@ fn run_alone(arguments: &SweepRunArguments, number: usize, job: &mut Job) -> Res
         program: program::this(),
         ..RunOptions::default()
     };
-    let terminal = commands::run::preparing(job)?;
+    let terminal = Terminal::listen_for_run(job.leads()).map_err(Failure::run)?;
     commands::run::make(commands::run::warned(scene), &options, arguments.json, job, terminal)
 }
 
@@ -124,10 +124,7 @@ struct RunsProgress {
 impl RunsProgress {
     /// For so many runs with so many steps together.
     fn new(interrupt: Interrupt, runs: usize, steps: u64, visible: bool) -> Self {
-        let bar = if visible && !message::is_quiet() { ProgressBar::new(steps) } else { ProgressBar::hidden() };
-        if let Ok(style) = ProgressStyle::with_template("{bar:28} {percent:>3} %  {msg}  {eta} left") {
-            bar.set_style(style);
-        }
+        let bar = terminal::bar(steps, visible);
         if !bar.is_hidden() {
             bar.enable_steady_tick(Duration::from_secs(1));
         }
@@ -193,21 +190,17 @@ const MOST_TASKS: usize = 1000;
 /// Writes the script.
 pub fn slurm(arguments: &SlurmArguments) -> Result<(), Failure> {
     let plan = arguments.study.load()?;
-    let stem =
-        arguments.study.study.file_stem().map_or_else(|| "study".into(), |stem| stem.to_string_lossy().into_owned());
+    let stem = arguments.study.study.file_stem().map_or("study".into(), |stem| stem.to_string_lossy());
     let script = arguments.output.clone().unwrap_or_else(|| PathBuf::from(format!("{stem}.sbatch")));
     output::check(&script, arguments.force, &plan.study().inputs())?;
     let estimate = Estimate::of(&plan)?;
     if plan.runs() <= Resolved::MOST_AT_ONCE {
-        let resolved = Resolved::of(&plan)?;
-        resolved.refuse_unrecorded(plan.study(), &Messages)?;
+        Resolved::of(&plan)?.refuse_unrecorded(plan.study(), &Messages)?;
     }
     let cores = arguments.cores as usize;
     let total = estimate.mean_time * plan.runs() as f64 / cores as f64;
-    let wanted = arguments
-        .tasks
-        .map_or_else(|| ((total / TASK_TIME).ceil() as usize).clamp(1, MOST_TASKS), |tasks| tasks as usize);
-    let tasks = wanted.min(plan.runs());
+    let usual = ((total / TASK_TIME).ceil() as usize).clamp(1, MOST_TASKS);
+    let tasks = arguments.tasks.map_or(usual, |tasks| tasks as usize).min(plan.runs());
     let rounds = plan.runs().div_ceil(tasks).div_ceil(cores) as f64;
     let time = TIME_RESERVE * (estimate.mean_time * rounds).max(estimate.longest_time) + LEAST_TIME;
     let memory = MEMORY_RESERVE * estimate.memory as f64 * cores as f64 + PROGRAM_MEMORY;

@@ -14,6 +14,8 @@
 //! adds no error, and comes back after a while with a scout that begins with its surfaces: what the former scout differed by was
 //! mostly the error of its own past, which is no measure of what m costs the run now.
 
+pub mod scout;
+
 use serde::{Deserialize, Serialize};
 
 use crate::model::parameters::{Integrator, Parameters};
@@ -292,5 +294,5 @@ impl FadingMean {
 }
 
 #[cfg(test)]
-#[path = "../../tests/unit/acceleration/choice.rs"]
+#[path = "../tests/unit/acceleration.rs"]
 mod tests;
