@@ -112,6 +112,9 @@ pub fn run_words(name: &str, file: &str, settings: &[&str], more: &[&str]) -> Ve
 /// The source of the disc's heights in `quick.toml`.
 pub const DISC: &str = "synthetic = { seed = 1, rms_height = \"3 um\", correlation_length = \"200 um\" }";
 
+/// What makes a run of `quick.toml` one that does not end by itself while a test goes on.
+pub const ENDLESS: (&str, &str) = ("duration = \"60 s\"", "steps = 1000000000");
+
 /// Settings of a mesh so small that its runs take a moment.
 pub const SMALL_MESH: [&str; 3] = ["mesh.rows=8", "mesh.disc_columns=160", "mesh.pin_columns=16"];
 
@@ -251,6 +254,13 @@ impl WorkingDirectory {
         names
     }
 
+    /// Removes the files with this in their names: a run file with what is beside it.
+    pub fn remove(&self, part: &str) {
+        for name in self.names().iter().filter(|name| name.contains(part)) {
+            fs::remove_file(self.path(name)).expect("a file");
+        }
+    }
+
     /// A text with the path of this directory left out.
     pub fn without_path(&self, text: &str) -> String {
         text.replace(&self.directory.path().display().to_string(), "[directory]")
@@ -284,6 +294,16 @@ impl WorkingDirectory {
     /// Runs the program here.
     pub fn plateau<A: AsRef<OsStr>>(&self, arguments: impl IntoIterator<Item = A>) -> Outcome {
         run(self.command(arguments))
+    }
+
+    /// Runs the program here with 1 GB of address space: enough for itself, and not for what some files declare.
+    pub fn limited<A: AsRef<OsStr>>(&self, arguments: impl IntoIterator<Item = A>) -> Outcome {
+        run(self.command_after("ulimit -c 0; ulimit -v 1000000", arguments))
+    }
+
+    /// Makes a pipe with a name.
+    pub fn fifo(&self, name: &str) {
+        assert!(Command::new("mkfifo").arg(self.path(name)).status().expect("mkfifo").success());
     }
 }
 

@@ -2,9 +2,7 @@
 
 use std::fs;
 
-use plateau_tests::program::{
-    Outcome, WorkingDirectory, ended, kill, quick_scene_with, run, scene, send, start, wait_until,
-};
+use plateau_tests::program::{ENDLESS, Outcome, WorkingDirectory, ended, kill, run, scene, send, start, wait_until};
 use plateau_tests::run_file::RunFile;
 
 #[test]
@@ -91,16 +89,14 @@ fn a_full_disc_ends_a_run_with_a_message_and_never_looks_finished() {
         };
         let names: Vec<_> = directory.names().into_iter().filter(|name| name.starts_with("run.h5")).collect();
         assert_eq!(names, expected, "{what}");
-        for name in names {
-            fs::remove_file(directory.path(&name)).unwrap();
-        }
+        directory.remove("run.h5");
     }
     assert!(failed >= 10 && finished >= 1, "{failed} failed, {finished} finished");
 }
 
 #[test]
 fn samples_of_before_the_first_checkpoint_stay_when_a_run_begins_anew() {
-    let edits = [("duration = \"60 s\"", "steps = 1000000000"), ("sample_every = \"0.1 s\"", "sample_every_steps = 1")];
+    let edits = [ENDLESS, ("sample_every = \"0.1 s\"", "sample_every_steps = 1")];
     let directory = WorkingDirectory::with_scene(&edits);
     let arguments = ["run", "scene.toml", "-o", "run.h5", "--set", "output.checkpoint_every=3600 s"];
     let samples = |name: &str| RunFile::follow(directory.path(name)).map_or(0, |run| run.shape("/time")[0]);
@@ -131,7 +127,7 @@ fn samples_of_before_the_first_checkpoint_stay_when_a_run_begins_anew() {
 
 #[test]
 fn a_run_file_that_is_gone_is_missed_once() {
-    let directory = WorkingDirectory::with_scene(&[("duration = \"60 s\"", "steps = 1000000000")]);
+    let directory = WorkingDirectory::with_scene(&[ENDLESS]);
     let arguments = ["run", "scene.toml", "-o", "run.h5", "--set", "output.checkpoint_every=0.05 s"];
     let child = start(directory.command(arguments));
     let two = wait_until(|| directory.path("run.h5.checkpoint-before").exists());
@@ -146,10 +142,8 @@ fn a_run_file_that_is_gone_is_missed_once() {
 #[test]
 fn a_stopped_run_is_marked_interrupted_and_its_samples_are_whole() {
     for (signal, status) in [("INT", 130), ("TERM", 143)] {
-        let directory = WorkingDirectory::new();
-        let edits =
-            [("duration = \"60 s\"", "steps = 1000000000"), ("sample_every = \"0.1 s\"", "sample_every_steps = 100")];
-        directory.write("scene.toml", quick_scene_with(&edits));
+        let directory =
+            WorkingDirectory::with_scene(&[ENDLESS, ("sample_every = \"0.1 s\"", "sample_every_steps = 100")]);
         let child = start(directory.command(["run", "scene.toml", "-o", "run.h5"]));
         let file = directory.path("run.h5");
         let sampled = wait_until(|| RunFile::follow(&file).is_ok_and(|run| run.shape("/time")[0] >= 2));

@@ -4,13 +4,12 @@ use std::fs;
 use std::path::Path;
 use std::process::{Child, Command};
 
-use plateau_tests::program::{WorkingDirectory, kill, quick_scene_with, send, start, wait_until};
+use plateau_tests::program::{ENDLESS, WorkingDirectory, kill, quick_scene_with, send, start, wait_until};
 use plateau_tests::run_file::{RunFile, set_text};
 
 /// A run that does not end by itself while a test goes on; it has samples when this returns.
 fn endless_run(directory: &WorkingDirectory, file: &str) -> Child {
-    let edits =
-        [("duration = \"60 s\"", "steps = 1000000000"), ("sample_every = \"0.1 s\"", "sample_every_steps = 100")];
+    let edits = [ENDLESS, ("sample_every = \"0.1 s\"", "sample_every_steps = 100")];
     directory.write("scene.toml", quick_scene_with(&edits));
     let child = start(directory.command(["run", "scene.toml", "-o", file]));
     let path = directory.path(file);
