@@ -14,7 +14,7 @@ use std::time::{Duration, Instant};
 use serde_json::Value;
 use tempfile::TempDir;
 
-use crate::run_file::RunFile;
+use crate::run_file::{Content, RunFile, differences};
 use crate::scenes::Stream;
 
 /// What messages name the program, wherever it was built.
@@ -366,21 +366,24 @@ pub fn kill(mut child: Child) {
     child.wait().expect("its end");
 }
 
-/// Begins a run that goes on from where it was, again and again, kills it after a random time of at most so many seconds, and
-/// then lets it come to its end; how many times it was killed.
+/// Makes an undisturbed run, `whole.h5`, and the same as `run.h5`, which is killed again and again after a random time of at most
+/// so many seconds, goes on from where it was, and comes to its end; what both hold, and how many
+/// times it was killed.
 ///
 /// # Panics
-/// When it cannot be begun, or does not end well.
+/// When a run does not end well.
 pub fn go_on_through_kills<A: AsRef<OsStr>>(
     directory: &WorkingDirectory,
-    arguments: &[A],
+    arguments: impl Fn(&'static str, &'static [&'static str]) -> Vec<A>,
     kills: usize,
     seconds: f64,
     mut random: Stream,
-) -> usize {
+) -> (BTreeMap<String, Content>, usize) {
+    directory.plateau(arguments("whole.h5", &[])).ends(0, &[]);
+    let arguments = arguments("run.h5", &["--resume"]);
     let mut killed = 0;
     while killed < kills {
-        let mut child = start(directory.command(arguments));
+        let mut child = start(directory.command(&arguments));
         thread::sleep(Duration::from_secs_f64(seconds * random.uniform()));
         if child.try_wait().unwrap().is_some() {
             break;
@@ -388,8 +391,10 @@ pub fn go_on_through_kills<A: AsRef<OsStr>>(
         kill(child);
         killed += 1;
     }
-    assert_eq!(directory.plateau(arguments).status, Some(0));
-    killed
+    assert_eq!(directory.plateau(&arguments).status, Some(0));
+    let [whole, run] = ["whole.h5", "run.h5"].map(|name| directory.run_file(name).content());
+    assert_eq!(differences(&whole, &run), [""; 0], "after {killed} kills");
+    (whole, killed)
 }
 
 /// Waits until something holds; whether it did in time.

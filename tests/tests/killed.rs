@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use plateau_tests::program::{ENDLESS, Outcome, WorkingDirectory, ended, kill, run, scene, send, start, wait_until};
+use plateau_tests::program::{ENDLESS, WorkingDirectory, kill, run, scene, start, wait_until};
 use plateau_tests::run_file::RunFile;
 
 #[test]
@@ -137,26 +137,6 @@ fn a_run_file_that_is_gone_is_missed_once() {
     let refused = directory.plateau(arguments.iter().chain(&["--resume"]));
     let said = "plateau: run.h5 is gone, though its checkpoint is there; without --resume, --force begins again\n";
     assert_eq!((refused.status, refused.stderr.as_str()), (Some(2), said));
-}
-
-#[test]
-fn a_stopped_run_is_marked_interrupted_and_its_samples_are_whole() {
-    for (signal, status) in [("INT", 130), ("TERM", 143)] {
-        let directory =
-            WorkingDirectory::with_scene(&[ENDLESS, ("sample_every = \"0.1 s\"", "sample_every_steps = 100")]);
-        let child = start(directory.command(["run", "scene.toml", "-o", "run.h5"]));
-        let file = directory.path("run.h5");
-        let sampled = wait_until(|| RunFile::follow(&file).is_ok_and(|run| run.shape("/time")[0] >= 2));
-        send(signal, child.id());
-        let Outcome { stderr: message, .. } = ended(child).ends(status, &[]);
-        assert!(sampled, "{message}");
-        let run = RunFile::open(&file);
-        assert_eq!(run.text("state"), "interrupted");
-        let samples = run.shape("/time")[0];
-        assert_eq!(run.shape("/series/contact_area")[0], samples);
-        let end = format!("run.h5 holds {samples} samples, --resume goes on from here\n");
-        assert!(message.ends_with(&end), "{message}");
-    }
 }
 
 #[test]

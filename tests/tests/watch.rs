@@ -123,16 +123,3 @@ fn a_file_that_is_not_there_yet_is_waited_for() {
         .ends(2, &["cannot read never.h5: ", "none came within 1.0 s"]);
     directory.plateau(["watch", "never.h5", "--once"]).ends(2, &[]);
 }
-
-#[test]
-fn what_is_no_run_file_is_refused() {
-    let directory = WorkingDirectory::new();
-    let file = directory.write("notes.txt", "precious");
-    for command in [&["watch", "notes.txt"][..], &["summary", "notes.txt"]] {
-        let outcome = directory.plateau(command).ends(2, &[]);
-        let said = "notes.txt is not an HDF5 file, expected a run file of plateau, which `plateau run` writes";
-        assert_eq!((outcome.stdout.as_str(), outcome.stderr), ("", format!("plateau: {said}\n")));
-    }
-    assert_eq!(fs::read(file).unwrap(), b"precious");
-    assert_eq!(directory.names(), ["notes.txt"]);
-}
