@@ -34,6 +34,7 @@ fn a_file_or_a_directory_that_vanishes_ends_the_run() {
     disturbed(&directory, "run.h5", || fs::rename(directory.path("run.h5"), directory.path("moved.h5")).unwrap())
         .ends(1, &["run.h5 was moved, removed or replaced"]);
     // It is all that there is of the run.
+    assert_eq!(RunFile::follow(directory.path("moved.h5")).unwrap().text("state"), "running");
     directory.plateau(["repair", "moved.h5"]).quiet_success();
     assert!(directory.run_file("moved.h5").shape("/time")[0] > 1);
 
