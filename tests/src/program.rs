@@ -14,7 +14,7 @@ use std::time::{Duration, Instant};
 use serde_json::Value;
 use tempfile::TempDir;
 
-use crate::run_file::RunFile;
+use crate::run_file::{Content, RunFile, differences};
 use crate::scenes::Stream;
 
 /// What messages name the program, wherever it was built.
@@ -111,6 +111,9 @@ pub fn run_words(name: &str, file: &str, settings: &[&str], more: &[&str]) -> Ve
 
 /// The source of the disc's heights in `quick.toml`.
 pub const DISC: &str = "synthetic = { seed = 1, rms_height = \"3 um\", correlation_length = \"200 um\" }";
+
+/// What makes a run of `quick.toml` one that does not end by itself while a test goes on.
+pub const ENDLESS: (&str, &str) = ("duration = \"60 s\"", "steps = 1000000000");
 
 /// Settings of a mesh so small that its runs take a moment.
 pub const SMALL_MESH: [&str; 3] = ["mesh.rows=8", "mesh.disc_columns=160", "mesh.pin_columns=16"];
@@ -251,6 +254,13 @@ impl WorkingDirectory {
         names
     }
 
+    /// Removes the files with this in their names: a run file with what is beside it.
+    pub fn remove(&self, part: &str) {
+        for name in self.names().iter().filter(|name| name.contains(part)) {
+            fs::remove_file(self.path(name)).expect("a file");
+        }
+    }
+
     /// A text with the path of this directory left out.
     pub fn without_path(&self, text: &str) -> String {
         text.replace(&self.directory.path().display().to_string(), "[directory]")
@@ -284,6 +294,16 @@ impl WorkingDirectory {
     /// Runs the program here.
     pub fn plateau<A: AsRef<OsStr>>(&self, arguments: impl IntoIterator<Item = A>) -> Outcome {
         run(self.command(arguments))
+    }
+
+    /// Runs the program here with 1 GB of address space: enough for itself, and not for what some files declare.
+    pub fn limited<A: AsRef<OsStr>>(&self, arguments: impl IntoIterator<Item = A>) -> Outcome {
+        run(self.command_after("ulimit -c 0; ulimit -v 1000000", arguments))
+    }
+
+    /// Makes a pipe with a name.
+    pub fn fifo(&self, name: &str) {
+        assert!(Command::new("mkfifo").arg(self.path(name)).status().expect("mkfifo").success());
     }
 }
 
@@ -346,21 +366,24 @@ pub fn kill(mut child: Child) {
     child.wait().expect("its end");
 }
 
-/// Begins a run that goes on from where it was, again and again, kills it after a random time of at most so many seconds, and
-/// then lets it come to its end; how many times it was killed.
+/// Makes an undisturbed run, `whole.h5`, and the same as `run.h5`, which is killed again and again after a random time of at most
+/// so many seconds, goes on from where it was, and comes to its end; what both hold, and how many
+/// times it was killed.
 ///
 /// # Panics
-/// When it cannot be begun, or does not end well.
+/// When a run does not end well.
 pub fn go_on_through_kills<A: AsRef<OsStr>>(
     directory: &WorkingDirectory,
-    arguments: &[A],
+    arguments: impl Fn(&'static str, &'static [&'static str]) -> Vec<A>,
     kills: usize,
     seconds: f64,
     mut random: Stream,
-) -> usize {
+) -> (BTreeMap<String, Content>, usize) {
+    directory.plateau(arguments("whole.h5", &[])).ends(0, &[]);
+    let arguments = arguments("run.h5", &["--resume"]);
     let mut killed = 0;
     while killed < kills {
-        let mut child = start(directory.command(arguments));
+        let mut child = start(directory.command(&arguments));
         thread::sleep(Duration::from_secs_f64(seconds * random.uniform()));
         if child.try_wait().unwrap().is_some() {
             break;
@@ -368,8 +391,10 @@ pub fn go_on_through_kills<A: AsRef<OsStr>>(
         kill(child);
         killed += 1;
     }
-    assert_eq!(directory.plateau(arguments).status, Some(0));
-    killed
+    assert_eq!(directory.plateau(&arguments).status, Some(0));
+    let [whole, run] = ["whole.h5", "run.h5"].map(|name| directory.run_file(name).content());
+    assert_eq!(differences(&whole, &run), [""; 0], "after {killed} kills");
+    (whole, killed)
 }
 
 /// Waits until something holds; whether it did in time.

@@ -1,11 +1,14 @@
 //! Run files as a reader sees them.
 
 use std::collections::BTreeMap;
+use std::fs;
 use std::path::Path;
 
 use hdf5::file::OpenMode;
 use hdf5::types::{TypeDescriptor, VarLenAscii, VarLenUnicode};
 use hdf5::{Dataset, Group, H5Type};
+
+use crate::program::WorkingDirectory;
 
 /// A status as docs/run-file.md numbers and names it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, H5Type)]
@@ -52,6 +55,20 @@ pub fn differences_of_start(whole: &BTreeMap<String, Content>, part: &BTreeMap<S
         _ => true,
     };
     paths.filter(differs).cloned().collect()
+}
+
+/// Asserts of a run file that a stopped run left, if it did, that after `plateau repair` it holds the start of the whole run.
+///
+/// # Panics
+/// When it does not.
+pub fn assert_holds_start(directory: &WorkingDirectory, name: &str, whole: &BTreeMap<String, Content>) {
+    let [file, copy] = [name, "copy.h5"].map(|name| directory.path(name));
+    if file.exists() {
+        fs::copy(file, &copy).expect("a copy");
+        directory.plateau(["repair", "copy.h5"]).quiet_success();
+        assert_eq!(differences_of_start(whole, &RunFile::open(&copy).content()), [""; 0]);
+        directory.remove("copy.h5");
+    }
 }
 
 /// How a test opens every HDF5 file: without a lock. Commands that other tests start in the meantime inherit the open file, and a

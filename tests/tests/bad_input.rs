@@ -64,6 +64,10 @@ const H5_SOURCE: &str = "file = \"surface.h5\"";
 
 fn nothing(_: &WorkingDirectory) {}
 
+fn text_in_place(directory: &WorkingDirectory) {
+    directory.write("run.h5", "no HDF5");
+}
+
 fn quick(directory: &WorkingDirectory) {
     directory.write("scene.toml", quick_scene_with(&[]));
 }
@@ -95,9 +99,8 @@ fn command_lines() -> Vec<Case> {
         case("workers that are no number", &["run", "scene.toml", "--workers", "many"], quick),
         case("unknown instruction set", &["run", "scene.toml", "--isa", "nonsense"], quick),
         case("run file is missing", &["summary", "run.h5"], nothing),
-        case("run file is a text", &["summary", "run.h5"], |directory| {
-            directory.write("run.h5", "no HDF5");
-        }),
+        case("run file is a text", &["summary", "run.h5"], text_in_place),
+        case("text that is watched", &["watch", "run.h5"], text_in_place),
         case("run file of something else", &["summary", "surface.h5"], |directory| ring(directory, |_| 0.0)),
         case("no patience", &["watch", "run.h5", "--timeout", "0"], nothing),
         case("manual pages into a file", &["man", "-o", "scene.toml"], quick),

@@ -115,6 +115,9 @@ fn local(parameters: &mut Parameters) {
     parameters.plateaus.captured_fraction = 1.0;
 }
 
+/// What a scene is for.
+type Happens = fn(&Sample) -> bool;
+
 fn plateaus_form_and_break(end: &Sample) -> bool {
     end.worn_resin > 0.0 && end.deposited_pin > 0.0 && end.deposited_disc > 0.0 && end.returned > 0.0
 }
@@ -127,80 +130,38 @@ fn plateaus_form_of_local_debris(end: &Sample) -> bool {
     end.worn_resin > 0.0 && end.deposited_pin > 0.0 && end.deposited_disc > 0.0 && end.emitted > 0.0
 }
 
-#[test]
-fn the_quick_scene() {
-    Scene::quick(1500, &[FAST]).agrees_for_all(plateaus_form_of_local_debris);
-}
-
-#[test]
-fn a_strength_of_build_up() {
-    Scene::quick(1500, &BRITTLE).agrees_for_all(plateaus_form_and_break);
-}
-
-#[test]
-fn a_transport_length() {
-    Scene::quick(1500, &TRANSPORT).agrees_for_all(plateaus_form_of_local_debris);
-}
-
-#[test]
-fn a_transport_length_with_a_strength_and_wear_by_counterface() {
-    let sets = [&TRANSPORT[..], &BRITTLE[1..], &[COUNTERFACE]].concat();
-    Scene::quick(1500, &sets).agrees_for_all(plateaus_form_and_break);
-}
-
 /// A round pin, whose rows begin and end in other columns, on the cells of the quick scene.
 const ROUND: [&str; 4] = ["mesh.shape=disc", "mesh.pin_width=4 mm", "mesh.cell_size=200 um", "mesh.mean_radius=22 mm"];
+const NO_FORMATION: [&str; 2] = [FAST, "plateaus.formation=false"];
+const EXPONENTIAL: &[&str] = &["numerics.integrator=exponential"];
+/// Of the disc alone.
+const DISC_WEARS: &[&str] = &[OWN_MATERIALS[0]];
 
 #[test]
-fn a_round_pin() {
-    Scene::quick(1500, &[&ROUND[..], &[FAST]].concat()).agrees_for_all(plateaus_form_of_local_debris);
-}
-
-#[test]
-fn a_round_pin_with_a_strength() {
-    Scene::quick(1500, &[&ROUND[..], &BRITTLE].concat()).agrees_for_all(plateaus_form_and_break);
-}
-
-#[test]
-fn a_round_pin_with_materials_of_their_own_and_a_transport_length() {
-    let sets = [&ROUND[..], &TRANSPORT, &OWN_MATERIALS].concat();
-    Scene::quick(1500, &sets).agrees_for_all(|end| plateaus_form_of_local_debris(end) && end.worn_disc > 0.0);
-}
-
-#[test]
-fn exponential_wear_with_materials_of_their_own() {
-    let sets = [&BRITTLE[..], &OWN_MATERIALS, &["numerics.integrator=exponential"]].concat();
-    Scene::quick(1500, &sets).agrees_for_all(the_disc_wears_too);
-}
-
-#[test]
-fn explicit_wear_with_materials_of_their_own_and_all_that_build_up_can_have() {
-    let sets = [&TRANSPORT[..], &BRITTLE[1..], &OWN_MATERIALS].concat();
-    Scene::quick(1500, &sets).agrees_for_all(the_disc_wears_too);
-}
-
-#[test]
-fn explicit_wear_with_materials_of_their_own_and_local_debris() {
-    let sets = [&[FAST][..], &OWN_MATERIALS].concat();
-    Scene::quick(1500, &sets).agrees_for_all(|end| plateaus_form_of_local_debris(end) && end.worn_disc > 0.0);
-}
-
-#[test]
-fn local_debris_on_a_disc_that_wears() {
-    let sets = [FAST, OWN_MATERIALS[0]];
-    Scene::quick(1500, &sets).agrees_for_all(|end| plateaus_form_of_local_debris(end) && end.worn_disc > 0.0);
-}
-
-#[test]
-fn no_formation() {
-    let sets = [FAST, "plateaus.formation=false"];
-    Scene::quick(1500, &sets).agrees_for_all(|end| end.worn_resin > 0.0 && end.deposited_disc == 0.0);
-}
-
-#[test]
-fn no_formation_on_a_disc_that_wears() {
-    let sets = [FAST, "plateaus.formation=false", OWN_MATERIALS[0]];
-    Scene::quick(1500, &sets).agrees_for_all(|end| end.worn_disc > 0.0 && end.deposited_disc == 0.0);
+fn the_quick_scene_with_every_option() {
+    let break_up: Happens = plateaus_form_and_break;
+    let local: Happens = plateaus_form_of_local_debris;
+    let local_on_a_disc_that_wears: Happens = |end| plateaus_form_of_local_debris(end) && end.worn_disc > 0.0;
+    let no_formation: Happens = |end| end.worn_resin > 0.0 && end.deposited_disc == 0.0;
+    let no_formation_on_a_disc_that_wears: Happens = |end| end.worn_disc > 0.0 && end.deposited_disc == 0.0;
+    let scenes: [(&[&[&str]], Happens); 13] = [
+        (&[&[FAST]], local),
+        (&[&BRITTLE], break_up),
+        (&[&TRANSPORT], local),
+        (&[&TRANSPORT, &BRITTLE[1..], &[COUNTERFACE]], break_up),
+        (&[&ROUND, &[FAST]], local),
+        (&[&ROUND, &BRITTLE], break_up),
+        (&[&ROUND, &TRANSPORT, &OWN_MATERIALS], local_on_a_disc_that_wears),
+        (&[&BRITTLE, &OWN_MATERIALS, EXPONENTIAL], the_disc_wears_too),
+        (&[&TRANSPORT, &BRITTLE[1..], &OWN_MATERIALS], the_disc_wears_too),
+        (&[&[FAST], &OWN_MATERIALS], local_on_a_disc_that_wears),
+        (&[&[FAST], DISC_WEARS], local_on_a_disc_that_wears),
+        (&[&NO_FORMATION], no_formation),
+        (&[&NO_FORMATION, DISC_WEARS], no_formation_on_a_disc_that_wears),
+    ];
+    for (sets, happens) in scenes {
+        Scene::quick(1500, &sets.concat()).agrees_for_all(happens);
+    }
 }
 
 #[test]

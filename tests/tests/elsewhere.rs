@@ -3,10 +3,9 @@
 
 use std::fs;
 use std::path::Path;
-use std::process::Command;
 
 use hdf5::File;
-use plateau_tests::program::{DISC, Outcome, WorkingDirectory, quick_scene_with, run, run_words, scene};
+use plateau_tests::program::{DISC, Outcome, WorkingDirectory, quick_scene_with, run_words, scene};
 use plateau_tests::run_file::{changed, created};
 
 const SHAPE: (usize, usize) = (690, 20);
@@ -27,18 +26,13 @@ fn read_as_surface(directory: &WorkingDirectory, file: &str) -> Vec<Outcome> {
     let output = format!("run-of-{file}").replace('/', "-");
     directory.write("scene.toml", quick_scene_with(&[(DISC, &format!("file = \"{file}\""))]));
     let commands: [&[&str]; 3] = [&["surface", file], &["check", "scene.toml"], &["run", "scene.toml", "-o", &output]];
-    commands.map(|command| limited(directory, command)).into()
+    commands.map(|command| directory.limited(command)).into()
 }
 
 /// Every command that reads a run file.
 fn read_as_run(directory: &WorkingDirectory, file: &str) -> Vec<Outcome> {
     let commands: [&[&str]; 4] = [&["verify", file], &["repair", file], &["summary", file], &["watch", file, "--once"]];
-    commands.map(|command| limited(directory, command)).into()
-}
-
-/// With 1 GB of address space: enough for the program, and not for what some files declare.
-fn limited(directory: &WorkingDirectory, command: &[&str]) -> Outcome {
-    run(directory.command_after("ulimit -c 0; ulimit -v 1000000", command))
+    commands.map(|command| directory.limited(command)).into()
 }
 
 fn assert_ends(outcomes: Vec<Outcome>, status: &[i32], said: &str) {
@@ -54,8 +48,7 @@ fn surfaces_that_are_in_other_files_are_refused_with_what_they_point_to() {
     let directory = WorkingDirectory::new();
     hdf5_file(&directory.path("other.h5"), |file| heights(file, "height"));
     hdf5_file(&directory.path("link.h5"), |file| file.link_external("other.h5", "/height", "height"));
-    let fifo = directory.path("fifo");
-    assert!(Command::new("mkfifo").arg(&fifo).status().unwrap().success());
+    directory.fifo("fifo");
     hdf5_file(&directory.path("deep.h5"), |file| {
         heights(file, "mine")?;
         file.create_group("deep")?.link_external("fifo", "/height", "height")
@@ -101,8 +94,8 @@ fn links_in_a_circle_and_shapes_without_data_do_no_harm() {
         inner.link_soft("/height", "soft30")
     });
     assert_ends(read_as_surface(&directory, "circle.h5"), &[0], "");
-    limited(&directory, &["surface", "circle.h5", "--dataset", "/inner/soft0"]).ends(2, &[]);
-    limited(&directory, &["surface", "circle.h5", "--dataset", "/inner/soft30"]).ends(0, &[]);
+    directory.limited(["surface", "circle.h5", "--dataset", "/inner/soft0"]).ends(2, &[]);
+    directory.limited(["surface", "circle.h5", "--dataset", "/inner/soft30"]).ends(0, &[]);
     // As many points as are read at most, 2 GiB of them, in a file of some kilobytes.
     hdf5_file(&directory.path("hollow.h5"), |file| {
         file.new_dataset::<f64>().chunk((64, 64)).shape((1 << 14, 1 << 14)).create("height")?;
@@ -137,20 +130,20 @@ fn run_files_must_be_whole_too() {
 #[test]
 fn pipes_and_devices_are_refused_and_not_waited_for() {
     let directory = WorkingDirectory::new();
-    assert!(Command::new("mkfifo").arg(directory.path("fifo")).status().unwrap().success());
+    directory.fifo("fifo");
     for file in ["fifo", "/dev/zero"] {
         let text = "regular file";
         assert_ends(read_as_run(&directory, file), &[2], text);
         assert_ends(read_as_surface(&directory, file), &[2], text);
         for command in [&["run", file][..], &["check", file], &["sweep", "run", file]] {
-            assert_ends(vec![limited(&directory, command)], &[2], text);
+            assert_ends(vec![directory.limited(command)], &[2], text);
         }
     }
     // Where a checkpoint or the lock would be.
     for name in ["run.h5.checkpoint", "run.h5.lock"] {
         fs::rename(directory.path("fifo"), directory.path(name)).unwrap();
         for more in ["--force", "--resume"] {
-            limited(&directory, &["run", &scene("quick.toml"), "-o", "run.h5", more]).ends(2, &[name]);
+            directory.limited(["run", &scene("quick.toml"), "-o", "run.h5", more]).ends(2, &[name]);
         }
         fs::rename(directory.path(name), directory.path("fifo")).unwrap();
     }

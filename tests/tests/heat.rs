@@ -1,6 +1,6 @@
 //! Friction, heat and emission through the whole program: closed forms, the same bits, kills, and what is refused.
 
-use plateau_tests::program::{WorkingDirectory, go_on_through_kills, run_words, scene};
+use plateau_tests::program::{WorkingDirectory, go_on_through_kills, scene};
 use plateau_tests::run_file::differences;
 use plateau_tests::scenes::{Stream, few_or_all};
 use plateau_tests::studies::Study;
@@ -177,28 +177,6 @@ fn a_brake_is_its_pin_in_the_ratio_of_areas_and_radii() {
 }
 
 #[test]
-fn flat_on_flat_has_the_coefficient_of_the_closed_form() {
-    let directory = WorkingDirectory::new();
-    let friction = "friction={ pressure_coefficient = 0.33, shear_strength = \"0.75 MPa\", maximum = 0.6 }";
-    let flat = [friction, "disc.surface.flat=true", "pin.surface.flat=true", "pin.base.uniform=primary"];
-    for force in [60.0, 30.0, 3.0] {
-        let (force_set, name) = (format!("operation.normal_force={force} N"), format!("{force}.h5"));
-        let settings = [&flat[..], &["operation.duration=1 s", &force_set]].concat();
-        directory.plateau(run_words("quick.toml", &name, &settings, &[])).quiet_success();
-        let run = directory.run_file(&name);
-        // The pin covers 40 of 690 columns of a ring from 20 to 21 mm.
-        let area = std::f64::consts::PI * (21e-3_f64.powi(2) - 20e-3_f64.powi(2)) * 40.0 / 690.0;
-        let expected = (0.33 + 0.75e6 * area / force).min(0.6);
-        for path in ["/series/friction_coefficient", "/series/friction_coefficient_mean"] {
-            assert!(run.floats(path).iter().all(|found| (found / expected - 1.0).abs() < 1e-12), "{force} N, {path}");
-        }
-        let (work, distance) = (run.floats("/series/friction_work"), run.floats("/series/sliding_distance"));
-        let whole = |(work, distance): (&f64, &f64)| (work / (expected * force * distance) - 1.0).abs() < 1e-12;
-        assert!(work.iter().zip(&distance).all(whole));
-    }
-}
-
-#[test]
 fn workers_and_instruction_sets_agree_on_heat() {
     let directory = WorkingDirectory::with(
         "hot.toml",
@@ -236,11 +214,7 @@ fn a_hot_run_that_is_killed_ends_like_an_undisturbed_one() {
         let sets = ["--set", "operation.cycle.repeat=2", "--set", "operation.duration=110 s"];
         [&["run", "hot.toml", "-o", name, "--set", "numerics.time_acceleration=1"][..], &sets, more].concat()
     };
-    directory.plateau(arguments("whole.h5", &[])).quiet_success();
-    let killed =
-        go_on_through_kills(&directory, &arguments("run.h5", &["--resume"]), few_or_all(3, 40), 0.6, Stream(22));
-    let [whole, run] = ["whole.h5", "run.h5"].map(|name| directory.run_file(name).content());
-    assert_eq!(differences(&whole, &run), [""; 0], "after {killed} kills");
+    go_on_through_kills(&directory, arguments, few_or_all(3, 40), 0.6, Stream(22));
 }
 
 #[test]

@@ -2,7 +2,6 @@
 
 use std::fs::{self, File};
 use std::path::Path;
-use std::process::Command;
 
 use plateau_tests::fault::without_threads;
 use plateau_tests::program::{DISC, Outcome, WorkingDirectory, quick_scene_with, run, scene};
@@ -16,11 +15,6 @@ const HUGE: u64 = 1 << 40;
 fn huge(directory: &WorkingDirectory, name: &str, start: &[u8], length: u64) {
     let path = directory.write(name, start);
     File::options().write(true).open(path).unwrap().set_len(length).unwrap();
-}
-
-/// With 1 GB of address space: enough for the program, and not for what some files declare.
-fn limited(directory: &WorkingDirectory, command: &[&str]) -> Outcome {
-    run(directory.command_after("ulimit -c 0; ulimit -v 1000000", command))
 }
 
 /// Two runs of a moment.
@@ -59,19 +53,19 @@ fn files_that_are_too_large_are_refused_with_both_numbers() {
     let most = "expected at most";
     huge(&directory, "study.toml", b"version = 1\n", HUGE);
     for command in ["plan", "run", "collect", "slurm"] {
-        assert_refused(&limited(&directory, &["sweep", command, "study.toml"]), most);
+        assert_refused(&directory.limited(["sweep", command, "study.toml"]), most);
     }
     huge(&directory, "big.toml", b"version = 1\n", HUGE);
     for command in ["run", "check"] {
-        assert_refused(&limited(&directory, &[command, "big.toml"]), "larger than 1 MiB");
+        assert_refused(&directory.limited([command, "big.toml"]), "larger than 1 MiB");
     }
     huge(&directory, "points.csv", b"load\n5 N\n", HUGE);
     directory.write("points.toml", Study::new(&scene("quick.toml"), "csv", "file = \"points.csv\"").load(""));
-    assert_refused(&limited(&directory, &["sweep", "plan", "points.toml"]), most);
+    assert_refused(&directory.limited(["sweep", "plan", "points.toml"]), most);
     huge(&directory, "stops.csv", b"time [s]\n0\n1\n", HUGE);
     let cycle = ["check", &scene("quick.toml"), "--set"];
     let set = format!("operation.cycle.file=\"{}\"", directory.path("stops.csv").display());
-    assert_refused(&limited(&directory, &[&cycle[..], &[&set]].concat()), most);
+    assert_refused(&directory.limited([&cycle[..], &[&set]].concat()), most);
     let png = b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR";
     for (name, start, more) in [
         ("heights.txt", &b"1 2 3 4\n5 6 7 8\n"[..], "unit = \"um\"\n"),
@@ -83,13 +77,13 @@ fn files_that_are_too_large_are_refused_with_both_numbers() {
             start.iter().copied().chain(if name.ends_with("txt") { vec![b' '; 8192] } else { vec![] }).collect();
         huge(&directory, name, &start, HUGE);
         surface_scene(&directory, name, more);
-        assert_refused(&limited(&directory, &["check", "scene.toml"]), most);
-        assert_refused(&limited(&directory, &["surface", name]), most);
+        assert_refused(&directory.limited(["check", "scene.toml"]), most);
+        assert_refused(&directory.limited(["surface", name]), most);
     }
     // Below the limit, and not what its header says: more than the memory here.
     let header = b"\x93NUMPY\x01\0\x76\0{'descr': '<f8', 'fortran_order': False, 'shape': (10, 10), }";
     huge(&directory, "holes.npy", &[&header[..], &[b' '; 56], b"\n"].concat(), 3_200_000_000);
-    let said = limited(&directory, &["surface", "holes.npy"]);
+    let said = directory.limited(["surface", "holes.npy"]);
     assert_refused(&said, "3199999872 bytes");
 }
 
@@ -101,15 +95,15 @@ fn checkpoints_and_journals_take_no_more_memory_than_they_hold() {
     let before = fs::read(directory.path("run.h5")).unwrap();
     let content = (HUGE - 16 - 8 - 32).to_le_bytes();
     huge(&directory, "run.h5.checkpoint", &[&b"plateau state 8\n"[..], &content].concat(), HUGE);
-    let refused = limited(&directory, &[&short[..], &["--resume"]].concat());
+    let refused = directory.limited([&short[..], &["--resume"]].concat());
     assert_refused(&refused, "larger than any of this run");
     assert!(fs::read(directory.path("run.h5")).unwrap() == before);
     // A line that never ends, and a pipe.
     directory.write("study.toml", loads());
     huge(&directory, "results/journal/h_1_0-0.journal", b"00000000 {", 1 << 30);
-    assert!(Command::new("mkfifo").arg(directory.path("results/journal/h_1_0-1.journal")).status().unwrap().success());
+    directory.fifo("results/journal/h_1_0-1.journal");
     for command in ["run", "collect"] {
-        limited(&directory, &["sweep", command, "study.toml"]).ends(0, &[]);
+        directory.limited(["sweep", command, "study.toml"]).ends(0, &[]);
     }
 }
 
@@ -186,7 +180,7 @@ fn what_memory_does_not_hold_is_refused_before_it_is_made() {
     let image = [b"\x89PNG\r\n\x1a\n", &length[..], &header, &sum.sum().to_be_bytes(), &[0; 300_000]].concat();
     directory.write("height.png", image);
     surface_scene(&directory, "height.png", "pitch = \"1 um\"\nheight_range = [\"0 um\", \"1 um\"]\n");
-    let refused = limited(&directory, &["run", "scene.toml"]);
+    let refused = directory.limited(["run", "scene.toml"]);
     assert_refused(&refused, "16384 x 16384 pixels need 2.5 GiB of memory and ");
     // As many heights, of which one chunk is there.
     let file = hdf5::File::create(directory.path("height.h5")).unwrap();
@@ -196,7 +190,7 @@ fn what_memory_does_not_hold_is_refused_before_it_is_made() {
     drop(heights);
     file.close().unwrap();
     surface_scene(&directory, "height.h5", "pitch = \"1 um\"\n");
-    let refused = limited(&directory, &["run", "scene.toml"]);
+    let refused = directory.limited(["run", "scene.toml"]);
     assert_refused(&refused, "the heights of dataset /height need 4.0 GiB of memory and ");
     // More objects than a file of measurements has.
     let file = hdf5::File::create(directory.path("many.h5")).unwrap();
@@ -205,7 +199,7 @@ fn what_memory_does_not_hold_is_refused_before_it_is_made() {
     }
     file.close().unwrap();
     surface_scene(&directory, "many.h5", "pitch = \"1 um\"\n");
-    let refused = limited(&directory, &["run", "scene.toml"]);
+    let refused = directory.limited(["run", "scene.toml"]);
     assert_refused(&refused, "it has more than 10000 groups and datasets, expected at most that many");
 }
 

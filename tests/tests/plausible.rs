@@ -43,9 +43,8 @@ fn a_slip_of_the_unit_is_told_by_check_and_run_and_stops_neither() {
 
 #[test]
 fn a_run_tells_at_its_end_that_the_disc_wore_below_its_lowlands() {
-    let directory = WorkingDirectory::new();
     let edits = [("duration = \"60 s\"", "steps = 1380"), ("sample_every = \"0.1 s\"\n", "")];
-    directory.write("scene.toml", quick_scene_with(&edits));
+    let directory = WorkingDirectory::with_scene(&edits);
     let run = |wear_rate: &str| {
         let wear_rate = format!("materials.disc_primary.specific_wear_rate={wear_rate}");
         let sets = ["--set", &wear_rate, "--set", "plateaus.formation=false"];

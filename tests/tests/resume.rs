@@ -1,6 +1,5 @@
 //! Runs that are stopped, killed and gone on with end as if nothing had happened.
 
-use std::collections::BTreeMap;
 use std::fs;
 use std::os::unix::fs::MetadataExt;
 use std::path::Path;
@@ -8,7 +7,7 @@ use std::thread;
 use std::time::Duration;
 
 use plateau_tests::program::{Outcome, WorkingDirectory, kill, run_words, send, start, wait_until};
-use plateau_tests::run_file::{Content, RunFile, differences, differences_of_start};
+use plateau_tests::run_file::{RunFile, assert_holds_start, differences};
 use plateau_tests::scenes::Stream;
 use plateau_tests::scenes::few_or_all;
 
@@ -57,7 +56,7 @@ fn a_run_killed_again_and_again_ends_bit_for_bit_like_an_undisturbed_one() {
         let Some(status) = status else {
             kill(child);
             killed += 1;
-            check_that_it_holds_a_start(&directory, "run.h5", &whole);
+            assert_holds_start(&directory, "run.h5", &whole);
             continue;
         };
         assert!(status.success(), "{status}");
@@ -69,25 +68,13 @@ fn a_run_killed_again_and_again_ends_bit_for_bit_like_an_undisturbed_one() {
         let (before, own): (Vec<_>, Vec<_>) = names.iter().partition(|name| name.ends_with(".before-resume"));
         let kept = ["run.h5", "run.h5.checkpoint", "run.h5.checkpoint-before"];
         assert!(own.len() <= kept.len() && own.iter().zip(kept).all(|(own, kept)| **own == kept), "{names:?}");
-        before.iter().for_each(|name| check_that_it_holds_a_start(&directory, name, &whole));
+        before.iter().for_each(|name| assert_holds_start(&directory, name, &whole));
         // Once more changes nothing.
         run(&directory, "run.h5", &["--resume"]).ends(0, &["is finished"]);
         ended += 1;
-        names.iter().for_each(|name| fs::remove_file(directory.path(name)).unwrap());
+        directory.remove("run.h5");
     }
     println!("{killed} kills, {ended} runs to their end");
-}
-
-/// Whatever the moment of a kill, after `plateau repair` the file holds the start of the whole run.
-fn check_that_it_holds_a_start(directory: &WorkingDirectory, name: &str, whole: &BTreeMap<String, Content>) {
-    let [file, copy] = [name, "copy.h5"].map(|name| directory.path(name));
-    if file.exists() {
-        fs::copy(file, &copy).unwrap();
-        directory.plateau(["repair", "copy.h5"]).quiet_success();
-        assert_eq!(differences_of_start(whole, &RunFile::open(&copy).content()), [""; 0]);
-        let copies = directory.names().into_iter().filter(|name| name.starts_with("copy.h5"));
-        copies.for_each(|name| fs::remove_file(directory.path(&name)).unwrap());
-    }
 }
 
 #[test]

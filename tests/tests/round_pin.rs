@@ -90,11 +90,9 @@ fn a_killed_run_of_a_round_pin_ends_as_an_undisturbed_one() {
     let directory = WorkingDirectory::new();
     let more = ["operation.steps=150000", "output.sample_every_steps=2000", "output.checkpoint_every=0.03 s"];
     let sets = [&ROUND[..], &more].concat();
-    let whole = run(&directory, "whole.h5", &sets, &[]).content();
-    let words = run_words("quick.toml", "run.h5", &sets, &["--resume"]);
-    let killed = go_on_through_kills(&directory, &words, few_or_all(2, 6), 0.5, Stream(3));
+    let words = |file: &str, more: &[&str]| run_words("quick.toml", file, &sets, more);
+    let (_, killed) = go_on_through_kills(&directory, words, few_or_all(2, 6), 0.5, Stream(3));
     assert!(killed > 0);
-    assert_eq!(differences(&directory.run_file("run.h5").content(), &whole), [""; 0]);
 }
 
 #[test]

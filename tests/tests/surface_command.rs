@@ -4,7 +4,7 @@ mod pictures;
 
 use std::fs;
 
-use plateau_tests::program::{Outcome, WorkingDirectory, quick_scene_with, run, run_words};
+use plateau_tests::program::{Outcome, WorkingDirectory, run, run_words};
 
 /// An SDF of 4 x 3 points, in µm: a slope along x, with a point missing.
 fn small_sdf() -> String {
@@ -41,13 +41,12 @@ fn files_are_replaced_only_on_demand() {
 
 #[test]
 fn roughness_is_in_the_run_file_on_request() {
-    let directory = WorkingDirectory::new();
     let edits = [
         ("duration = \"60 s\"", "steps = 25"),
         ("sample_every = \"0.1 s\"", "sample_every_steps = 10\nroughness = true"),
         ("maps_at = [\"0 s\"]", "maps_at = []"),
     ];
-    directory.write("scene.toml", quick_scene_with(&edits));
+    let directory = WorkingDirectory::with_scene(&edits);
     directory.plateau(["run", "scene.toml", "-o", "one.h5"]).quiet_success();
     let one = directory.run_file("one.h5");
     for (body, sign) in [("disc", 1.0), ("pin", -1.0)] {

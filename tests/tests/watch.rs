@@ -4,13 +4,12 @@ use std::fs;
 use std::path::Path;
 use std::process::{Child, Command};
 
-use plateau_tests::program::{WorkingDirectory, kill, quick_scene_with, send, start, wait_until};
+use plateau_tests::program::{ENDLESS, WorkingDirectory, kill, quick_scene_with, send, start, wait_until};
 use plateau_tests::run_file::{RunFile, set_text};
 
 /// A run that does not end by itself while a test goes on; it has samples when this returns.
 fn endless_run(directory: &WorkingDirectory, file: &str) -> Child {
-    let edits =
-        [("duration = \"60 s\"", "steps = 1000000000"), ("sample_every = \"0.1 s\"", "sample_every_steps = 100")];
+    let edits = [ENDLESS, ("sample_every = \"0.1 s\"", "sample_every_steps = 100")];
     directory.write("scene.toml", quick_scene_with(&edits));
     let child = start(directory.command(["run", "scene.toml", "-o", file]));
     let path = directory.path(file);
@@ -123,17 +122,4 @@ fn a_file_that_is_not_there_yet_is_waited_for() {
         .plateau(["watch", "never.h5", "--timeout", "1"])
         .ends(2, &["cannot read never.h5: ", "none came within 1.0 s"]);
     directory.plateau(["watch", "never.h5", "--once"]).ends(2, &[]);
-}
-
-#[test]
-fn what_is_no_run_file_is_refused() {
-    let directory = WorkingDirectory::new();
-    let file = directory.write("notes.txt", "precious");
-    for command in [&["watch", "notes.txt"][..], &["summary", "notes.txt"]] {
-        let outcome = directory.plateau(command).ends(2, &[]);
-        let said = "notes.txt is not an HDF5 file, expected a run file of plateau, which `plateau run` writes";
-        assert_eq!((outcome.stdout.as_str(), outcome.stderr), ("", format!("plateau: {said}\n")));
-    }
-    assert_eq!(fs::read(file).unwrap(), b"precious");
-    assert_eq!(directory.names(), ["notes.txt"]);
 }

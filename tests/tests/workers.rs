@@ -14,17 +14,8 @@ use serde_json::Value;
 
 /// Run attributes that tell how, where and when a run was carried out, or whose content does: the resolved scene has
 /// a line for the workers, and the digest of the attributes is one of the scene, too.
-const OF_THE_EXECUTION: [&str; 9] = [
-    "decomposition",
-    "workers",
-    "instruction_set",
-    "scene",
-    "start_time",
-    "end_time",
-    "wall_time",
-    "attributes_sha256",
-    "execution_sha256",
-];
+const OF_THE_EXECUTION: &str =
+    "decomposition workers instruction_set scene start_time end_time wall_time attributes_sha256 execution_sha256";
 
 fn cores() -> usize {
     available_parallelism().map_or(1, NonZeroUsize::get)
@@ -46,7 +37,8 @@ fn told(file: &RunFile) -> (BTreeMap<String, Content>, Vec<(String, String)>) {
         .lines()
         .filter(|line| !["workers = ", "decomposition = "].iter().any(|key| line.starts_with(key)))
         .map(|line| ("scene".into(), line.into()));
-    let attributes = file.attributes().into_iter().filter(|(name, _)| !OF_THE_EXECUTION.contains(&name.as_str()));
+    let attributes =
+        file.attributes().into_iter().filter(|(name, _)| !OF_THE_EXECUTION.split(' ').any(|own| own == name));
     (file.content(), attributes.chain(lines).collect())
 }
 

@@ -2,20 +2,15 @@
 
 use plateau_core::model::parameters::{Parameters, PlateauRules};
 use plateau_core::model::state::{Base, Disc, InitialSurfaces, Pin};
-use plateau_core::simulation::{Engine, Execution, Simulation};
+use plateau_core::simulation::{Execution, Simulation};
 
-use crate::scenes::wear_only;
+use crate::scenes::{engines, wear_only};
 
 /// One row with local debris, and of resin only what `base` says.
 fn one_row(disc_columns: usize, pin_columns: usize) -> Parameters {
     let mut parameters = wear_only(1, disc_columns, pin_columns);
     parameters.plateaus = PlateauRules::LOCAL;
     parameters
-}
-
-/// Both ways to take steps.
-fn engines() -> [Execution; 2] {
-    [Engine::Fast, Engine::Plain].map(|engine| Execution { engine, ..Execution::default() })
 }
 
 fn start(parameters: &Parameters, surfaces: &InitialSurfaces, execution: Execution) -> Simulation {

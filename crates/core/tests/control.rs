@@ -6,15 +6,10 @@ use plateau_core::model::parameters::{DebrisRule, Parameters};
 use plateau_core::simulation::checkpoint::Checkpoint;
 use plateau_core::simulation::{Engine, Execution, Simulation, SimulationError};
 
-use crate::scenes::{few_or_all, random_scene, random_surfaces};
+use crate::scenes::{engines, few_or_all, random_scene, random_surfaces, start};
 
 /// Steps between two changes.
 const STEPS: u64 = 7;
-
-fn start(parameters: &Parameters, seed: u64, execution: Execution) -> Simulation {
-    let surfaces = random_surfaces(&parameters.mesh, seed);
-    Simulation::with_execution(parameters.clone(), surfaces, execution).expect("surfaces that fit")
-}
 
 fn heights(simulation: &mut Simulation) -> Heights {
     let (disc, pin) = (simulation.disc().expect("the disc"), simulation.pin().expect("the pin"));
@@ -173,9 +168,9 @@ fn a_state_holds_load_and_speed_that_were_set() {
 
 #[test]
 fn distance_goes_on_from_a_change_of_the_acceleration() {
-    for engine in [Engine::Fast, Engine::Plain] {
+    for execution in engines() {
         let parameters = Parameters { cycle: None, ..random_scene(1, DebrisRule::Local) };
-        let mut simulation = start(&parameters, 1, Execution { engine, ..Execution::default() });
+        let mut simulation = start(&parameters, 1, execution);
         let column = parameters.mesh.column_angle() * parameters.mesh.mean_radius();
         let mut distance = 0.0;
         for (acceleration, speed) in [(2.0, None), (3.0, Some(10.0)), (5.0, None), (1.0, Some(2.0))] {
@@ -186,7 +181,7 @@ fn distance_goes_on_from_a_change_of_the_acceleration() {
             simulation.advance_to(simulation.steps_done() + 6).expect("steps");
             distance += 6.0 * acceleration * column;
             let found = simulation.sample().expect("a sample").sliding_distance;
-            assert!((found / distance - 1.0).abs() < 1e-14, "{engine:?}: {found:e}, expected {distance:e}");
+            assert!((found / distance - 1.0).abs() < 1e-14, "{execution:?}: {found:e}, expected {distance:e}");
         }
     }
 }

@@ -1,12 +1,12 @@
 //! Laws of the model over random small scenes.
 
-use crate::scenes::few_or_all;
-use crate::scenes::{balance_rounding, primary_stiffness, random_surfaces, round_mesh, wear_only};
+use crate::scenes::{self, balance_rounding, few_or_all, primary_stiffness, random_surfaces, round_mesh, wear_only};
 use plateau_core::engine::kernel::InstructionSet;
 use plateau_core::model::material::Status;
 use plateau_core::model::mesh::Mesh;
 use plateau_core::model::parameters::{DebrisRule, Integrator, Parameters, PlateauRules};
-use plateau_core::model::state::{Base, InitialSurfaces};
+use plateau_core::model::state::{Base, Disc, InitialSurfaces, Pin};
+use plateau_core::observe::Sample;
 use plateau_core::simulation::{Execution, Simulation};
 use proptest::option;
 use proptest::prelude::*;
@@ -60,6 +60,13 @@ fn start(parameters: &Parameters, surfaces: InitialSurfaces) -> Simulation {
     Simulation::new(parameters.clone(), surfaces).expect("surfaces that fit")
 }
 
+/// All that two revolutions leave, and what they tell.
+fn after_two_revolutions(parameters: &Parameters, seed: u64, execution: Execution) -> (Pin, Disc, Sample) {
+    let mut simulation = scenes::start(parameters, seed, execution);
+    simulation.advance_to(2 * parameters.mesh.disc_columns() as u64).unwrap();
+    (simulation.pin().unwrap(), simulation.disc().unwrap(), simulation.sample().unwrap())
+}
+
 /// The disc's field seen from `columns` columns further: column c of the result is column c − `columns`.
 fn rotated(mesh: &Mesh, field: &[f64], columns: usize) -> Vec<f64> {
     let mut rotated = field.to_vec();
@@ -95,13 +102,7 @@ proptest! {
 
     #[test]
     fn every_instruction_set_gives_the_same_bits((parameters, seed) in scenes()) {
-        let surfaces = random_surfaces(&parameters.mesh, seed);
-        let run = |instructions| {
-            let execution = Execution { instructions, ..Execution::default() };
-            let mut simulation = Simulation::with_execution(parameters.clone(), surfaces.clone(), execution).unwrap();
-            simulation.advance_to(parameters.mesh.disc_columns() as u64).unwrap();
-            (simulation.pin().unwrap(), simulation.disc().unwrap(), simulation.sample().unwrap())
-        };
+        let run = |instructions| after_two_revolutions(&parameters, seed, Execution { instructions, ..Execution::default() });
         let plain = run(InstructionSet::PORTABLE);
         for instructions in InstructionSet::available() {
             prop_assert_eq!(&run(instructions), &plain, "{}", instructions.name());
@@ -110,13 +111,7 @@ proptest! {
 
     #[test]
     fn any_number_of_workers_gives_the_same_bits((parameters, seed) in scenes(), workers in 2..9_usize) {
-        let surfaces = random_surfaces(&parameters.mesh, seed);
-        let run = |workers| {
-            let execution = Execution { workers, ..Execution::default() };
-            let mut simulation = Simulation::with_execution(parameters.clone(), surfaces.clone(), execution).unwrap();
-            simulation.advance_to(2 * parameters.mesh.disc_columns() as u64).unwrap();
-            (simulation.pin().unwrap(), simulation.disc().unwrap(), simulation.sample().unwrap())
-        };
+        let run = |workers| after_two_revolutions(&parameters, seed, Execution { workers, ..Execution::default() });
         prop_assert_eq!(run(workers), run(1));
     }
 

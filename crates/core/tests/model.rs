@@ -1,8 +1,7 @@
 //! The engine takes the steps of the plain model, in hundreds or thousands of random small scenes with every option;
 //! its first contact is the one that is told before.
 
-use crate::scenes::few_or_all;
-use crate::scenes::{random_round_scene, random_scene, random_surfaces};
+use crate::scenes::{engines, few_or_all, random_round_scene, random_scene, start};
 use plateau_core::engine::kernel::InstructionSet;
 use plateau_core::model::accounts::AccountsReport;
 use plateau_core::model::emission::EmissionReport;
@@ -19,11 +18,6 @@ use plateau_core::simulation::{Decomposition, Engine, Execution, Simulation};
 const HEIGHT: f64 = 1e-12;
 /// Accepted relative deviation of everything else.
 const RELATIVE: f64 = 1e-9;
-
-fn start(parameters: &Parameters, seed: u64, execution: Execution) -> Simulation {
-    let surfaces = random_surfaces(&parameters.mesh, seed);
-    Simulation::with_execution(parameters.clone(), surfaces, execution).expect("surfaces that fit")
-}
 
 /// What two samples differ in: name, both values, and how much is accepted.
 fn differences(plain: &Sample, fast: &Sample, parameters: &Parameters) -> Vec<String> {
@@ -249,11 +243,9 @@ fn a_build_up_thinner_than_1e_minus_15_m_is_reported_as_none() {
     for material in [&mut parameters.materials.pin_primary, &mut parameters.materials.pin_secondary] {
         material.specific_wear_rate = 3e-20;
     }
-    let (mesh, surfaces) = (parameters.mesh.clone(), random_surfaces(&parameters.mesh, 7));
-    for engine in [Engine::Fast, Engine::Plain] {
-        let execution = Execution { engine, ..Execution::default() };
-        let mut simulation =
-            Simulation::with_execution(parameters.clone(), surfaces.clone(), execution).expect("surfaces that fit");
+    let mesh = parameters.mesh.clone();
+    for execution in engines() {
+        let mut simulation = start(&parameters, 7, execution);
         simulation.advance_to(200).unwrap();
         let maps =
             [Map::PinStatus, Map::PinHeight, Map::PinSubstrate, Map::DiscStatus, Map::DiscHeight, Map::DiscSubstrate];
@@ -269,10 +261,14 @@ fn a_build_up_thinner_than_1e_minus_15_m_is_reported_as_none() {
                 let build_up = sign * (fields[2][cell] - fields[1][cell]);
                 thin += usize::from(build_up > 0.0 && build_up < 1e-15);
                 area += if build_up >= 1e-15 { mesh.area()[cell % mesh.rows()] } else { 0.0 };
-                assert_eq!(*status == 2.0, build_up >= 1e-15, "{engine:?}, cell {cell}: {status} with {build_up:e} m");
+                assert_eq!(
+                    *status == 2.0,
+                    build_up >= 1e-15,
+                    "{execution:?}, cell {cell}: {status} with {build_up:e} m"
+                );
             }
-            assert!(thin > 0 && area > 0.0, "{engine:?}: {thin} thin, {area} m²");
-            assert!((reported - area / all).abs() < 1e-12, "{engine:?}: {reported}, {}", area / all);
+            assert!(thin > 0 && area > 0.0, "{execution:?}: {thin} thin, {area} m²");
+            assert!((reported - area / all).abs() < 1e-12, "{execution:?}: {reported}, {}", area / all);
         }
     }
 }

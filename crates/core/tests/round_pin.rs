@@ -2,13 +2,15 @@
 
 use std::f64::consts::PI;
 
-use crate::scenes::{WEAR_RATE, all_primary, primary_stiffness, random_surfaces, round_mesh, wear_only};
+use crate::scenes::{
+    WEAR_RATE, all_primary, engines, flat, primary_stiffness, random_surfaces, round_mesh, start, wear_only,
+};
 use plateau_core::engine::kernel::InstructionSet;
 use plateau_core::model::mesh::{Mesh, Outline};
 use plateau_core::model::parameters::{DebrisRule, Parameters, PlateauRules};
-use plateau_core::model::state::{Base, InitialSurfaces};
+use plateau_core::model::state::Base;
 use plateau_core::observe::{ABSENT, Map, MapValues, Sample};
-use plateau_core::simulation::{Decomposition, Engine, Execution, Simulation};
+use plateau_core::simulation::{Decomposition, Execution, Simulation};
 use plateau_core::surface::{Body, FibreSynthesis, HeightSynthesis, fibre_fraction};
 
 /// Relative rounding of a sum over a few thousand cells.
@@ -30,8 +32,7 @@ fn scene(debris: DebrisRule) -> Parameters {
 }
 
 fn run(parameters: &Parameters, steps: u64, execution: Execution) -> Simulation {
-    let surfaces = random_surfaces(&parameters.mesh, 11);
-    let mut simulation = Simulation::with_execution(parameters.clone(), surfaces, execution).unwrap();
+    let mut simulation = start(parameters, 11, execution);
     simulation.advance_to(steps).unwrap();
     simulation
 }
@@ -51,13 +52,11 @@ fn flat_on_flat_carries_the_load_on_the_area_of_the_circle() {
 
     let parameters = Parameters { mesh, ..wear_only(1, 2, 1) };
     let (force, mesh) = (parameters.normal_force, parameters.mesh.clone());
-    for engine in [Engine::Fast, Engine::Plain] {
-        let surfaces = InitialSurfaces {
-            disc_height: vec![0.0; mesh.disc_cells()],
-            pin_height: vec![0.0; mesh.pin_cells()],
-            pin_base: vec![Base::Primary; mesh.pin_cells()],
-        };
-        let execution = Execution { engine, ..Execution::default() };
+    // κ Σ F_cell ds_i, with the same pressure everywhere: κ p Σ A ds.
+    let moment = cells.iter().map(|cell| mesh.area()[cell % mesh.rows()] * mesh.radius()[cell % mesh.rows()]);
+    let moment: f64 = moment.sum();
+    for execution in engines() {
+        let surfaces = flat(&mesh, Base::Primary);
         let mut simulation = Simulation::with_execution(parameters.clone(), surfaces, execution).unwrap();
         simulation.advance().unwrap();
         let sample = simulation.sample().unwrap();
@@ -67,21 +66,11 @@ fn flat_on_flat_carries_the_load_on_the_area_of_the_circle() {
             (sample.max_pressure, pressure),
             (sample.contact_area, counted),
             (sample.displacement, pressure / primary_stiffness(&parameters)),
-            // κ Σ F_cell ds_i, with the same pressure everywhere: κ p Σ A ds.
-            (
-                sample.worn_pin,
-                cells
-                    .iter()
-                    .map(|cell| mesh.area()[cell % mesh.rows()] * mesh.radius()[cell % mesh.rows()])
-                    .sum::<f64>()
-                    * WEAR_RATE
-                    * pressure
-                    * mesh.column_angle(),
-            ),
+            (sample.worn_pin, moment * WEAR_RATE * pressure * mesh.column_angle()),
             (sample.pin_primary, 1.0),
             (sample.contact_ratio, 1.0),
         ] {
-            assert!((found / expected - 1.0).abs() < ROUNDING, "{engine}: {found:e}, expected {expected:e}");
+            assert!((found / expected - 1.0).abs() < ROUNDING, "{execution:?}: {found:e}, expected {expected:e}");
         }
     }
 }
@@ -181,16 +170,16 @@ fn workers_and_instruction_sets_give_the_same_bits() {
 #[test]
 fn a_checkpoint_goes_on_as_if_nothing_had_happened() {
     for debris in RULES {
-        for engine in [Engine::Fast, Engine::Plain] {
+        for engine in engines() {
             let parameters = scene(debris);
-            let execution = |workers| Execution { engine, workers, ..Execution::default() };
+            let execution = |workers| Execution { workers, ..engine };
             let mut first = run(&parameters, 100, execution(2));
             let checkpoint = first.checkpoint().unwrap();
             let mut second = run(&parameters, 0, execution(3));
             second.restore(&checkpoint).unwrap();
             first.advance_to(200).unwrap();
             second.advance_to(200).unwrap();
-            assert_eq!(told(&mut first), told(&mut second), "{debris:?}, {engine}");
+            assert_eq!(told(&mut first), told(&mut second), "{debris:?}, {engine:?}");
         }
     }
 }

@@ -12,7 +12,7 @@ use plateau_core::model::parameters::{DebrisRule, Integrator, Parameters, Platea
 use plateau_core::model::state::{Base, InitialSurfaces};
 use plateau_core::model::thermal::{Coating, Disc, Factor, Pin as ThermalPin, Substance, Thermal};
 use plateau_core::observe::Sample;
-use plateau_core::simulation::Simulation;
+use plateau_core::simulation::{Engine, Execution, Simulation};
 
 /// How much of a test that repeats itself is done: `few` as it goes without saying, `all` with `PLATEAU_LONG=1`.
 pub fn few_or_all<T: Debug>(few: T, all: T) -> T {
@@ -86,6 +86,26 @@ pub fn random_surfaces(mesh: &Mesh, seed: u64) -> InitialSurfaces {
             .map(|_| if stream.uniform() < 0.4 { Base::Primary } else { Base::Resin })
             .collect(),
     }
+}
+
+/// Both bodies perfectly flat, the pin of one base.
+pub fn flat(mesh: &Mesh, base: Base) -> InitialSurfaces {
+    InitialSurfaces {
+        disc_height: vec![0.0; mesh.disc_cells()],
+        pin_height: vec![0.0; mesh.pin_cells()],
+        pin_base: vec![base; mesh.pin_cells()],
+    }
+}
+
+/// A simulation on [`random_surfaces`] of this seed.
+pub fn start(parameters: &Parameters, seed: u64, execution: Execution) -> Simulation {
+    let surfaces = random_surfaces(&parameters.mesh, seed);
+    Simulation::with_execution(parameters.clone(), surfaces, execution).expect("surfaces that fit")
+}
+
+/// Both ways to take steps.
+pub fn engines() -> [Execution; 2] {
+    [Engine::Fast, Engine::Plain].map(|engine| Execution { engine, ..Execution::default() })
 }
 
 /// Any scene of the model on a small mesh, with every option, drawn from a seed.

@@ -271,20 +271,10 @@ fn the_steps_that_straighten_and_filter_a_surface_are_read() {
     assert_eq!(scene.pin_surface.preparation, expected);
     assert_eq!(scene.disc_surface.preparation.crop, None);
     // The resolved scene has them in the order in which they are done, and reads back as the same.
-    let names = [
-        "crop.along",
-        "unroll.centre",
-        "unroll.radii",
-        "rotate",
-        "flip",
-        "level",
-        "outlier_slope",
-        "s_filter",
-        "l_filter",
-    ];
+    let names = "crop.along unroll.centre unroll.radii rotate flip level outlier_slope s_filter l_filter";
     let of_pin = scene.resolved.split("[pin.prepare]").nth(1).unwrap();
-    let places = names.map(|name| of_pin.find(&format!("\n{name} = ")).unwrap_or_else(|| panic!("{name}: {of_pin}")));
-    assert!(places.is_sorted(), "{of_pin}");
+    let place = |name: &str| of_pin.find(&format!("\n{name} = ")).unwrap_or_else(|| panic!("{name}: {of_pin}"));
+    assert!(names.split(' ').map(place).is_sorted(), "{of_pin}");
     assert!(of_pin.contains("\nrotate = \"90 deg\"\n"), "{of_pin}");
 }
 

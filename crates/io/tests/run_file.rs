@@ -176,17 +176,6 @@ fn an_existing_file_is_replaced_only_on_demand_and_only_by_a_complete_one() {
 }
 
 #[test]
-fn a_link_stays_and_its_target_is_replaced() {
-    let directory = tempfile::tempdir().unwrap();
-    let (target, link) = (directory.path().join("target.h5"), directory.path().join("link.h5"));
-    fs::write(&target, "old").unwrap();
-    std::os::unix::fs::symlink(&target, &link).unwrap();
-    RunWriter::create(&link, true, &small()).unwrap().finish(&End::Finished, &[], None).unwrap();
-    assert!(fs::symlink_metadata(&link).unwrap().is_symlink());
-    assert_eq!(text(&hdf5::File::open(&target).unwrap(), "state"), "finished");
-}
-
-#[test]
 fn an_output_that_cannot_be_made_is_named() {
     use std::os::unix::ffi::OsStrExt;
     let (directory, file) = place("file");
@@ -234,19 +223,6 @@ fn a_run_that_is_given_up_is_marked_failed() {
     let file = hdf5::File::open(&path).unwrap();
     assert_eq!(text(&file, "state"), "failed");
     assert_eq!(file.dataset("time").unwrap().size(), 1);
-}
-
-#[test]
-fn a_file_that_was_replaced_by_another_is_left_alone() {
-    let (directory, path) = place("run.h5");
-    let writer = RunWriter::create(&path, false, &small()).unwrap();
-    fs::rename(&path, directory.path().join("moved.h5")).unwrap();
-    fs::write(&path, "another").unwrap();
-    let error = writer.finish(&End::Finished, &[], None).unwrap_err();
-    assert!(error.to_string().contains("was moved, removed or replaced"), "{error}");
-    assert_eq!(fs::read(&path).unwrap(), b"another");
-    let moved = hdf5::File::open(directory.path().join("moved.h5")).unwrap();
-    assert_eq!(text(&moved, "state"), "running");
 }
 
 /// For the scripts in tests/python: `RUN_FILE=run.h5 cargo test … -- --ignored --exact run_file::writes_a_run_for_the_readers`.

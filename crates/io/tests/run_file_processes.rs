@@ -1,12 +1,11 @@
 //! Run files in other processes: readers that follow them, and writers that are killed or find the disk full.
 
-use std::fs;
 use std::path::Path;
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
 use crate::few_or_all;
-use crate::fixtures::{entries, header, open_following, place, run_file, sample, small, snapshot, text};
+use crate::fixtures::{header, open_following, place, run_file, sample, small, snapshot, text};
 use plateau_core::observe::{Map, QUANTITIES};
 use plateau_io::process::report_file_size_limit;
 use plateau_io::run_file::{End, RunWriter};
@@ -129,56 +128,6 @@ fn a_full_disk_is_an_error_of_the_run() {
             );
         }
     }
-}
-
-#[test]
-fn a_disk_that_is_full_from_the_start_gets_no_file() {
-    let directory = tempfile::tempdir().unwrap();
-    for blocks in [0, 1, 20, 100] {
-        let path = directory.path().join("run.h5");
-        let output = child("child_cannot_create", &format!("ulimit -f {blocks};"), &path).output().unwrap();
-        let out = String::from_utf8_lossy(&output.stdout);
-        assert!(output.status.success(), "{blocks} blocks: {out}{}", String::from_utf8_lossy(&output.stderr));
-        assert!(out.contains("File too large"), "{out}");
-        assert_eq!(entries(directory.path()), [""; 0], "{blocks} blocks");
-    }
-}
-
-#[test]
-#[ignore = "started by another test"]
-fn child_cannot_create() {
-    report_file_size_limit().unwrap();
-    let mut header = small();
-    header.scene = "# a long scene\n".repeat(10_000);
-    println!("{}", RunWriter::create(&run_file(), false, &header).unwrap_err());
-}
-
-#[test]
-fn a_disk_that_is_full_at_the_end_leaves_a_readable_file() {
-    let (_directory, path) = place("run.h5");
-    let mut writer = RunWriter::create(&path, false, &small()).unwrap();
-    writer.sample(sample(1)).unwrap();
-    let whole = writer.finish(&End::Finished, &[], None).unwrap().bytes;
-    fs::remove_file(&path).unwrap();
-    // The last page is missing, in blocks of 512 bytes.
-    let limit = format!("ulimit -f {};", (whole - 4096) / 512);
-    let output = child("child_cannot_end", &limit, &path).output().unwrap();
-    let out = String::from_utf8_lossy(&output.stdout);
-    assert!(output.status.success(), "{out}{}", String::from_utf8_lossy(&output.stderr));
-    assert!(out.contains("File too large"), "{out}");
-    let file = open_following(&path);
-    assert_eq!(text(&file, "state"), "running");
-    let times = file.dataset("time").unwrap().read_raw::<f64>().unwrap();
-    assert!([0.25].starts_with(&times), "{times:?}");
-}
-
-#[test]
-#[ignore = "started by another test"]
-fn child_cannot_end() {
-    report_file_size_limit().unwrap();
-    let mut writer = RunWriter::create(&run_file(), false, &small()).unwrap();
-    writer.sample(sample(1)).unwrap();
-    println!("{}", writer.finish(&End::Finished, &[], None).unwrap_err());
 }
 
 #[test]

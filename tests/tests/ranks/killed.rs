@@ -1,6 +1,5 @@
 //! Jobs of which a rank or the launcher is killed at any moment end as one, and are gone on with as if nothing had happened.
 
-use std::collections::BTreeMap;
 use std::fs::{self, File};
 use std::path::Path;
 use std::process::{Command, Stdio};
@@ -8,7 +7,7 @@ use std::thread;
 use std::time::Duration;
 
 use plateau_tests::program::{WorkingDirectory, program, scene, wait_until};
-use plateau_tests::run_file::{Content, RunFile, differences, differences_of_start};
+use plateau_tests::run_file::{assert_holds_start, differences};
 use plateau_tests::scenes::{Stream, few_or_all};
 
 use super::{LEAVE_PROCESS_NUMBER, mpirun};
@@ -70,15 +69,14 @@ fn jobs_that_are_killed_again_and_again_end_bit_for_bit_like_an_undisturbed_run(
         assert!(has_ended, "the job goes on after {killed} kills: {}", stderr());
         if !status.is_some_and(|status| status.success()) {
             assert!(killed > 0, "{status:?}: {}", stderr());
-            check_that_it_can_be_read(&directory, &whole);
+            assert_holds_start(&directory, "run.h5", &whole);
             continue;
         }
         let run_file = directory.run_file("run.h5");
         assert_eq!(run_file.text("state"), "finished");
         assert_eq!(differences(&whole, &run_file.content()), [""; 0], "after {killed} kills");
         ended += 1;
-        let names = directory.names().into_iter().filter(|name| name.contains("run.h5"));
-        names.for_each(|name| fs::remove_file(directory.path(&name)).unwrap());
+        directory.remove("run.h5");
     }
     println!("{killed} kills, {ended} runs to their end");
 }
@@ -87,16 +85,4 @@ fn jobs_that_are_killed_again_and_again_end_bit_for_bit_like_an_undisturbed_run(
 fn is_alive(process: &str) -> bool {
     let state = fs::read_to_string(Path::new("/proc").join(process).join("stat")).unwrap_or_default();
     state.rsplit(") ").next().is_some_and(|rest| !rest.is_empty() && !rest.starts_with('Z'))
-}
-
-/// Whatever the moment of a kill, after `plateau repair` the file holds the start of the whole run.
-fn check_that_it_can_be_read(directory: &WorkingDirectory, whole: &BTreeMap<String, Content>) {
-    let [file, copy] = ["run.h5", "copy.h5"].map(|name| directory.path(name));
-    if file.exists() {
-        fs::copy(file, &copy).unwrap();
-        directory.plateau(["repair", "copy.h5"]).quiet_success();
-        assert_eq!(differences_of_start(whole, &RunFile::open(&copy).content()), [""; 0]);
-        let copies = directory.names().into_iter().filter(|name| name.starts_with("copy.h5"));
-        copies.for_each(|name| fs::remove_file(directory.path(&name)).unwrap());
-    }
 }

@@ -8,18 +8,8 @@ use super::*;
 
 #[test]
 fn a_finished_run_is_done_however_its_last_time_is_rounded() {
-    let look = |state| Look {
-        title: "a run".into(),
-        state,
-        error: None,
-        times: vec![60.0 * (1.0 - 1e-15)],
-        duration: Some(60.0),
-        contact_area: vec![1e-6],
-        contact_area_mean: vec![1e-6],
-        filled_fraction: None,
-        elapsed: None,
-        age: Duration::ZERO,
-    };
+    let times = vec![60.0 * (1.0 - 1e-15)];
+    let look = |state| Look { state, times: times.clone(), duration: Some(60.0), ..look(1, 0, 0) };
     assert_eq!(look(State::Finished).progress(), Some(1.0));
     assert!(look(State::Interrupted).progress() < Some(1.0));
 }

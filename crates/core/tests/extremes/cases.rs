@@ -4,7 +4,8 @@ use plateau_core::model::parameters::{DebrisRule, Integrator, Parameters};
 use plateau_core::model::state::Base;
 
 use super::case::{Case, Expected, paper, with_stiffness_number};
-use super::surfaces::{all as of_base, flat, rough, scaled, with_disc_cell};
+use super::surfaces::{all as of_base, rough, scaled, with_disc_cell};
+use crate::scenes::flat;
 
 /// Every case; that of most steps takes `most_steps`.
 pub fn all(most_steps: u64) -> Vec<Case> {

@@ -3,12 +3,11 @@
 use std::sync::Arc;
 
 use super::{off, thermal};
-use crate::scenes::{all_primary, random_surfaces, wear_only};
+use crate::scenes::{all_primary, engines, start, wear_only};
 use plateau_core::model::emission::Emission;
 use plateau_core::model::friction::{Friction, FrictionLaw};
 use plateau_core::model::parameters::{DebrisRule, Parameters, PlateauRules};
 use plateau_core::model::thermal::Factor;
-use plateau_core::simulation::{Engine, Execution, Simulation};
 
 const LAW: FrictionLaw = FrictionLaw { pressure_coefficient: 0.33, shear_strength: 0.75e6 };
 
@@ -52,7 +51,7 @@ fn emission() -> Emission {
 
 #[test]
 fn pm10_is_its_part_of_the_density_times_the_emitted_volume() {
-    for engine in [Engine::Fast, Engine::Plain] {
+    for execution in engines() {
         for (debris, captured_fraction) in
             [(DebrisRule::Local, 1.0), (DebrisRule::Contact, 0.3), (DebrisRule::Track, 0.0)]
         {
@@ -63,9 +62,7 @@ fn pm10_is_its_part_of_the_density_times_the_emitted_volume() {
             // Without temperatures f_N is left out, with them it is 7 at any; and friction is not needed.
             let alone = Parameters { friction: None, ..base.clone() };
             for (parameters, factor) in [(base, 1.0), (heated, 7.0), (alone, 1.0)] {
-                let surfaces = random_surfaces(&parameters.mesh, 5);
-                let execution = Execution { engine, ..Execution::default() };
-                let mut simulation = Simulation::with_execution(parameters, surfaces, execution).unwrap();
+                let mut simulation = start(&parameters, 5, execution);
                 // A whole number of revolutions: all particles are counted.
                 simulation.advance_to(120).unwrap();
                 let sample = simulation.sample().unwrap();

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use super::expected::Expected;
-use crate::scenes::{few_or_all, random_scene, random_surfaces};
+use crate::scenes::{engines, few_or_all, random_scene, start};
 use plateau_core::model::cycle::{Cycle, Interpolation, Kind, Node};
 use plateau_core::model::parameters::{DebrisRule, Parameters};
 use plateau_core::observe::extra::CONTACT_TEMPERATURE;
@@ -19,7 +19,7 @@ fn scenes(count: usize) -> impl Iterator<Item = (u64, Parameters)> {
     let rules = [DebrisRule::Local, DebrisRule::Contact, DebrisRule::Track];
     let scene = move |seed: u64| (seed, random_scene(10_000 + seed, rules[seed as usize % 3]));
     let is_meant = |parameters: &Parameters| {
-        let has_pause = |cycle: &plateau_core::model::cycle::Cycle| {
+        let has_pause = |cycle: &Cycle| {
             let early = (0..40).flat_map(|number| cycle.pauses_after(number, parameters.step_angle()));
             early.map(|pause| pause.kind).collect::<Vec<_>>()
         };
@@ -28,10 +28,6 @@ fn scenes(count: usize) -> impl Iterator<Item = (u64, Parameters)> {
         changes && pauses.contains(&Kind::Lifted) && pauses.contains(&Kind::Standing)
     };
     (0..).map(scene).filter(move |(_, parameters)| is_meant(parameters)).take(count)
-}
-
-fn start(parameters: &Parameters, seed: u64, execution: Execution) -> Simulation {
-    Simulation::with_execution(parameters.clone(), random_surfaces(&parameters.mesh, seed), execution).unwrap()
 }
 
 /// What a moment is told by, bit for bit: no number is the same as another, and none is as none.
@@ -84,10 +80,9 @@ fn the_number_of_workers_changes_no_bit() {
 
 #[test]
 fn samples_change_nothing_that_comes_after_them() {
-    for engine in [Engine::Fast, Engine::Plain] {
+    for execution in engines() {
         for (seed, parameters) in scenes(few_or_all(10, 100)) {
             let steps = 2 * parameters.mesh.disc_columns() as u64 + 5;
-            let execution = Execution { engine, ..Execution::default() };
             let [often, seldom] = [0.1, 7.0].map(|every| {
                 let mut simulation = start(&parameters, seed, execution);
                 let samples = run(&mut simulation, &schedule(&parameters, steps, every), (0, 0.0), |_, _| {});
@@ -107,18 +102,17 @@ fn samples_change_nothing_that_comes_after_them() {
 #[test]
 fn a_run_that_goes_on_from_any_moment_is_the_same() {
     let (mut in_pauses, mut within_intervals) = (0, 0);
-    for engine in [Engine::Fast, Engine::Plain] {
+    for execution in engines() {
         for (seed, parameters) in scenes(few_or_all(4, 40)) {
             let steps = parameters.mesh.disc_columns() as u64 + 15;
             let schedule = schedule(&parameters, steps, 0.6);
-            let execution = Execution { engine, ..Execution::default() };
             let mut checkpoints: Vec<(Moment, Checkpoint)> = Vec::new();
             let whole = run(&mut start(&parameters, seed, execution), &schedule, (0, 0.0), |simulation, moment| {
                 checkpoints.push((*moment, simulation.checkpoint().unwrap()));
             });
             for (moment, checkpoint) in checkpoints.into_iter().step_by(3) {
                 // On another number of workers, too.
-                let workers = if engine == Engine::Fast { 1 + moment.step as usize % 3 } else { 1 };
+                let workers = if execution.engine == Engine::Fast { 1 + moment.step as usize % 3 } else { 1 };
                 let mut simulation = start(&parameters, seed, Execution { workers, ..execution });
                 simulation.restore(&checkpoint).unwrap();
                 let rest = run(&mut simulation, &schedule, (moment.step, moment.time), |_, _| {});
@@ -137,9 +131,8 @@ fn the_engine_agrees_with_the_plain_model_in_pauses_too() {
     for (seed, parameters) in scenes(few_or_all(10, 100)) {
         let steps = parameters.mesh.disc_columns() as u64 + 15;
         let schedule = schedule(&parameters, steps, 0.4);
-        let [fast, plain] = [Engine::Fast, Engine::Plain].map(|engine| {
-            let (mut simulation, mut found) =
-                (start(&parameters, seed, Execution { engine, ..Execution::default() }), Vec::new());
+        let [fast, plain] = engines().map(|execution| {
+            let (mut simulation, mut found) = (start(&parameters, seed, execution), Vec::new());
             run(&mut simulation, &schedule, (0, 0.0), |simulation, moment| {
                 if moment.pause.is_some() {
                     let sample = simulation.sample_at(moment, &[&CONTACT_TEMPERATURE]).unwrap();

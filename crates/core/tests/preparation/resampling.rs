@@ -125,29 +125,3 @@ proptest! {
         }
     }
 }
-
-#[test]
-fn a_repeated_patch_leaves_no_step() {
-    // Whatever the ratio of ring and patch, no step between neighbours is larger than the largest inside the patch.
-    for (columns, length) in [(50, 7), (50, 10), (51, 8), (49, 30), (40, 60)] {
-        let mesh = ring(columns, 6, columns);
-        let pixels = patch(length, 6, 1e-3, rough);
-        let largest = |heights: &[f64], closed: bool| {
-            let next = heights[6..].iter().chain(if closed { &heights[..6] } else { &[] });
-            heights.iter().zip(next).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
-        };
-        let preparation = Preparation { repeat: true, ..Preparation::default() };
-        for (body, closed) in [(Body::Disc, true), (Body::Pin, false)] {
-            let heights = apply(preparation, RawHeights::Patch(pixels.clone()), body, &mesh).unwrap();
-            let limit = largest(&pixels.heights, false) + 1e-18;
-            assert!(largest(&heights, closed) <= limit, "{columns} columns, patch of {length}, {body:?}");
-            // The first half of the ring, and all of the pin, is the patch, its mirror image, the patch ...
-            let count = if closed { columns / 2 } else { columns };
-            let tiled = patch(count, 6, 1e-3, |column, row| {
-                let place = column % (2 * length);
-                rough(place.min(2 * length - 1 - place), row)
-            });
-            close(&heights[..6 * count], &tiled.heights, 1e-18);
-        }
-    }
-}

@@ -21,9 +21,7 @@ fn numbers_read_well() {
     assert_eq!(with_error(1234.5, Some(56.0)), "1234 ± 56");
     assert_eq!(with_error(4.425_97, Some(0.0)), "4.4260 ± 0.0000");
     assert_eq!(with_error(4.425_974, None), "4.4260");
-    assert_eq!(short(0.012_345_6), "0.01235");
-    assert_eq!(short(123.456), "123.5");
-    assert_eq!(short(1.5e-14), "1.500e\u{2212}14");
+    assert_eq!([0.012_345_6, 123.456, 1.5e-14].map(short), ["0.01235", "123.5", "1.500e\u{2212}14"]);
     assert_eq!(significant(9.9996, 4), "10.00");
     assert_eq!(significant(0.230_196_108, 6), "0.230196");
     assert_eq!(significant(-1_234_567.0, 6), "-1234567");
@@ -37,11 +35,6 @@ fn numbers_read_well() {
 
 #[test]
 fn parts_are_given_in_per_cent() {
-    assert_eq!(percent(1e-2), "1 %");
-    assert_eq!(percent(1e-3), "0.1 %");
-    assert_eq!(percent(0.002_84), "0.28 %");
-    assert_eq!(percent(1.5), "150 %");
-    assert_eq!(percent(0.0), "0 %");
-    assert_eq!(percent(1.234e-9), "1.2e\u{2212}7 %");
-    assert_eq!(percent(f64::NAN), "–");
+    let found = [1e-2, 1e-3, 0.002_84, 1.5, 0.0, 1.234e-9, f64::NAN].map(percent);
+    assert_eq!(found, ["1 %", "0.1 %", "0.28 %", "150 %", "0 %", "1.2e\u{2212}7 %", "–"]);
 }

@@ -4,7 +4,7 @@ use super::Dimension::*;
 use super::*;
 
 #[test]
-fn a_power_of_ten_is_exact() {
+fn powers_of_ten_are_exact_and_other_factors_follow_their_definition() {
     // Expected: the literals, which rustc rounds to the nearest double.
     for (text, dimension, expected) in [
         ("50 um", Length, 5e-5),
@@ -37,21 +37,19 @@ fn a_power_of_ten_is_exact() {
         ("2 m/s", Speed, 2.0),
         ("2e3 mm/s", Speed, 2.0),
         ("1E+2 rad/s", RotationalSpeed, 100.0),
+        ("50 min", Time, 3000.0),
+        ("2 h", Time, 7200.0),
+        ("72 km/h", Speed, 20.0),
+        ("850 rpm", RotationalSpeed, 850.0 * std::f64::consts::TAU / 60.0),
+        ("850 rev/min", RotationalSpeed, 850.0 * std::f64::consts::TAU / 60.0),
+        ("-90 deg", Angle, -std::f64::consts::FRAC_PI_2),
+        ("0.25 rev", Angle, std::f64::consts::FRAC_PI_2),
+        // An exponent beyond all doubles.
+        ("1e-99999999999999999999 m", Length, 0.0),
     ] {
         assert_eq!(parse(text, dimension), Ok(expected), "{text}");
     }
-}
-
-#[test]
-fn other_factors_follow_their_definition() {
-    assert_eq!(parse("50 min", Time), Ok(3000.0));
-    assert_eq!(parse("2 h", Time), Ok(7200.0));
-    assert_eq!(parse("72 km/h", Speed), Ok(20.0));
-    let turns = 850.0 * std::f64::consts::TAU / 60.0;
-    assert_eq!(parse("850 rpm", RotationalSpeed), Ok(turns));
-    assert_eq!(parse("850 rev/min", RotationalSpeed), Ok(turns));
-    assert_eq!(parse("-90 deg", Angle), Ok(-std::f64::consts::FRAC_PI_2));
-    assert_eq!(parse("0.25 rev", Angle), Ok(std::f64::consts::FRAC_PI_2));
+    assert_eq!(parse("-0 m", Length).map(f64::to_bits), Ok(0));
 }
 
 #[test]
@@ -87,12 +85,6 @@ fn temperatures_are_in_degrees_celsius_or_kelvins() {
     ] {
         assert!((parse(text, dimension).unwrap() / expected - 1.0).abs() < 1e-15, "{text}");
     }
-}
-
-#[test]
-fn an_exponent_beyond_all_doubles_is_zero_or_not_finite() {
-    assert_eq!(parse("1e-99999999999999999999 m", Length), Ok(0.0));
-    assert_eq!(parse("-0 m", Length).map(f64::to_bits), Ok(0));
 }
 
 #[test]
