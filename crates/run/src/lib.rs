@@ -43,4 +43,4 @@ pub use job::Job;
 pub use options::{Observer, Program, RunOptions, StartMode};
 pub use recorder::{idle_warning, input_files, stiffness_warning};
 pub use run::run;
-pub use summary::RunSummary;
+pub use summary::{AccountsSummary, RunSummary};

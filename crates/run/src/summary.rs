@@ -84,9 +84,9 @@ pub struct RunSummary {
     pub specific_wear_rate_whole_pin: Option<f64>,
     /// Debris that left the contact, m³.
     pub emitted: f64,
-    /// Friction, heat and emission, where the scene asks for them, and the largest mean temperature of the disc at a sample, K.
-    #[serde(flatten, serialize_with = "by_name")]
-    pub parts: (AccountsReport, Option<f64>),
+    /// Friction, heat and emission.
+    #[serde(flatten)]
+    pub accounts: AccountsSummary,
     /// Quantities of the whole brake at the end, by their series; of a scene with a brake.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub brake: BTreeMap<&'static str, f64>,
@@ -100,22 +100,33 @@ pub struct RunSummary {
     pub warnings: Vec<Warning>,
 }
 
-/// Serializes friction, heat and emission by names of their own; what the scene does not ask for is left out.
-fn by_name<S: Serializer>(parts: &(AccountsReport, Option<f64>), serializer: S) -> Result<S::Ok, S::Error> {
-    let (AccountsReport { friction, heat, emission }, largest_disc_temperature) = parts;
-    let values = [
-        ("friction_coefficient_mean", friction.map(|friction| friction.coefficient_mean)),
-        ("friction_work", friction.map(|friction| friction.work)),
-        ("contact_temperature", heat.map(|heat| heat.contact)),
-        ("disc_temperature", heat.map(|heat| heat.disc)),
-        ("largest_disc_temperature", *largest_disc_temperature),
-        ("pin_temperature", heat.map(|heat| heat.pin)),
-        ("heat_residual", heat.map(|heat| heat.residual)),
-        ("pm10_mass", emission.map(|emission| emission.pm10)),
-        ("pm25_mass", emission.map(|emission| emission.pm25)),
-        ("particle_number", emission.map(|emission| emission.number)),
-    ];
-    serializer.collect_map(values.into_iter().filter_map(|(name, value)| Some((name, value?))))
+/// Friction, heat and emission at the end of a run, where the scene asks for them.
+#[derive(Debug, Clone, Copy)]
+pub struct AccountsSummary {
+    /// The accounts of the last sample.
+    pub last: AccountsReport,
+    /// Largest mean temperature of the disc at a sample, K.
+    pub largest_disc_temperature: Option<f64>,
+}
+
+impl Serialize for AccountsSummary {
+    /// Gives each quantity a name of its own, and leaves out what the scene does not ask for.
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let AccountsReport { friction, heat, emission } = self.last;
+        let values = [
+            ("friction_coefficient_mean", friction.map(|friction| friction.coefficient_mean)),
+            ("friction_work", friction.map(|friction| friction.work)),
+            ("contact_temperature", heat.map(|heat| heat.contact)),
+            ("disc_temperature", heat.map(|heat| heat.disc)),
+            ("largest_disc_temperature", self.largest_disc_temperature),
+            ("pin_temperature", heat.map(|heat| heat.pin)),
+            ("heat_residual", heat.map(|heat| heat.residual)),
+            ("pm10_mass", emission.map(|emission| emission.pm10)),
+            ("pm25_mass", emission.map(|emission| emission.pm25)),
+            ("particle_number", emission.map(|emission| emission.number)),
+        ];
+        serializer.collect_map(values.into_iter().filter_map(|(name, value)| Some((name, value?))))
+    }
 }
 
 /// Collects the values of a sample for those series of a brake that a run has.
@@ -180,7 +191,7 @@ impl RunSummary {
             lost_pin: last.lost_pin(),
             specific_wear_rate_whole_pin: (work > 0.0).then(|| last.lost_pin() / work),
             emitted: last.emitted,
-            parts: (last.accounts, largest_disc_temperature),
+            accounts: AccountsSummary { last: last.accounts, largest_disc_temperature },
             brake: of_brake(&scene.extras(false), last),
             load_residual: course.largest_load_residual,
             load_tolerance: scene.load_tolerance,

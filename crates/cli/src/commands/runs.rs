@@ -7,7 +7,7 @@ use plateau_core::observe::running_in::{Drift, NotDefined, RUN_IN, Trend};
 use plateau_core::observe::window_mean::{LEAST_PULSES, WindowMean};
 use plateau_io::number;
 use plateau_io::run_file::{NoDrift, RunFile, State};
-use plateau_run::RunSummary;
+use plateau_run::{AccountsSummary, RunSummary};
 use serde::Serialize;
 
 use crate::arguments::SummaryArguments;
@@ -138,7 +138,7 @@ pub fn text(summary: &RunSummary) -> String {
         rows.push(("lost by the pin", format!("{lost} as a balance shows it, {rate}")));
     }
     rows.extend(parts(summary));
-    let heat = summary.parts.0.heat.map_or(String::new(), |heat| format!(", heat {:.1e}", heat.residual));
+    let heat = summary.accounts.last.heat.map_or(String::new(), |heat| format!(", heat {:.1e}", heat.residual));
     let RunSummary { load_residual, balance_residual, .. } = summary;
     rows.push(("residuals", format!("load {load_residual:.1e} at most, debris balance {balance_residual:.1e}{heat}")));
     rows.extend(summary.peak_memory.map(|bytes| ("peak memory", number::bytes(bytes))));
@@ -148,7 +148,8 @@ pub fn text(summary: &RunSummary) -> String {
 
 /// Rows of the parts of the model that the scene asks for.
 fn parts(summary: &RunSummary) -> Vec<(&'static str, String)> {
-    let (AccountsReport { friction, heat, emission }, largest_disc_temperature) = summary.parts;
+    let AccountsSummary { last, largest_disc_temperature } = summary.accounts;
+    let AccountsReport { friction, heat, emission } = last;
     let mut rows = Vec::new();
     if let Some(friction) = friction {
         let (coefficient, work) = (friction.coefficient_mean, number::short(friction.work));
