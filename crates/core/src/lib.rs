@@ -21,7 +21,7 @@
 //! | 4.2 wear | Δh = κ p ds, or u (1 − exp(−κ k ds)); resin h_m; build-up first | [`wear`](model::step::wear) | `coefficients::Coefficients`, `wear` |
 //! | 4.2a strength | p > σ_b: build-up on resin breaks away | [`break_away`](model::step::break_away) | `kernel::worn` |
 //! | 4L local debris | d = min(γ, a_p + a_d, η w/A); emitted += worn + returned − deposited | [`deposit_locally`](model::step::deposit_locally) | `kernel::deposit` |
-//! | 4L transport length | d = min(γ, a_p + a_d, v̄), v̄ = η Σ v/L | [`deposit_over`](model::step::deposit_over) | `kernel::transport` |
+//! | 4L transport length | d = min(γ, a_p + a_d, v̄), v̄ = η Σ v/L | [`deposit_over`](model::step::deposit_over) | `kernel::edges`, `kernel::deposit` |
 //! | 4P destruction | a build-up on resin with no plateau ahead returns to the pool | [`destroy`](model::step::destroy) | pooled debris is the plain model's |
 //! | 4P formation | d = min(γ, s), s = M/S | [`form`](model::step::form) | |
 //! | 4P balance | M ← M + η worn + returned − deposited | [`pool`](model::step::pool) | |

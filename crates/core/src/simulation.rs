@@ -10,7 +10,6 @@ use std::sync::Arc;
 use crate::engine::comm::Communicator;
 pub use crate::engine::comm::Exchange;
 pub use crate::engine::execution::{Decomposition, Engine, Execution};
-use crate::engine::parts::Needs;
 use crate::model::accounts::{AccountsReport, Resting};
 use crate::model::clock::{Clock, Operation};
 use crate::model::cycle::Kind;
@@ -113,7 +112,7 @@ impl Simulation {
         communicator: Box<dyn Communicator>,
     ) -> Result<Self, SimulationError> {
         check(&parameters.mesh, &surfaces)?;
-        if Needs::of(&parameters).pools {
+        if Engine::Fast.of(&parameters) == Engine::Plain {
             return Err(SimulationError::PlainOnRanks { ranks: communicator.size() });
         }
         let parameters = Arc::new(parameters);

@@ -315,6 +315,21 @@ fn an_absurd_unit_gives_no_infinite_heights() {
     assert!(found.to_string().contains("a height of inf m is not finite"), "{found}");
 }
 
+#[test]
+fn a_file_cut_anywhere_gets_an_answer() {
+    let list = "\u{feff}# unit: um\r\nx [mm];y [mm];z\r\n0;0;1\r\n1;0;2\r\n0;1;\r\n1;1;NaN\r\n";
+    let matrix = "rows=2 columns=3\npixel size=1e-6 m\nunit=nm\n1 2 3\n4 5 6\n";
+    for content in [list.as_bytes(), matrix.as_bytes()] {
+        for length in 0..content.len() {
+            let _ = read(&content[..length], false, &options(None, None));
+            let mut damaged = content.to_vec();
+            damaged[length] ^= 0x15;
+            let _ = read(&damaged, true, &options(Some(1e-6), None));
+        }
+        assert!(read(content, false, &options(None, None)).is_ok());
+    }
+}
+
 fn profile(text: &str, unit: Option<f64>, pitch: Option<f64>) -> Result<Measured, FileError> {
     let pitch = pitch.map(|pitch| [pitch; 2]);
     read(text.as_bytes(), false, &ReadOptions { profile_lay: Some(Lay::Across), ..options(unit, pitch) })

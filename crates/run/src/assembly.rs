@@ -162,23 +162,23 @@ impl Assembly {
         while let Some(moment) = self.schedule.next(self.simulation.steps_done(), self.reached) {
             let comparison = self.scout.as_ref().and_then(Scout::comparison);
             let noted = self.events.next(self.simulation.steps_done());
-            let event = moment.step.min(comparison.unwrap_or(u64::MAX)).min(noted.unwrap_or(u64::MAX));
-            let is_due = event == moment.step;
+            let target = moment.step.min(comparison.unwrap_or(u64::MAX)).min(noted.unwrap_or(u64::MAX));
+            let is_due = target == moment.step;
             let (sampled, mapped) = (is_due && moment.sample, is_due && moment.maps && has_maps);
-            let is_watched = sampled || mapped || noted == Some(event);
-            if self.simulation.steps_done() == event {
+            let is_watched = sampled || mapped || noted == Some(target);
+            if self.simulation.steps_done() == target {
                 // A long pause may have many samples.
                 steps_per_look = sink.look(&self.simulation, steps_per_look)?;
             }
-            while self.simulation.steps_done() < event {
+            while self.simulation.steps_done() < target {
                 let start = Instant::now();
                 match self.simulation.steps_done().saturating_add(steps_per_look) {
-                    before if before < event => self.simulation.pass_to(before)?,
-                    _ if is_watched => self.simulation.advance_to(event)?,
-                    _ => self.simulation.pass_to(event)?,
+                    before if before < target => self.simulation.pass_to(before)?,
+                    _ if is_watched => self.simulation.advance_to(target)?,
+                    _ => self.simulation.pass_to(target)?,
                 }
                 steps_per_look = sink.look(&self.simulation, adapted(steps_per_look, start.elapsed()))?;
-                if self.simulation.steps_done() < event {
+                if self.simulation.steps_done() < target {
                     self.reached = self.simulation.time();
                     sink.rest(self)?;
                 }
@@ -186,9 +186,9 @@ impl Assembly {
             if is_due && moment.pause.is_some() {
                 self.simulation.keep_contact()?;
             }
-            if noted == Some(event) {
+            if noted == Some(target) {
                 let mut sample = self.simulation.sample()?;
-                if let Some(moment) = self.events.closing(event) {
+                if let Some(moment) = self.events.closing(target) {
                     sample.accounts = self.simulation.accounts_at(moment)?;
                 }
                 self.events.note(&sample);
@@ -200,7 +200,7 @@ impl Assembly {
                 sink.snapshot(self.simulation.snapshot_at(&moment, &self.output.maps)?)?;
             }
             self.reached = if is_due { moment.time } else { self.simulation.time() };
-            if comparison == Some(event) && event < self.schedule.last() {
+            if comparison == Some(target) && target < self.schedule.last() {
                 self.choose_acceleration(sink, steps_per_look)?;
             }
             sink.rest(self)?;

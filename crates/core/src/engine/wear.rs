@@ -1,4 +1,5 @@
-//! Wear of cells (model 4.2; paper 2.3, Eqs. 6 and 7), eight at a time.
+//! Wear of build-up with properties of its own, and of what is below it (model 4.2), eight cells at a time; [`kernel`](crate::engine::kernel)
+//! has the other cells.
 
 use std::ops::Sub;
 

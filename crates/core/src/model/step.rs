@@ -191,7 +191,8 @@ pub fn balance(normal_force: f64, pairs: &[Pair]) -> Result<f64, ContactError> {
     Ok(displacement)
 }
 
-/// Model 4.2: wears a pair, if it overlaps, and returns the losses of its two cells, m.
+/// Model 4.2: wears a pair, if it overlaps, by Archard's law, Δh = κ p ds or its exponential form, resin by h_m, build-up before what is below
+/// it; returns the losses of its two cells, m.
 pub fn wear(parameters: &Parameters, state: &mut State, pair: &Pair, overlap: f64) -> Loss {
     if overlap == 0.0 {
         return Loss::default();
@@ -305,8 +306,8 @@ pub fn deposit_locally(
     moved
 }
 
-/// Fills the gap of an open pair with what is caught of debris, m: first the pin, up to the height of the plateau ahead if there is
-/// one, then the disc, up to its highest initial height.
+/// Fills the gap of an open pair, d = min(γ, a_p + a_d, caught), with what is caught of debris, m: first the pin, up to the height of the plateau
+/// ahead if there is one (a_p), then the disc, up to its highest initial height (a_d).
 fn compact(caught: f64, pair: &Pair, plateau: Option<f64>, displacement: f64, state: &mut State, moved: &mut Volumes) {
     let State { disc, pin, reference_height, .. } = state;
     let (z_p, z_d) = (pin.height[pair.pin], disc.height[pair.disc]);
@@ -321,7 +322,7 @@ fn compact(caught: f64, pair: &Pair, plateau: Option<f64>, displacement: f64, st
     moved.deposited_disc += pair.area * (deposit - on_pin);
 }
 
-/// Volume that finds no room and leaves the contact, m³.
+/// Volume that finds no room and leaves the contact, worn + returned − deposited, m³.
 fn emitted(moved: &Volumes) -> f64 {
     let Volumes { worn_pin, worn_resin, worn_disc, returned, deposited_pin, deposited_disc, .. } = moved;
     worn_pin + worn_resin + worn_disc + returned - deposited_pin - deposited_disc

@@ -131,7 +131,7 @@ fn adaptive(settings: &Settings) -> Result<Option<Adaptive>, Problem> {
     Ok(Some(Adaptive { tolerance, largest: settings.number(&max)? }))
 }
 
-/// Parameters of a simulation, and the cycle, if there is one; one that never changes load and speed is operation as ever.
+/// Parameters of a simulation, and the cycle, if there is one; one that never changes load and speed is taken for constant operation.
 fn parameters(settings: &Settings, brake: Option<&Brake>) -> Result<(Parameters, Option<OperationCycle>), Problem> {
     let mesh = mesh(settings)?;
     let sliding_speed = settings.optional_number("operation.sliding_speed")?;

@@ -45,6 +45,7 @@ pub(super) struct Layered {
 /// of this version.
 pub(super) fn read(path: &Path, text: Option<&str>, sets: &[&[String]]) -> Result<Layered, SceneError> {
     let mut problems = Vec::new();
+    // From the top down: what is set last, …, the scene, what it extends.
     let (files, mut layers) = read_chain(path, text, &mut problems)?;
     for arguments in sets {
         let mut set = Entries::new();

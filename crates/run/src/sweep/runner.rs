@@ -428,14 +428,14 @@ impl<'a> Runner<'a> {
             expected: &expected,
             besides: &before,
         };
-        let (outcome, of) = match make(&request, &mut under_way) {
+        let (outcome, made_of) = match make(&request, &mut under_way) {
             Ok(made) => made,
             Err(Ended::Unkept(error)) => {
                 return self.break_off(format_args!("{error}; what was finished before is safe"));
             }
             Err(_) => return PieceEnd::Stopped,
         };
-        let of = of.unwrap_or(expected);
+        let of = made_of.unwrap_or(expected);
         if let Some(series) = outcome.series() {
             let answers = study.responses.iter().map(|response| response.of(&series));
             // That a time is after the end is said before any run is made.
@@ -462,8 +462,8 @@ impl<'a> Runner<'a> {
             ));
         }
         under_way.forget();
-        let expected = self.decided.and_then(|resolved| resolved.runs.get(&number));
-        if record.identity != *expected.map_or(&identity, |run| &run.identity) {
+        let decided = self.decided.and_then(|resolved| resolved.runs.get(&number));
+        if record.identity != *decided.map_or(&identity, |run| &run.identity) {
             lock(&self.changed).insert(number);
         }
         self.observer.run_ended(failure.is_some());

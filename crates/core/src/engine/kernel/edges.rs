@@ -338,8 +338,8 @@ impl<L: Lanes> Run<L> {
     }
 }
 
-/// Wears a column in passing: what its cells lose and may be compacted, m, and z_p of those that touch after it, m, out of reach
-/// where there is no plateau.
+/// Computes what the cells of a column will lose and may be compacted, m, and z_p of those that touch after that, m, out of reach where there
+/// is no plateau; changes nothing.
 #[inline(always)]
 pub(super) fn worn_ahead<L: Lanes, const BUILD_UP: u8, const DISC_WEARS: bool>(
     rules: &StripRules<L>,

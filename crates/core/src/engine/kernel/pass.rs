@@ -27,8 +27,8 @@ use crate::engine::strips::{DiscSector, PinStrips};
 /// Columns of a strip with something out of the ordinary after which it is not looked for any more.
 const MOST_UNUSUAL: usize = 12;
 
-/// A pass over a span; the flag tells whether the pair of its first pin column with the disc column before its first
-/// is to be read for the next step.
+/// A pass over a span; the flag is [`joined`](crate::engine::sector::Segment::joined): the pair that the first pin column has in the next step
+/// is read, too.
 pub type Pass =
     fn(InstructionSet, &Rules, &Conditions, &mut PinStrips, &mut DiscSector, Span, bool, &mut Moved, &mut Reading);
 
