@@ -5,12 +5,12 @@
 //! - *What has passed.* A run begins with m = 1, and no simulated revolution stands for more than a small part of the time
 //!   that has passed. What a revolution does to the surfaces is large at the start and small later, so m grows with the
 //!   time, each decade of which takes as many steps as the one before.
-//! - *What is seen.* A second simulation, the [scout](crate::acceleration::scout), goes beside the run with [`RATIO`] times its
+//! - *What is seen.* A second simulation, the [scout], goes beside the run with [`RATIO`] times its
 //!   acceleration. From what the two differ by follows the error of the run: see [`Choice::error`].
 //! - *What is resolved.* A window of the contact area's history has a few revolutions, and ends with one: over a part of a
 //!   revolution the mean depends on which part of the ring that is.
 //!
-//! Run and scout together are quicker than m = 1 from [`LEAST`] on. Where less is allowed, the run goes on alone with m = 1, which
+//! Run and scout together are quicker than m = 1 from `LEAST` on. Where less is allowed, the run goes on alone with m = 1, which
 //! adds no error, and comes back after a while with a scout that begins with its surfaces: what the former scout differed by was
 //! mostly the error of its own past, which is no measure of what m costs the run now.
 
