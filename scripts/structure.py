@@ -39,13 +39,14 @@ def draw(axes: Axes, revision: str) -> None:
     """Draw one revision."""
     found = rooms(revision)
     below = dependencies(revision, set(found))
+    sizes = {crate: sum(map(sum, folders.values())) for crate, folders in found.items()}
 
     def floor(crate: str) -> int:
         return 1 + max((floor(other) for other in below[crate]), default=-1)
 
     centres: dict[str, float] = {}
     for level in range(1 + max(map(floor, found))):
-        on_floor = sorted((crate for crate in found if floor(crate) == level), key=lambda crate: -sum(map(sum, found[crate].values())))
+        on_floor = sorted((crate for crate in found if floor(crate) == level), key=lambda crate: -sizes[crate])
         left = 0.0
         for crate in on_floor:
             start = left
@@ -59,19 +60,17 @@ def draw(axes: Axes, revision: str) -> None:
                 if width > 0.018:
                     axes.text(left + width / 2, level + FLOOR_HEIGHT / 2, folder, rotation=90, ha="center", va="center", fontsize=6)
                 left += width
-            lines, number = sum(map(sum, found[crate].values())), sum(map(len, found[crate].values()))
             axes.add_patch(_box(start, level, left - start, FLOOR_HEIGHT, "none", 1.5))
-            words = f"{crate}: {lines} lines, {number} files"
+            words = f"{crate}: {sizes[crate]} lines, {sum(map(len, found[crate].values()))} files"
             axes.text(start, level + FLOOR_HEIGHT + 0.05, words, fontsize=7, fontweight="bold")
             centres[crate] = (start + left) / 2
             left += max(0.05, 0.22 - (left - start))
     for crate, others in below.items():
         # What another dependency brings anyhow would hide the picture.
-        for other in others - set().union(*(below[between] for between in others)):
+        for other in sorted(others - set().union(*(below[between] for between in others))):
             ends = (centres[other], floor(other) + FLOOR_HEIGHT), (centres[crate], floor(crate))
             axes.annotate("", *ends, arrowprops={"arrowstyle": "->", "color": "tab:blue"})
-    total = sum(sum(map(sum, folders.values())) for folders in found.values())
-    axes.set(xlim=(0, 1), ylim=(-0.05, 4.05), title=f"{revision}: {total} lines of Rust without tests")
+    axes.set(xlim=(0, 1), ylim=(-0.05, 4.05), title=f"{revision}: {sum(sizes.values())} lines of Rust without tests")
     axes.axis("off")
 
 

@@ -7,7 +7,7 @@ cd "$(dirname "$0")/.." || exit 1
 clones=$(mktemp -d) || exit 1
 trap 'rm -rf "$clones"' EXIT
 
-# timed WORDS COMMAND...: seconds that the command takes, and its exit status; what it prints goes to its own file.
+# timed WORDS COMMAND...: seconds that the command takes, and its exit status; and what it printed where it failed.
 timed() {
     words=$1
     shift
@@ -15,7 +15,7 @@ timed() {
     "$@" >"$clones/output" 2>&1
     status=$?
     printf '%-45s %5d s, exit status %d\n' "$words" "$(($(date +%s) - started))" "$status"
-    [ "$status" -eq 0 ] || tail -n 20 "$clones/output"
+    [ "$status" -eq 0 ] || cat "$clones/output"
 }
 
 git rev-parse HEAD && uname -m && getconf _NPROCESSORS_ONLN && grep -m 1 'model name' /proc/cpuinfo

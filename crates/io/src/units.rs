@@ -201,6 +201,20 @@ pub enum Dimension {
     Angle,
 }
 
+/// Knowledge of a kind of quantity.
+struct Facts {
+    powers: Powers,
+    /// The coherent SI unit.
+    si_unit: &'static str,
+    example: &'static str,
+    /// Units that are commonly used.
+    units: &'static str,
+}
+
+const fn facts(powers: Powers, si_unit: &'static str, example: &'static str, units: &'static str) -> Facts {
+    Facts { powers, si_unit, example, units }
+}
+
 /// Dimension of a unit of these powers.
 const MEANINGS: &[(Powers, &str)] = &[
     ([1, 0, 0, 0, 0], "a length"),
@@ -232,31 +246,30 @@ fn meaning(powers: Powers) -> &'static str {
 }
 
 impl Dimension {
-    /// Powers, the coherent SI unit, a quantity as an example, and units that are commonly used.
-    fn facts(self) -> (Powers, &'static str, &'static str, &'static str) {
+    fn facts(self) -> Facts {
         match self {
-            Self::Length => ([1, 0, 0, 0, 0], "m", "50 um", "m, mm, um, nm"),
-            Self::Force => ([1, 1, -2, 0, 0], "N", "47 N", "N, kN, mN"),
-            Self::Pressure => ([-1, 1, -2, 0, 0], "Pa", "100 GPa", "Pa, kPa, MPa, GPa"),
-            Self::Time => ([0, 0, 1, 0, 0], "s", "3000 s", "s, ms, min, h"),
-            Self::Speed => ([1, 0, -1, 0, 0], "m/s", "2 m/s", "m/s, mm/s, km/h"),
-            Self::RotationalSpeed => ([0, 0, -1, 1, 0], "rad/s", "850 rpm", "rpm, rad/s"),
-            Self::Torque => ([2, 1, -2, 0, 0], "N m", "0.4 N m", "N m, mN m, kN m"),
-            Self::SpecificWearRate => ([1, -1, 2, 0, 0], "1/Pa", "5e-14 1/Pa", "1/Pa, m^2/N, mm^3/(N m)"),
-            Self::Area => ([2, 0, 0, 0, 0], "m^2", "2000 um^2", "m^2, mm^2, um^2"),
-            Self::Temperature => ([0, 0, 0, 0, 1], "K", "23 degC", "degC, K"),
-            Self::ThermalConductivity => ([1, 1, -3, 0, -1], "W/(m K)", "50 W/(m K)", "W/(m K), W/m/K"),
-            Self::Density => ([-3, 1, 0, 0, 0], "kg/m^3", "7200 kg/m^3", "kg/m^3, g/cm^3"),
-            Self::SpecificHeat => ([2, 0, -2, 0, -1], "J/(kg K)", "500 J/(kg K)", "J/(kg K), kJ/(kg K), J/kg/K"),
-            Self::Cooling => ([2, 1, -3, 0, -1], "W/K", "0.4 W/K", "W/K, mW/K"),
-            Self::CoolingPerSpeed => ([2, 1, -2, -1, -1], "J/(K rad)", "0.002 J/(K rad)", "J/(K rad), J/K/rad"),
-            Self::NumberPerMass => ([0, -1, 0, 0, 0], "1/kg", "1e15 1/kg", "1/kg, 1/g, 1/mg"),
-            Self::Angle => ([0, 0, 0, 1, 0], "rad", "90 deg", "deg, rad"),
+            Self::Length => facts([1, 0, 0, 0, 0], "m", "50 um", "m, mm, um, nm"),
+            Self::Force => facts([1, 1, -2, 0, 0], "N", "47 N", "N, kN, mN"),
+            Self::Pressure => facts([-1, 1, -2, 0, 0], "Pa", "100 GPa", "Pa, kPa, MPa, GPa"),
+            Self::Time => facts([0, 0, 1, 0, 0], "s", "3000 s", "s, ms, min, h"),
+            Self::Speed => facts([1, 0, -1, 0, 0], "m/s", "2 m/s", "m/s, mm/s, km/h"),
+            Self::RotationalSpeed => facts([0, 0, -1, 1, 0], "rad/s", "850 rpm", "rpm, rad/s"),
+            Self::Torque => facts([2, 1, -2, 0, 0], "N m", "0.4 N m", "N m, mN m, kN m"),
+            Self::SpecificWearRate => facts([1, -1, 2, 0, 0], "1/Pa", "5e-14 1/Pa", "1/Pa, m^2/N, mm^3/(N m)"),
+            Self::Area => facts([2, 0, 0, 0, 0], "m^2", "2000 um^2", "m^2, mm^2, um^2"),
+            Self::Temperature => facts([0, 0, 0, 0, 1], "K", "23 degC", "degC, K"),
+            Self::ThermalConductivity => facts([1, 1, -3, 0, -1], "W/(m K)", "50 W/(m K)", "W/(m K), W/m/K"),
+            Self::Density => facts([-3, 1, 0, 0, 0], "kg/m^3", "7200 kg/m^3", "kg/m^3, g/cm^3"),
+            Self::SpecificHeat => facts([2, 0, -2, 0, -1], "J/(kg K)", "500 J/(kg K)", "J/(kg K), kJ/(kg K), J/kg/K"),
+            Self::Cooling => facts([2, 1, -3, 0, -1], "W/K", "0.4 W/K", "W/K, mW/K"),
+            Self::CoolingPerSpeed => facts([2, 1, -2, -1, -1], "J/(K rad)", "0.002 J/(K rad)", "J/(K rad), J/K/rad"),
+            Self::NumberPerMass => facts([0, -1, 0, 0, 0], "1/kg", "1e15 1/kg", "1/kg, 1/g, 1/mg"),
+            Self::Angle => facts([0, 0, 0, 1, 0], "rad", "90 deg", "deg, rad"),
         }
     }
 
     fn powers(self) -> Powers {
-        self.facts().0
+        self.facts().powers
     }
 
     /// Its meaning in a scene, with an article.
@@ -273,17 +286,17 @@ impl Dimension {
 
     /// The coherent SI unit.
     pub fn si_unit(self) -> &'static str {
-        self.facts().1
+        self.facts().si_unit
     }
 
     /// A quantity as a scene may write it.
     pub fn example(self) -> &'static str {
-        self.facts().2
+        self.facts().example
     }
 
     /// The units that are commonly used, for messages and documentation.
     pub fn units(self) -> &'static str {
-        self.facts().3
+        self.facts().units
     }
 }
 

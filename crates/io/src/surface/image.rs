@@ -97,8 +97,8 @@ enum Samples {
 /// Bytes of pixels that a byte of a JPEG file holds at most: blocks of 8 by 8 samples of less than a bit each, and colours that a quarter
 /// of the pixels share along and across.
 const JPEG_INFLATED: usize = 4096;
-/// Largest width and height that such a file can state.
-const LARGEST: usize = u16::MAX as usize;
+/// Largest width and height that a JPEG file can state.
+const JPEG_LARGEST: usize = u16::MAX as usize;
 
 const EXPECTED: &str = "grey or RGB pixels of 8 or 16 bits, or grey ones of 32 bits float: save it so";
 
@@ -188,7 +188,8 @@ impl Raster {
     /// Decodes a JPEG image, which has to be complete: what is missing of one would be a grey area.
     fn jpeg(content: &[u8]) -> Result<Self, ImageError> {
         let bytes = content.len();
-        let options = DecoderOptions::default().set_strict_mode(true).set_max_width(LARGEST).set_max_height(LARGEST);
+        let options =
+            DecoderOptions::default().set_strict_mode(true).set_max_width(JPEG_LARGEST).set_max_height(JPEG_LARGEST);
         let mut decoder = JpegDecoder::new_with_options(Cursor::new(content), options);
         decoder.decode_headers()?;
         let (width, height) = decoder.dimensions().unwrap_or_default();
