@@ -119,6 +119,8 @@ pub struct NextStrip {
     /// Distance in chunks to it from the same column of the strip that is passed over, of the pin and of the disc.
     to_pin: isize,
     to_disc: isize,
+    /// True if a cell of it touches whose base is resin: then b_p is looked at in all columns.
+    pub resin_touches: bool,
 }
 
 impl NextStrip {
@@ -128,14 +130,19 @@ impl NextStrip {
     /// Returns the strip after this one; none where all strips of the pin stay near the processor from step to step.
     #[inline]
     pub fn of(strip: usize, pin: &PinStrips, disc: &DiscSector) -> Option<Self> {
-        (!pin.stays).then(|| Self { to_pin: pin.height.to_next(strip), to_disc: disc.height.to_next(strip) })
+        if pin.stays {
+            return None;
+        }
+        let next = (strip + 1) % pin.height.strips() * pin.columns..;
+        let resin_touches = any_of_both(&pin.resin[next.clone()][..pin.columns], &pin.touches[next][..pin.columns]);
+        Some(Self { to_pin: pin.height.to_next(strip), to_disc: disc.height.to_next(strip), resin_touches })
     }
 
     /// Has columns of it from one on, up to an end, brought near the processor, and returns where those end: of these fields of the pin and
     /// of the disc, which are given for the strip that is passed over, as far as they are kept. All columns where it need not be fetched.
     #[inline(always)]
     pub fn fetch(next: Option<Self>, column: usize, end: usize, pin: [&[Chunk]; 2], disc: [&[Chunk]; 2]) -> usize {
-        let Some(Self { to_pin, to_disc }) = next else { return end };
+        let Some(Self { to_pin, to_disc, .. }) = next else { return end };
         let end = end.min(column + Self::COLUMNS);
         for (distance, fields) in [(to_pin, pin), (to_disc, disc)] {
             let chunks = fields.into_iter().filter_map(|field| field.get(column..end)).flatten();
@@ -225,6 +232,21 @@ pub struct PinStrip<'a> {
     pub touches: &'a mut [u8],
     /// Rows that are there, one bit each; empty where all are.
     pub present: &'a [u8],
+}
+
+impl PinStrip<'_> {
+    /// Tells whether a cell touches in the coming step whose base is resin.
+    #[inline(always)]
+    pub fn resin_touches(&self) -> bool {
+        any_of_both(self.resin, self.touches)
+    }
+}
+
+/// Tells whether a bit is set in both fields.
+#[inline(always)]
+fn any_of_both(a: &[u8], b: &[u8]) -> bool {
+    // A compiler makes a wide loop of this.
+    a.iter().zip(b).fold(0, |any, (a, b)| any | a & b) != 0
 }
 
 impl PinStrips {

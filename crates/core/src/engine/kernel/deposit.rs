@@ -14,6 +14,9 @@ use super::strip::Strip;
 use crate::engine::lanes::{Integers, LANES, Lanes, Mask};
 use crate::engine::strips::{DiscSector, PinStrips};
 
+/// Columns with something to do ahead of which b_p is fetched.
+const LATER: usize = 8;
+
 kernel! {
     /// Fills the gaps of a strip of a span, of which no column has been worn, or, with a transport length, all that touches.
     pub fn deposit<const BUILD_UP: u8, const DISC_WEARS: bool, const TRANSPORT: bool>(
@@ -82,10 +85,14 @@ fn deposit_on_rows<L: Lanes, const BUILD_UP: u8, const DISC_WEARS: bool, const T
             deposits.fill(rules, strip, column, [fed[column], 0], [nearest, height], &mut moved.seldom);
         }
     } else {
-        for column in &listed[1..=count] {
+        let lacks_substrate = strip.lacks_substrate::<BUILD_UP>();
+        for (column, later) in listed[1..=count].iter().zip(&listed[1 + LATER..]) {
             let column = *column as usize;
             if column >= columns {
                 break;
+            }
+            if lacks_substrate && let Some(later) = strip.pin.substrate.get(*later as usize) {
+                later.fetch(0);
             }
             let rows = fed[column] & L::ROWS;
             let (of_resin, next);

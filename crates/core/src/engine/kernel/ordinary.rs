@@ -8,8 +8,7 @@
 
 use std::ops::Range;
 
-use super::pairs::Pairs;
-use super::reading::{Reading, StripReading};
+use super::reading::StripReading;
 use super::rules::StripRules;
 use super::strip::Strip;
 use crate::engine::lanes::{Chunk, Lanes, Mask};
@@ -23,16 +22,15 @@ pub(super) fn pass_over_ordinary<L: Lanes, const BUILD_UP: u8, const DISC_WEARS:
     strip: &mut Strip,
     columns: Range<usize>,
     next: &mut StripReading<L, BUILD_UP>,
-    reading: &mut Reading,
+    reached: &mut [u8],
 ) -> usize {
     let Range { start, end } = columns;
     let mut ordinary = Ordinary::<L, BUILD_UP> {
         rules,
-        place: [strip.index, strip.first + start],
+        resin_touches: strip.resin_touches,
         pin_height: &mut strip.pin.height[start..end],
         pin_substrate: if BUILD_UP == build_up::NONE { &[] } else { &strip.pin.substrate[start..end] },
         resin: &strip.pin.resin[start..end],
-        plateau: &strip.pin.plateau[start..end],
         touches: &mut strip.pin.touches[start..end],
         disc_height: &mut strip.disc_height[start - 1..end],
         disc_substrate: if DISC_WEARS && BUILD_UP != build_up::NONE {
@@ -44,7 +42,7 @@ pub(super) fn pass_over_ordinary<L: Lanes, const BUILD_UP: u8, const DISC_WEARS:
         pin_loss: rules.zero - rules.pin_loss.plateau(),
         disc_loss: rules.zero - rules.disc_loss.plateau(),
         next: *next,
-        reading,
+        reached: &mut reached[start..end],
     };
     let mut column = 0;
     while column < end - start && ordinary.column::<DISC_WEARS>(column) {
@@ -57,12 +55,11 @@ pub(super) fn pass_over_ordinary<L: Lanes, const BUILD_UP: u8, const DISC_WEARS:
 /// A strip while its ordinary cells wear.
 struct Ordinary<'a, L: Lanes, const BUILD_UP: u8> {
     rules: &'a StripRules<'a, L>,
-    /// Strip and first column of the pin.
-    place: [usize; 2],
+    /// True if a cell of the strip touches whose base is resin: b_p is looked at only then.
+    resin_touches: bool,
     pin_height: &'a mut [Chunk],
     pin_substrate: &'a [Chunk],
     resin: &'a [u8],
-    plateau: &'a [u8],
     touches: &'a mut [u8],
     /// Of the columns behind, and of the last.
     disc_height: &'a mut [Chunk],
@@ -73,7 +70,7 @@ struct Ordinary<'a, L: Lanes, const BUILD_UP: u8> {
     pin_loss: L,
     disc_loss: L,
     next: StripReading<L, BUILD_UP>,
-    reading: &'a mut Reading,
+    reached: &'a mut [u8],
 }
 
 impl<L: Lanes, const BUILD_UP: u8> Ordinary<'_, L, BUILD_UP> {
@@ -87,25 +84,23 @@ impl<L: Lanes, const BUILD_UP: u8> Ordinary<'_, L, BUILD_UP> {
         let overlap = (self.rules.displacement - (z_p - z_d)).greater(self.rules.zero);
         let worn = z_p + overlap * self.pin_loss;
         // Bare resin, or build-up on resin that is worn through or breaks away.
-        let mut on_ground = u8::MAX;
-        if BUILD_UP != build_up::NONE {
-            on_ground = worn.at_least(L::load(&self.pin_substrate[column])).byte();
-        }
-        if BUILD_UP == build_up::BRITTLE {
-            on_ground |= self.strength.below(overlap).byte();
-        }
-        if on_ground & self.resin[column] & self.touches[column] != 0 {
-            return false;
+        if self.resin_touches {
+            let mut on_ground = u8::MAX;
+            if BUILD_UP != build_up::NONE {
+                on_ground = worn.at_least(L::load(&self.pin_substrate[column])).byte();
+            }
+            if BUILD_UP == build_up::BRITTLE {
+                on_ground |= self.strength.below(overlap).byte();
+            }
+            if on_ground & self.resin[column] & self.touches[column] != 0 {
+                return false;
+            }
         }
         worn.store(&mut self.pin_height[column]);
 
         // 4.1 of the next step
         let gap = worn - L::load(&self.disc_height[column]);
-        let [strip, first] = self.place;
-        let nothing = L::Mask::of_byte(0);
-        let alike = Pairs { on_resin: nothing, pin_secondary: nothing, disc_secondary: nothing };
-        let (bare, place) = (!self.plateau[column], [strip, first + column]);
-        self.touches[column] = self.next.add(gap, bare, alike, &self.rules.bracket, place, self.reading);
+        [self.touches[column], self.reached[column]] = self.next.add_alike(gap, &self.rules.bracket);
         if DISC_WEARS {
             let z_d = z_d - overlap * self.disc_loss;
             z_d.store(&mut self.disc_height[column + 1]);

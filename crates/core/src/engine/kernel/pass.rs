@@ -16,11 +16,11 @@ use super::moved::{Moved, SeldomEvent, StripMoved};
 use super::ordinary::pass_over_ordinary;
 use super::pairs::Pairs;
 use super::read::{Span, read_span};
-use super::reading::{Reading, StripReading};
+use super::reading::{Reading, SeldomColumns, StripReading};
 use super::rules::{Conditions, Rules, StripRules};
 use super::strip::Strip;
 use super::worn_column::{store_worn, wear_and_note, wear_any_and_note};
-use crate::engine::lanes::Lanes;
+use crate::engine::lanes::{Lanes, Mask};
 use crate::engine::parts::{Needs, build_up};
 use crate::engine::strips::{DiscSector, PinStrips};
 
@@ -104,6 +104,7 @@ fn pass_over_strip<L: Lanes, const BUILD_UP: u8, const DISC_WEARS: bool>(
     let strip_rules = StripRules::<L>::new(rules, conditions, index);
     let (mut strip_moved, mut next) = (StripMoved::<L>::new(), StripReading::<L, BUILD_UP>::new());
     let some = strip.extent.clone();
+    reading.begin_strip(some.end);
     let mut unusual = 0;
     let (mut column, mut block_end) = (some.start, some.start);
     while column < some.end {
@@ -116,7 +117,7 @@ fn pass_over_strip<L: Lanes, const BUILD_UP: u8, const DISC_WEARS: bool>(
                 &mut strip,
                 column..block_end,
                 &mut next,
-                reading,
+                &mut reading.reached,
             );
             if column == block_end {
                 continue;
@@ -136,6 +137,18 @@ fn pass_over_strip<L: Lanes, const BUILD_UP: u8, const DISC_WEARS: bool>(
     }
     strip_moved.store::<BUILD_UP, DISC_WEARS>(&strip_rules, index, some.len(), moved);
     next.store(index, reading);
+    let mut seldom = SeldomColumns::of(&mut reading.reached, strip.pin.touches, strip.pin.plateau);
+    while let Some(column) = seldom.next::<L>(&reading.reached) {
+        let (z_p, behind) = (L::load(&strip.pin.height[column]), strip.behind::<L, BUILD_UP>(column));
+        let pairs = Pairs {
+            on_resin: L::Mask::of_byte(strip.pin.resin[column]),
+            pin_secondary: strip.pin_secondary::<L, BUILD_UP>(column),
+            disc_secondary: behind.secondary,
+        };
+        let (bare, place) = (!strip.pin.plateau[column], [index, strip.first + column]);
+        let bracket = &strip_rules.bracket;
+        StripReading::<L, BUILD_UP>::note_seldom(z_p - behind.height, bare, pairs, bracket, place, reading);
+    }
 }
 
 /// Wears the eight cells of a column, and reads what they do with what lies behind.
@@ -159,7 +172,7 @@ fn update<L: Lanes, const BUILD_UP: u8, const DISC_WEARS: bool>(
     // 4.1 of the next step.
     let behind = strip.behind::<L, BUILD_UP>(column);
     let pairs = Pairs { on_resin: worn.on_resin, pin_secondary, disc_secondary: behind.secondary };
-    let place = [strip.index, strip.first + column];
-    let bare = !strip.pin.plateau[column];
-    strip.pin.touches[column] = next.add(z_p - behind.height, bare, pairs, &rules.bracket, place, reading);
+    let gap = z_p - behind.height;
+    [strip.pin.touches[column], reading.reached[column]] =
+        next.add(gap, pairs, &rules.bracket, strip.index, &mut reading.overlap);
 }

@@ -2,10 +2,10 @@
 
 use super::instructions::{InstructionSet, kernel};
 use super::pairs::Pairs;
-use super::reading::{Bracket, BracketLanes, Reading, StripReading};
+use super::reading::{Bracket, BracketLanes, Reading, SeldomColumns, StripReading};
 use crate::engine::lanes::{Chunk, Lanes, Mask};
 use crate::engine::parts::{Needs, build_up};
-use crate::engine::strips::{DiscSector, NextStrip, PinStrips};
+use crate::engine::strips::{DiscSector, NextStrip, PinStrip, PinStrips};
 use std::ops::Range;
 
 /// Columns of pairs: the pin's from `first` on lie over the sector's from `over` on.
@@ -75,37 +75,64 @@ fn read_strips<L: Lanes, const BUILD_UP: u8>(
     reading: &mut Reading,
 ) {
     let bracket = BracketLanes::<L>::new(bracket);
-    let nothing = L::Mask::of_byte(0);
-    for strip in strips {
-        let next = NextStrip::of(strip, pin, disc);
-        let pin = pin.strip_mut(strip, span.first, span.columns);
-        let disc_height = &disc.height.strip(strip)[span.over..][..span.columns];
-        let disc_substrate = disc.substrate.as_ref().map(|field| &field.strip(strip)[span.over..][..span.columns]);
+    for index in strips {
+        let next = NextStrip::of(index, pin, disc);
+        let strip = Facing {
+            pin: pin.strip_mut(index, span.first, span.columns),
+            disc_height: &disc.height.strip(index)[span.over..][..span.columns],
+            disc_substrate: match &disc.substrate {
+                Some(field) if BUILD_UP == build_up::DISTINCT => &field.strip(index)[span.over..][..span.columns],
+                _ => &[],
+            },
+        };
         let mut sums = StripReading::<L, BUILD_UP>::new();
+        reading.begin_strip(span.columns);
         let mut column = 0;
         while column < span.columns {
             // With a transport length this comes last on a strip.
-            let fields = ([&*pin.height, &*pin.substrate], [disc_height, &[]]);
+            let fields = ([&*strip.pin.height, &*strip.pin.substrate], [strip.disc_height, &[]]);
             let end = NextStrip::fetch(next, column, span.columns, fields.0, fields.1);
-            for column in column..end {
-                let (z_p, z_d) = (L::load(&pin.height[column]), L::load(&disc_height[column]));
-                let pairs = Pairs {
-                    on_resin: L::Mask::of_byte(pin.resin[column]),
-                    pin_secondary: match pin.substrate.get(column) {
-                        Some(substrate) => z_p.below(L::load(substrate)),
-                        None => nothing,
-                    },
-                    disc_secondary: match disc_substrate {
-                        Some(substrate) if BUILD_UP == build_up::DISTINCT => L::load(&substrate[column]).below(z_d),
-                        _ => nothing,
-                    },
-                };
-                let place = [strip, span.first + column];
-                pin.touches[column] = sums.add(z_p - z_d, !pin.plateau[column], pairs, &bracket, place, reading);
+            while column < end {
+                let (gap, pairs) = strip.pairs::<L, BUILD_UP>(column);
+                [strip.pin.touches[column], reading.reached[column]] =
+                    sums.add(gap, pairs, &bracket, index, &mut reading.overlap);
+                column += 1;
             }
-            column = end;
         }
-        sums.store(strip, reading);
+        sums.store(index, reading);
+        let mut seldom = SeldomColumns::of(&mut reading.reached, strip.pin.touches, strip.pin.plateau);
+        while let Some(column) = seldom.next::<L>(&reading.reached) {
+            let ((gap, pairs), bare) = (strip.pairs::<L, BUILD_UP>(column), !strip.pin.plateau[column]);
+            let place = [index, span.first + column];
+            StripReading::<L, BUILD_UP>::note_seldom(gap, bare, pairs, &bracket, place, reading);
+        }
+    }
+}
+
+/// Some columns of a strip of the pin, and the disc under them.
+struct Facing<'a> {
+    pin: PinStrip<'a>,
+    /// Surface height z_d, m.
+    disc_height: &'a [Chunk],
+    /// Substrate height b_d, m; empty where statuses of the disc are not looked at.
+    disc_substrate: &'a [Chunk],
+}
+
+impl Facing<'_> {
+    /// Gaps g = z_p − z_d of a column, m, and the statuses of its pairs as far as they are looked at.
+    #[inline(always)]
+    fn pairs<L: Lanes, const BUILD_UP: u8>(&self, column: usize) -> (L, Pairs<L>) {
+        let (z_p, z_d) = (L::load(&self.pin.height[column]), L::load(&self.disc_height[column]));
+        let nothing = L::Mask::of_byte(0);
+        let mut pairs = Pairs { on_resin: nothing, pin_secondary: nothing, disc_secondary: nothing };
+        if BUILD_UP == build_up::DISTINCT {
+            pairs = Pairs {
+                on_resin: L::Mask::of_byte(self.pin.resin[column]),
+                pin_secondary: z_p.below(L::load(&self.pin.substrate[column])),
+                disc_secondary: L::load(&self.disc_substrate[column]).below(z_d),
+            };
+        }
+        (z_p - z_d, pairs)
     }
 }
 

@@ -3,7 +3,7 @@
 use super::pairs::{PLAIN_PAIRS, PLATEAU, Pairs, RESIN, lanes_of, pair_of_lane};
 use crate::engine::coefficients::StatusPair;
 use crate::engine::exact::{Quantum, RowIntegers};
-use crate::engine::lanes::{Chunk, IntegerChunk, Integers, LANES, Lanes, Mask};
+use crate::engine::lanes::{BYTES, Chunk, IntegerChunk, Integers, LANES, Lanes, Mask};
 use crate::engine::parts::build_up;
 use serde::{Deserialize, Serialize};
 
@@ -58,13 +58,22 @@ pub struct Reading {
     pub first_row: usize,
     /// Largest anchored overlaps, which show any that is out of the quantum's range.
     pub largest: Chunk,
+    /// Rows of the strip that is being read which touch somewhere in the bracket, column by column, one bit each; zeros fill up what is
+    /// looked at at a time.
+    pub(super) reached: Vec<u8>,
 }
 
 impl Reading {
     /// Creates an empty reading. Where build-up has the properties of what it lies on, only two pairs are told apart.
     pub fn new(first_row: usize, strips: usize, distinct: bool) -> Self {
         let rows = |pair| RowIntegers::new(if told_apart(distinct).contains(&pair) { strips } else { 0 });
-        Self { overlap: std::array::from_fn(rows), near: Vec::new(), first_row, largest: Chunk([0.0; LANES]) }
+        Self {
+            overlap: std::array::from_fn(rows),
+            near: Vec::new(),
+            first_row,
+            largest: Chunk([0.0; LANES]),
+            reached: Vec::new(),
+        }
     }
 
     /// Starts anew.
@@ -72,6 +81,13 @@ impl Reading {
         self.overlap.iter_mut().for_each(RowIntegers::clear);
         self.near.clear();
         self.largest = Chunk([0.0; LANES]);
+    }
+
+    /// Makes room for what so many columns of a strip reach.
+    #[inline(always)]
+    pub(super) fn begin_strip(&mut self, columns: usize) {
+        self.reached.clear();
+        self.reached.resize(columns.next_multiple_of(BYTES), 0);
     }
 
     /// The largest of the anchored overlaps.
@@ -116,8 +132,8 @@ struct Stand<L: Lanes> {
     overlap: L,
     /// Pairs that touch at the lower end.
     touches: L::Mask,
-    /// Pairs that touch somewhere in the bracket, but not at its lower end.
-    near: L::Mask,
+    /// Pairs that touch somewhere in the bracket.
+    reached: L::Mask,
 }
 
 impl<L: Lanes> Stand<L> {
@@ -125,8 +141,7 @@ impl<L: Lanes> Stand<L> {
     #[inline(always)]
     fn new(gap: L, bracket: &BracketLanes<L>) -> Self {
         let overlap = bracket.low - gap;
-        let touches = bracket.none.below(overlap);
-        Self { overlap, touches, near: overlap.at_least(bracket.high) & !touches }
+        Self { overlap, touches: bracket.none.below(overlap), reached: overlap.at_least(bracket.high) }
     }
 }
 
@@ -144,41 +159,68 @@ impl<L: Lanes, const BUILD_UP: u8> StripReading<L, BUILD_UP> {
         Self { overlap: [L::Integers::splat(0); StatusPair::COUNT], largest: L::splat(0.0) }
     }
 
-    /// Reads eight pairs of a strip and a column of the pin: gap g = z_p − z_d against the bracket. `bare` are those of bare
-    /// resin, one bit each; their statuses as masks are looked at only where build-up has properties of its own. Returns those that
-    /// touch at the lower end, one bit each.
+    /// Reads eight pairs of a strip and a column of the pin: gap g = z_p − z_d against the bracket. Their statuses are looked at only
+    /// where build-up has properties of its own; what else is seldom [`StripReading::note_seldom`] looks at after the strip. Returns
+    /// those that touch at the lower end and those that touch somewhere in the bracket, one bit each.
     #[inline(always)]
     pub fn add(
         &mut self,
+        gap: L,
+        pairs: Pairs<L>,
+        bracket: &BracketLanes<L>,
+        strip: usize,
+        overlaps: &mut [RowIntegers; StatusPair::COUNT],
+    ) -> [u8; 2] {
+        if BUILD_UP != build_up::DISTINCT {
+            return self.add_alike(gap, bracket);
+        }
+        let stand = Stand::new(gap, bracket);
+        self.add_distinct(&stand, pairs, strip, overlaps);
+        [stand.touches.byte(), stand.reached.byte()]
+    }
+
+    /// Reads eight pairs as [`StripReading::add`] does, where build-up has the properties of what it lies on.
+    #[inline(always)]
+    pub fn add_alike(&mut self, gap: L, bracket: &BracketLanes<L>) -> [u8; 2] {
+        let stand = Stand::new(gap, bracket);
+        self.largest = stand.overlap.greater(self.largest);
+        self.overlap[PLATEAU] = self.overlap[PLATEAU].plus_where(stand.touches, stand.overlap.bits());
+        [stand.touches.byte(), stand.reached.byte()]
+    }
+
+    /// Notes what is seldom of eight pairs that were added: bare resin that touches, and pairs of which the bracket does not say whether
+    /// they do. `bare` are those of bare resin, one bit each.
+    #[inline(always)]
+    pub fn note_seldom(
         gap: L,
         bare: u8,
         pairs: Pairs<L>,
         bracket: &BracketLanes<L>,
         place: [usize; 2],
         reading: &mut Reading,
-    ) -> u8 {
+    ) {
         let stand = Stand::new(gap, bracket);
         let touching = stand.touches.byte();
-        if BUILD_UP == build_up::DISTINCT {
-            self.add_distinct(&stand, pairs, place[0], reading);
-        } else {
-            self.add_plateaus(&stand);
-            // Seldom.
-            if touching & bare != 0 {
-                let mut overlap = IntegerChunk::default();
-                stand.overlap.bits().store(&mut overlap);
-                give_to_resin(reading, place[0], touching & bare, &overlap);
-            }
+        if BUILD_UP != build_up::DISTINCT && touching & bare != 0 {
+            let mut overlap = IntegerChunk::default();
+            stand.overlap.bits().store(&mut overlap);
+            give_to_resin(reading, place[0], touching & bare, &overlap);
         }
-        if stand.near.any() {
-            note_near::<L, BUILD_UP>(reading, gap, stand.near.byte(), statuses::<L, BUILD_UP>(bare, pairs), place);
+        let near = stand.reached.byte() & !touching;
+        if near != 0 {
+            note_near::<L, BUILD_UP>(reading, gap, near, statuses::<L, BUILD_UP>(bare, pairs), place);
         }
-        touching
     }
 
     /// Adds eight pairs by their statuses.
     #[inline(always)]
-    fn add_distinct(&mut self, stand: &Stand<L>, pairs: Pairs<L>, strip: usize, reading: &mut Reading) {
+    fn add_distinct(
+        &mut self,
+        stand: &Stand<L>,
+        pairs: Pairs<L>,
+        strip: usize,
+        overlaps: &mut [RowIntegers; StatusPair::COUNT],
+    ) {
         self.largest = stand.overlap.greater(self.largest);
         let (overlap, touches) = (stand.overlap.bits(), stand.touches);
         let Pairs { pin_secondary, disc_secondary, .. } = pairs;
@@ -193,18 +235,11 @@ impl<L: Lanes, const BUILD_UP: u8> StripReading<L, BUILD_UP> {
         if resin.any() {
             let mut pair = RESIN;
             while pair < PLATEAU {
-                let sum = &mut reading.overlap[pair].0[strip];
+                let sum = &mut overlaps[pair].0[strip];
                 L::Integers::load(sum).plus_where(touches & pairs.are(pair), overlap).store(sum);
                 pair += 1;
             }
         }
-    }
-
-    /// Adds eight pairs of which those that touch are plateaus.
-    #[inline(always)]
-    fn add_plateaus(&mut self, stand: &Stand<L>) {
-        self.largest = stand.overlap.greater(self.largest);
-        self.overlap[PLATEAU] = self.overlap[PLATEAU].plus_where(stand.touches, stand.overlap.bits());
     }
 
     /// Adds the sums of the strip to the others.
@@ -219,6 +254,38 @@ impl<L: Lanes, const BUILD_UP: u8> StripReading<L, BUILD_UP> {
             pair += 1;
         }
         self.largest.greater(L::load(&reading.largest)).store(&mut reading.largest);
+    }
+}
+
+/// Columns of a strip with pairs that are seldom: of which the bracket does not say whether they touch, or bare resin that may.
+pub(super) struct SeldomColumns {
+    /// Groups of columns that were looked at.
+    groups: usize,
+    /// Columns of the last group that are still to come, one bit each.
+    some: u32,
+}
+
+impl SeldomColumns {
+    /// Leaves of the rows that touch somewhere in the bracket those that are seldom, and begins with the first column.
+    #[inline(always)]
+    pub fn of(reached: &mut [u8], touches: &[u8], plateau: &[u8]) -> Self {
+        // A compiler makes a wide loop of this.
+        for ((reached, touches), plateau) in reached.iter_mut().zip(touches).zip(plateau) {
+            *reached &= !(touches & plateau);
+        }
+        Self { groups: 0, some: 0 }
+    }
+
+    /// Returns the next of these columns; the bytes are those that [`SeldomColumns::of`] left.
+    #[inline(always)]
+    pub fn next<L: Lanes>(&mut self, seldom: &[u8]) -> Option<usize> {
+        while self.some == 0 {
+            self.some = L::some_of(seldom.as_chunks().0.get(self.groups)?);
+            self.groups += 1;
+        }
+        let place = self.some.trailing_zeros() as usize;
+        self.some &= self.some - 1;
+        Some((self.groups - 1) * BYTES + place)
     }
 }
 

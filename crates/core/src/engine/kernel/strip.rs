@@ -18,6 +18,8 @@ pub(super) struct Strip<'a> {
     pub pin: PinStrip<'a>,
     /// Columns outside of which no cell of the pin is there.
     pub extent: Range<usize>,
+    /// True if a cell of them touches whose base is resin: b_p means something to what wears only then.
+    pub resin_touches: bool,
     /// Surface height z_d, m.
     pub disc_height: &'a mut [Chunk],
     /// Substrate height b_d, m; empty where it is not kept.
@@ -64,7 +66,19 @@ impl<'a> Strip<'a> {
             pin.substrate = &mut std::mem::take(&mut pin.substrate)[..columns];
             disc_substrate = &mut disc_substrate[..columns];
         }
-        Self { index, first, extent, pin, disc_height, disc_substrate, behind_height, behind_secondary, next }
+        let resin_touches = pin.resin_touches();
+        Self {
+            index,
+            first,
+            extent,
+            pin,
+            resin_touches,
+            disc_height,
+            disc_substrate,
+            behind_height,
+            behind_secondary,
+            next,
+        }
     }
 
     /// The pairs of a column, as far as a scene keeps and needs the fields: without substrates b = z.
@@ -88,7 +102,24 @@ impl<'a> Strip<'a> {
     #[inline(always)]
     pub fn fetch_next<const BUILD_UP: u8, const DISC_WEARS: bool>(&self, column: usize, end: usize) -> usize {
         let of_disc = if BUILD_UP == build_up::DISTINCT || DISC_WEARS { &*self.disc_substrate } else { &[] };
-        NextStrip::fetch(self.next, column, end, [self.pin.height, self.pin.substrate], [self.disc_height, of_disc])
+        let all = BUILD_UP == build_up::DISTINCT || self.next.is_some_and(|next| next.resin_touches);
+        let of_pin = if all { &*self.pin.substrate } else { &[] };
+        NextStrip::fetch(self.next, column, end, [self.pin.height, of_pin], [self.disc_height, of_disc])
+    }
+
+    /// Tells whether b_p of what debris comes upon is still to be fetched: [`Strip::fetch_next`] did not for the strip before.
+    #[inline(always)]
+    pub fn lacks_substrate<const BUILD_UP: u8>(&self) -> bool {
+        BUILD_UP != build_up::DISTINCT && self.next.is_some() && !self.resin_touches
+    }
+
+    /// Returns which cells of a column of the pin are secondary; looked at only where build-up has properties of its own.
+    #[inline(always)]
+    pub fn pin_secondary<L: Lanes, const BUILD_UP: u8>(&self, column: usize) -> L::Mask {
+        if BUILD_UP != build_up::DISTINCT {
+            return L::Mask::of_byte(0);
+        }
+        L::load(&self.pin.height[column]).below(L::load(&self.pin.substrate[column]))
     }
 
     /// Returns the disc cells behind a column.

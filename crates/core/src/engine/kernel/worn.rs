@@ -123,12 +123,14 @@ pub(super) fn wear<L: Lanes, const BUILD_UP: u8, const DISC_WEARS: bool>(
 }
 
 /// Wears eight pairs by [`wear`]'s rules, with fewer instructions; none where one of them is bare resin that touches, or loses
-/// its build-up. `touching`, `plateau` and `resin` tell which touch, are plateaus, and lie on resin, one bit each.
+/// its build-up. `touching`, `plateau` and `resin` tell which touch, are plateaus, and lie on resin, one bit each; `resin_touches` whether
+/// any of their strip does both.
 #[inline(always)]
 pub(super) fn wear_ordinary<L: Lanes, const BUILD_UP: u8, const DISC_WEARS: bool>(
     rules: &StripRules<L>,
     cells: Cells<L>,
     [touching, plateau, resin]: [u8; 3],
+    resin_touches: bool,
 ) -> Option<Worn<L>> {
     if !rules.rules.shortcut {
         return None;
@@ -141,11 +143,13 @@ pub(super) fn wear_ordinary<L: Lanes, const BUILD_UP: u8, const DISC_WEARS: bool
     let secondary = if distinct { [z_p.below(b_p), b_d.below(z_d)] } else { [nothing; 2] };
     let lost_pin = clearance * rules.pin_loss.plateaus::<BUILD_UP>(secondary);
     let worn = z_p + lost_pin;
-    let mut ends = worn.at_least(b_p);
+    let mut unusual = 0;
     if distinct {
-        ends = (ends | lost_pin.at_least(b_p - z_p)) & secondary[0];
+        let ends = worn.at_least(b_p) | lost_pin.at_least(b_p - z_p);
+        unusual = (ends & secondary[0]).byte() | !plateau;
+    } else if resin_touches {
+        unusual = worn.at_least(b_p).byte() & resin;
     }
-    let mut unusual = if distinct { ends.byte() | !plateau } else { ends.byte() & resin };
     if (BUILD_UP == build_up::BRITTLE || distinct)
         && let Some([on_coating, on_secondary]) = rules.rules.strength
     {

@@ -53,7 +53,8 @@ pub fn wear_ordinary_column<L: Lanes, const BUILD_UP: u8, const DISC_WEARS: bool
     column: usize,
 ) -> Option<Worn<L>> {
     let bytes = [strip.pin.touches[column], strip.pin.plateau[column], strip.pin.resin[column]];
-    wear_ordinary::<L, BUILD_UP, DISC_WEARS>(rules, strip.cells::<L, BUILD_UP, DISC_WEARS>(column), bytes)
+    let cells = strip.cells::<L, BUILD_UP, DISC_WEARS>(column);
+    wear_ordinary::<L, BUILD_UP, DISC_WEARS>(rules, cells, bytes, strip.resin_touches)
 }
 
 /// Stores the eight worn cells of a column; returns their z_p, m, and which are secondary on the pin.
