@@ -55,7 +55,7 @@ pub trait Communicator: Debug + Send {
     /// [`CommError`] when a worker failed.
     fn send_halo(&mut self, boundary: usize, to: usize, words: &[u64]) -> Result<(), CommError>;
 
-    /// Receives what worker `from` handed over at this boundary in this step.
+    /// Receives what worker `from` handed over at this boundary in this step; words beyond that have no meaning.
     ///
     /// # Errors
     /// [`CommError`] when a worker failed.

@@ -29,6 +29,12 @@ pub const BYTES: usize = 32;
 pub struct Chunk(pub [f64; LANES]);
 
 impl Chunk {
+    /// Returns the chunk that the words of a message begin with, and the words behind it.
+    pub fn of_words(words: &[u64]) -> (Self, &[u64]) {
+        let (chunk, rest) = words.split_at(LANES);
+        (Self(from_fn(|lane| f64::from_bits(chunk[lane]))), rest)
+    }
+
     /// Has the chunk so many behind this one brought near the processor. Only a hint: there need not be one.
     #[inline(always)]
     pub fn fetch(&self, distance: isize) {

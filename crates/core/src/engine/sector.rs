@@ -12,9 +12,10 @@ use crate::engine::lanes::LANES;
 use crate::engine::strips::strips;
 use crate::model::mesh::Mesh;
 
-/// Columns of work that a boundary under the pin costs a group: what lies ahead of it is found and told, its first column handed on, and
-/// the one that enters taken over and read on its own. Between what was measured on the paper's mesh with AVX-512 and with AVX2.
-const BOUNDARY_COST: f64 = 25.0;
+/// Columns of work that a segment costs its group beside its own: each strip of it is begun and ended, what lies ahead of its boundary is
+/// found and told, its first column handed on, and the one that enters taken over and read on its own. Between what was measured on the
+/// paper's mesh with AVX-512 and with AVX2.
+const SEGMENT_COST: usize = 25;
 
 /// Partition of the mesh.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -99,10 +100,7 @@ impl Partition {
 
     /// Work of the most loaded worker, in strips of columns.
     fn cost(&self) -> f64 {
-        let groups = self.groups();
-        let boundaries = (self.sectors() * self.pin_columns) as f64 / self.disc_columns as f64;
-        let boundary_cost = if groups > 1 { BOUNDARY_COST * boundaries / groups as f64 } else { 0.0 };
-        self.strips.div_ceil(self.bands) as f64 * (self.mean_largest_load() + boundary_cost)
+        self.strips.div_ceil(self.bands) as f64 * self.mean_largest_work()
     }
 
     /// Describes in words which part of the mesh each worker has.
@@ -180,19 +178,19 @@ impl Partition {
         self.starts.partition_point(|start| *start <= column) - 1
     }
 
-    /// Mean over a revolution of the columns under the pin that the most loaded group has.
-    pub fn mean_largest_load(&self) -> f64 {
-        let groups: Vec<usize> = (0..self.sectors())
-            .flat_map(|sector| self.columns(sector).map(move |_| sector))
-            .map(|s| self.group(s))
-            .collect();
-        let mut loads = vec![0_usize; self.groups()];
-        groups[..self.pin_columns].iter().for_each(|group| loads[*group] += 1);
+    /// Mean over a revolution of the work of the most loaded group, in columns.
+    fn mean_largest_work(&self) -> f64 {
+        let sectors: Vec<usize> =
+            (0..self.sectors()).flat_map(|sector| self.columns(sector).map(move |_| sector)).collect();
+        let begins = |column: usize| column == self.starts[sectors[column]];
+        let mut work = vec![0; self.groups()];
+        self.segments(0).for_each(|segment| work[self.group(segment.sector)] += segment.pin.len() + SEGMENT_COST);
         let mut sum = 0;
         for column in 0..self.disc_columns {
-            sum += loads.iter().max().unwrap_or(&0);
-            loads[groups[column]] -= 1;
-            loads[groups[(column + self.pin_columns) % self.disc_columns]] += 1;
+            sum += work.iter().max().unwrap_or(&0);
+            let (next, entering) = ((column + 1) % self.disc_columns, (column + self.pin_columns) % self.disc_columns);
+            work[self.group(sectors[entering])] += 1 + if begins(entering) { SEGMENT_COST } else { 0 };
+            work[self.group(sectors[column])] -= 1 + if begins(next) { SEGMENT_COST } else { 0 };
         }
         sum as f64 / self.disc_columns as f64
     }

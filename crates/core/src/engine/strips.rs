@@ -353,31 +353,39 @@ impl PinStrips {
         }
     }
 
-    /// Words of a column of so many rows on its way to another worker: see [`PinStrips::write_crossing`].
+    /// Most words of a column of so many rows on its way to another worker: see [`PinStrips::write_crossing`].
     pub fn crossing_words(rows: usize) -> usize {
-        (2 * LANES + 1) * strips(rows)
+        (1 + 2 * LANES) * strips(rows)
     }
 
-    /// Writes a column that crosses to another worker, and which cells of it are plateaus.
+    /// Writes a column that crosses to another worker: of each strip which cells are plateaus, z_p, and b_p where there is build-up;
+    /// elsewhere b_p has no meaning but z_p.
     pub fn write_crossing(&self, column: usize, words: &mut Vec<u64>) {
         let substrate = self.substrate();
         for strip in 0..self.height.strips() {
-            words.extend_from_slice(&self.height.strip(strip)[column].0.map(f64::to_bits));
-            words.extend_from_slice(&substrate.strip(strip)[column].0.map(f64::to_bits));
-            words.push(u64::from(self.plateau[strip * self.columns + column]));
+            let (height, substrate) = (self.height.chunk(strip, column).0, substrate.chunk(strip, column).0);
+            let plateau = self.plateau[strip * self.columns + column];
+            let builds_up = height.iter().zip(&substrate).any(|(height, substrate)| height < substrate);
+            words.push(u64::from(plateau) | u64::from(builds_up) << 8);
+            words.extend_from_slice(&height.map(f64::to_bits));
+            if builds_up {
+                words.extend_from_slice(&substrate.map(f64::to_bits));
+            }
         }
     }
 
     /// Takes over a column that another worker wrote with [`PinStrips::write_crossing`].
-    pub fn read_crossing(&mut self, column: usize, words: &[u64]) {
-        let (words, _) = words.as_chunks::<{ 2 * LANES + 1 }>();
-        for (strip, words) in words.iter().enumerate() {
-            let heights = |first: usize| Chunk(std::array::from_fn(|lane| f64::from_bits(words[first + lane])));
-            self.height.strip_mut(strip)[column] = heights(0);
-            if let Some(substrate) = &mut self.substrate {
-                substrate.strip_mut(strip)[column] = heights(LANES);
+    pub fn read_crossing(&mut self, column: usize, mut words: &[u64]) {
+        for strip in 0..self.height.strips() {
+            let Some((first, rest)) = words.split_first() else { return };
+            let (height, rest) = Chunk::of_words(rest);
+            let (substrate, rest) = if first >> 8 == 1 { Chunk::of_words(rest) } else { (height, rest) };
+            self.height.strip_mut(strip)[column] = height;
+            if let Some(field) = &mut self.substrate {
+                field.strip_mut(strip)[column] = substrate;
             }
-            self.plateau[strip * self.columns + column] = words[2 * LANES] as u8;
+            self.plateau[strip * self.columns + column] = *first as u8;
+            words = rest;
         }
     }
 }

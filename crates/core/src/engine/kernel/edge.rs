@@ -41,7 +41,7 @@ pub(super) struct Edges {
 }
 
 impl Edge {
-    /// Number of words of so many strips on their way to another worker, with debris that is spread over so many columns.
+    /// Most words of so many strips on their way to another worker, with debris that is spread over so many columns.
     pub fn words(strips: usize, columns: usize) -> usize {
         strips * Reach::words(columns)
     }
@@ -51,10 +51,9 @@ impl Edge {
         self.strips.iter().for_each(|reach| reach.write(words));
     }
 
-    /// Takes over an edge that another worker wrote.
-    pub fn read(&mut self, columns: usize, words: &[u64]) {
-        let strips = words.chunks_exact(Reach::words(columns));
-        self.reaches(strips.len(), columns).iter_mut().zip(strips).for_each(|(reach, words)| reach.read(words));
+    /// Takes over an edge of so many strips that another worker wrote.
+    pub fn read(&mut self, strips: usize, columns: usize, words: &[u64]) {
+        self.reaches(strips, columns).iter_mut().fold(words, |words, reach| reach.read(words));
     }
 
     /// Returns the reach of each of so many strips, with debris that is spread over so many columns, to be written anew.
@@ -76,28 +75,36 @@ impl Reach {
         }
     }
 
-    /// Number of words of a reach on its way to another worker.
+    /// Most words of a reach on its way to another worker.
     fn words(columns: usize) -> usize {
         (1 + usize::from(columns > 1)) * LANES + columns * (LANES + 1)
     }
 
-    /// Writes the reach for another worker.
+    /// Writes the reach for another worker; where nothing touches in the only column, the rest has no meaning.
     fn write(&self, words: &mut Vec<u64>) {
         let Self { height, share, touches, lost } = self;
+        words.extend(touches.iter().map(|touches| u64::from(*touches)));
+        if **touches == [0] {
+            return;
+        }
         let share = (lost.len() > 1).then_some(share);
         for chunk in lost.iter().chain([height]).chain(share) {
-            words.extend(chunk.0.map(f64::to_bits));
+            words.extend_from_slice(&chunk.0.map(f64::to_bits));
         }
-        words.extend(touches.iter().map(|touches| u64::from(*touches)));
     }
 
-    /// Takes over a reach that another worker wrote.
-    fn read(&mut self, words: &[u64]) {
+    /// Takes over a reach that another worker wrote, and returns the words behind it.
+    fn read<'a>(&mut self, words: &'a [u64]) -> &'a [u64] {
         let Self { height, share, touches, lost } = self;
-        let (chunks, bytes) = words.split_at(words.len() - touches.len());
-        for (chunk, words) in lost.iter_mut().chain([height, share]).zip(chunks.chunks_exact(LANES)) {
-            *chunk = Chunk(std::array::from_fn(|lane| f64::from_bits(words[lane])));
-        }
+        let (bytes, mut words) = words.split_at(touches.len());
         touches.iter_mut().zip(bytes).for_each(|(touches, word)| *touches = *word as u8);
+        if **touches == [0] {
+            return words;
+        }
+        let share = (lost.len() > 1).then_some(share);
+        for chunk in lost.iter_mut().chain([height]).chain(share) {
+            (*chunk, words) = Chunk::of_words(words);
+        }
+        words
     }
 }

@@ -388,6 +388,10 @@ fn edge_of_strips<L: Lanes, const BUILD_UP: u8, const DISC_WEARS: bool>(
 ) {
     for (index, reach) in edge.reaches(pin.height.strips(), rules.reach).iter_mut().enumerate() {
         let strip = Strip::new::<L, BUILD_UP>(index, pin, disc, span, false);
+        if rules.transport.is_none() && strip.pin.touches[0] == 0 {
+            reach.touches[0] = 0;
+            continue;
+        }
         let strip_rules = StripRules::<L>::new(rules, conditions, index);
         if rules.transport.is_some() {
             moved.edges.find_reach::<L, BUILD_UP, DISC_WEARS>(&strip_rules, &strip, reach);

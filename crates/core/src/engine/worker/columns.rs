@@ -63,7 +63,8 @@ impl Worker {
                 self.tell_edge(segment.sector, edge)?;
             }
         }
-        for segment in segments {
+        // The first waits longest for what lies ahead of it; what the last hands on is waited for.
+        for segment in segments.iter().rev() {
             let next = (segment.sector + 1) % partition.sectors();
             let ahead = if segment.pin.end < pin_columns { self.edge_ahead(next)? } else { None };
             self.pass_over_segment(segment, bracket, ahead.as_ref());
@@ -141,9 +142,10 @@ impl Worker {
         let owner = self.partition.owner(sector, self.band);
         if owner != self.communicator.rank() {
             let columns = self.needs.transport.unwrap_or(1);
-            self.halo.resize(Edge::words(strips(self.rows.len()), columns), 0);
+            let strips = strips(self.rows.len());
+            self.halo.resize(Edge::words(strips, columns), 0);
             self.communicator.receive_halo(self.boundary(sector).edge, owner, &mut self.halo)?;
-            edge.read(columns, &self.halo);
+            edge.read(strips, columns, &self.halo);
         }
         Ok(Some(edge))
     }

@@ -26,6 +26,26 @@ fn a_column_crosses_with_its_status() {
 }
 
 #[test]
+fn a_column_without_build_up_crosses_without_substrate() {
+    let mesh = Mesh::new(11, 9, 3, 1.0, 2.0).unwrap();
+    let needs = Needs { distinct: false, breaks: false, disc_wears: false, forms: true, pools: false, transport: None };
+    let heights: Vec<f64> = (0..33).map(f64::from).collect();
+    let mut from = PinStrips::new(&mesh, 0..11, &heights, &[Base::Primary; 33], needs);
+    let mut to = from.clone();
+    // Worn, and without debris since: b_p is not followed up.
+    from.height.set_column(1, &[50.0; 11]);
+    // Build-up in the second strip.
+    from.height.strip_mut(1)[1].0[2] = 20.0;
+    let mut words = Vec::new();
+    from.write_crossing(1, &mut words);
+    assert_eq!(words.len(), PinStrips::crossing_words(11) - LANES);
+    to.read_crossing(1, &words);
+    assert!(to.height.column(1).eq(from.height.column(1)));
+    assert!(to.substrate_column(1).eq(from.substrate_column(1)));
+    assert!(to.substrate_column(1).eq([[50.0; 10].as_slice(), &[21.0]].concat()));
+}
+
+#[test]
 fn the_cells_are_those_of_the_mesh_in_every_band_of_rows() {
     let mesh = Mesh::new(29, 600, 30, 20e-3, 23e-3).unwrap();
     let mesh = mesh.with_outline(Outline::Disc { radius: 1.5e-3 }).unwrap();
