@@ -7,7 +7,8 @@
 //! step, and then that wears. With a transport length the deposit wears, too, and the pairs are read after it.
 //!
 //! In most steps nothing out of the ordinary happens to most cells. Eight such cells at a time are done with few
-//! instructions ([`super::ordinary`]), which also show where something else happens; those eight are then done by all rules.
+//! instructions ([`super::ordinary`]), which also show where something else happens; those eight are then done by all rules. What a reading
+//! seldom finds is looked for after a strip, in bytes that it leaves: in every column that would be a branch which goes either way.
 
 use super::deposit::deposit;
 use super::edges::wear_before_deposit;
