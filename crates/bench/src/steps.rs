@@ -26,7 +26,10 @@ pub fn kernel(session: &Session) -> Outcome<Found> {
     for workers in &session.workers {
         for instructions in InstructionSet::available() {
             let execution = Execution { workers: *workers, instructions, ..Execution::default() };
-            entries.push(entry(instructions.name(), 0, session.mesh, *workers, simulation(&case, execution)?));
+            // Several workers with one that has the same instructions, and these with the first.
+            let alone = entries.iter().position(|entry: &Entry| entry.name == instructions.name());
+            let simulation = simulation(&case, execution)?;
+            entries.push(entry(instructions.name(), alone.unwrap_or(0), session.mesh, *workers, simulation));
         }
     }
     Ok((race(entries, session.pace)?, Vec::new()))

@@ -37,6 +37,15 @@ fn content_differs(one: impl AsRef<std::path::Path>, other: impl AsRef<std::path
 }
 
 #[test]
+fn workers_of_a_run_have_what_the_scene_says() {
+    let of_sectors = study().replace("'3 s'\"", "'3 s'\", \"numerics.decomposition = 'sectors'\"");
+    let directory = WorkingDirectory::with("study.toml", &of_sectors);
+    sweep(&directory, &["--task", "1/27", "--workers", "2", "--keep-files"]);
+    let told = RunFile::open(&kept(&directory)[0]).text("decomposition");
+    assert!(told.ends_with(" sectors") && !told.contains("bands"), "{told}");
+}
+
+#[test]
 fn run_files_are_kept_and_nothing_else_changes() {
     let (plain, keeping) = (directory(), directory());
     sweep(&plain, &["--jobs", "2"]);

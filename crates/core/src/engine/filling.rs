@@ -66,13 +66,11 @@ impl Filling {
         surfaces: &InitialSurfaces,
         sectors: impl Iterator<Item = &'a DiscSector>,
     ) -> Self {
-        let highest = |heights: &mut dyn Iterator<Item = f64>| heights.fold(f64::NEG_INFINITY, f64::max);
         let pin = || (0..mesh.pin_cells()).filter(|cell| mesh.is_present(*cell)).map(|cell| surfaces.pin_height[cell]);
-        let reference = highest(&mut surfaces.disc_height.iter().copied());
         let ring_area = mesh.disc_area() + mesh.pin_area();
         let mut filling = Self {
-            reference,
-            pin_reference: highest(&mut pin()),
+            reference: surfaces.reference_height(),
+            pin_reference: pin().fold(f64::NEG_INFINITY, f64::max),
             volume_unit: Unit::new(FINEST, ring_area * relief(mesh, surfaces)),
             area_unit: Unit::new(FINEST, ring_area),
             initial: RingSums::default(),

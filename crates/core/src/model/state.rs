@@ -117,7 +117,8 @@ impl InitialSurfaces {
 
     /// z_ref, m: the highest height of the disc.
     pub fn reference_height(&self) -> f64 {
-        self.disc_height.iter().copied().fold(f64::NEG_INFINITY, f64::max)
+        // −0 becomes 0, as it does in the engine's fields: a cell that is filled up takes over the bits.
+        self.disc_height.iter().copied().fold(f64::NEG_INFINITY, f64::max) + 0.0
     }
 }
 

@@ -85,7 +85,8 @@ impl Request<'_> {
             // A journal keeps no maps.
             scene.output.maps.clear();
         }
-        let execution = Execution { workers: options.workers, ..Execution::default() };
+        let execution =
+            Execution { workers: options.workers, decomposition: scene.decomposition, ..Execution::default() };
         let pulse_time = pulse_time(&scene.parameters, &surfaces.pin_base);
         let mut assembly = Assembly::new(&scene, surfaces, execution)?;
         let mut recorder = SeriesRecorder::new(self, &scene, under_way);

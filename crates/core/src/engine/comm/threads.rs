@@ -123,14 +123,15 @@ impl Threads {
                 let unknown = || CommError::Worker { worker: self.rank, message: "an unknown failure".into() };
                 return Err(failure.clone().unwrap_or_else(unknown));
             }
-            if looks < self.shared.spins {
+            let spins = looks < self.shared.spins;
+            if spins {
                 std::hint::spin_loop();
             } else {
                 self.shared.parking.sleep(self.rank, place.number, is_there);
             }
             looks = looks.saturating_add(1);
-            // On the way, not at the end, when there is work to do; and seldom, for some clocks are slow.
-            if looks % LOOKS_PER_TIME == 0 {
+            // On the way, not at the end, when there is work to do; and while it spins seldom, for some clocks are slow.
+            if !spins || looks % LOOKS_PER_TIME == 0 {
                 waited = start.elapsed();
             }
         }

@@ -46,6 +46,20 @@ fn columns_cross_boundaries() {
 }
 
 #[test]
+fn time_asleep_is_time_waited() {
+    let waited = on_threads(2, |mut end| {
+        end.all_gather(&[], &mut |_, _| ()).unwrap();
+        if end.rank() == 1 {
+            // Much longer than a worker spins.
+            std::thread::sleep(Duration::from_millis(400));
+        }
+        end.all_gather(&[], &mut |_, _| ()).unwrap();
+        end.alarm().exchange().waited
+    });
+    assert!(waited[0] > Duration::from_millis(100), "{waited:?}");
+}
+
+#[test]
 fn who_waits_for_a_failed_worker_is_told() {
     let results = on_threads(3, |mut end| {
         if end.rank() == 1 {
