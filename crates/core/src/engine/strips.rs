@@ -133,8 +133,7 @@ impl NextStrip {
         if pin.stays {
             return None;
         }
-        let next = (strip + 1) % pin.height.strips() * pin.columns..;
-        let resin_touches = any_of_both(&pin.resin[next.clone()][..pin.columns], &pin.touches[next][..pin.columns]);
+        let resin_touches = pin.resin_touches((strip + 1) % pin.height.strips(), 0..pin.columns);
         Some(Self { to_pin: pin.height.to_next(strip), to_disc: disc.height.to_next(strip), resin_touches })
     }
 
@@ -234,21 +233,6 @@ pub struct PinStrip<'a> {
     pub present: &'a [u8],
 }
 
-impl PinStrip<'_> {
-    /// Tells whether a cell touches in the coming step whose base is resin.
-    #[inline(always)]
-    pub fn resin_touches(&self) -> bool {
-        any_of_both(self.resin, self.touches)
-    }
-}
-
-/// Tells whether a bit is set in both fields.
-#[inline(always)]
-fn any_of_both(a: &[u8], b: &[u8]) -> bool {
-    // A compiler makes a wide loop of this.
-    a.iter().zip(b).fold(0, |any, (a, b)| any | a & b) != 0
-}
-
 impl PinStrips {
     /// Some rows of the pin, from the beginning of a strip on, before the first step.
     pub fn new(mesh: &Mesh, own: Range<usize>, heights: &[f64], base: &[Base], needs: Needs) -> Self {
@@ -292,6 +276,15 @@ impl PinStrips {
     #[inline]
     pub fn resin(&self, strip: usize) -> &[u8] {
         &self.resin[strip * self.columns..][..self.columns]
+    }
+
+    /// Tells whether a cell of some columns of a strip touches in the coming step whose base is resin.
+    #[inline(always)]
+    pub fn resin_touches(&self, strip: usize, columns: Range<usize>) -> bool {
+        let [resin, touches] =
+            [&self.resin, &self.touches].map(|field| &field[strip * self.columns..][columns.clone()]);
+        // A compiler makes a wide loop of this.
+        resin.iter().zip(touches).fold(0, |any, (resin, touches)| any | resin & touches) != 0
     }
 
     /// Notes that a cell touches in the coming step.

@@ -388,6 +388,7 @@ fn edge_of_strips<L: Lanes, const BUILD_UP: u8, const DISC_WEARS: bool>(
 ) {
     for (index, reach) in edge.reaches(pin.height.strips(), rules.reach).iter_mut().enumerate() {
         let strip = Strip::new::<L, BUILD_UP>(index, pin, disc, span, false);
+        // Nothing else of it has a meaning then, nor is it told.
         if rules.transport.is_none() && strip.pin.touches[0] == 0 {
             reach.touches[0] = 0;
             continue;

@@ -58,6 +58,7 @@ impl<'a> Strip<'a> {
             }
         }
         let extent = pin.extent(index, first..first + columns);
+        let resin_touches = pin.resin_touches(index, first..first + columns);
         let next = NextStrip::of(index, pin, disc);
         let mut pin = pin.strip_mut(index, first, columns);
         let (disc_height, mut disc_substrate) = disc.strip_mut(index, over, columns);
@@ -66,7 +67,6 @@ impl<'a> Strip<'a> {
             pin.substrate = &mut std::mem::take(&mut pin.substrate)[..columns];
             disc_substrate = &mut disc_substrate[..columns];
         }
-        let resin_touches = pin.resin_touches();
         Self {
             index,
             first,
